@@ -12,8 +12,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sweep.config.grid import Config, ConfigError, expand
-    from sweep.config.units import load_config
+    from sweep.config.faults import ConfigError
+    from sweep.config.grid import Config, expand
+    from sweep.config.load import load_config
     from sweep.export.errors import ExportError
     from sweep.export.export import Exported, export_case
     from sweep.ranking.question import RankError
@@ -59,7 +60,7 @@ __all__ = [
 _HOME = {
     "Case": "config.case",
     "Config": "config.grid",
-    "ConfigError": "config.grid",
+    "ConfigError": "config.faults",
     "ExportError": "export.errors",
     "Exported": "export.export",
     "Interrupted": "running.sweep",
@@ -74,7 +75,7 @@ _HOME = {
     "__version__": "version",
     "expand": "config.grid",
     "export_case": "export.export",
-    "load_config": "config.units",
+    "load_config": "config.load",
     "rank": "ranking.rank",
     "ranked": "ranking.rank",
     "read_frames": "store.read",

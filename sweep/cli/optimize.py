@@ -31,11 +31,11 @@ def optimize(config: Config, arguments: Namespace) -> int:
     from sweep.running.searching.design_space import DesignSpace
     from sweep.running.searching.search import Search, Settings
 
-    if not config.search:
+    if not config.recipe.search:
         wrong = "has no [search] with the keys that may be chosen"
         needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
-    check_searched(config.search)
+    check_searched(config.recipe.search)
     how = Settings(arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler)
     question = _question(config, arguments)
     limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
@@ -109,9 +109,11 @@ def _with_force(config: Config, question: Question) -> Config:
     if question.allowed_force is None or question.per == "panel":
         return config  # a force of the panel is looked up in the curves
     force = in_si(question.allowed_force, "N")
-    known = config.base[FORCES].value if FORCES in config.base else ()
+    recipe = config.recipe
+    known = recipe.base[FORCES].value if FORCES in recipe.base else ()
     forces = tuple(dict.fromkeys([*known, force]))
-    return replace(config, base=config.base | {FORCES: Written(forces, str(forces), FORCES)})
+    base = recipe.base | {FORCES: Written(forces, str(forces), FORCES)}
+    return replace(config, recipe=replace(recipe, base=base))
 
 
 def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:

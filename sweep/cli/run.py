@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.question import question_of
@@ -71,12 +72,11 @@ def _screen(
     """Run the unit columns of a sweep; return the config of what is to run as a whole, the
     estimates, and how many designs have none.
     """
-    from sweep.config.grid import chosen_of, expand
     from sweep.running.beside.run_beside import file_beside
     from sweep.running.beside.screen import best_of, has_column, run_columns
 
-    cases, beside = expand(config), file_beside(out, "screen")
-    screened = [case for case in cases if has_column(case)]
+    beside = file_beside(out, "screen")
+    screened = [case for case in config.cases if has_column(case)]
     if not screened:
         raise ArgumentError(NO_COLUMNS)
     estimates, why = run_columns(screened, out, *how), f"crumple status {beside} says why"
@@ -87,7 +87,8 @@ def _screen(
         raise ArgumentError(f"no unit column converged: {why}")
     best = best_of(estimates, question, count)
     left_out = {case.case_id for case in screened} - {*best}
-    return chosen_of(config, (c for c in cases if c.case_id not in left_out)), estimates, missing
+    kept = tuple(case for case in config.cases if case.case_id not in left_out)
+    return replace(config, cases=kept), estimates, missing
 
 
 def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) -> int:

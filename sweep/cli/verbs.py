@@ -217,7 +217,7 @@ VERBS = {verb.__name__: verb for verb in ALL}
 
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
-    from sweep.config.units import load_config
+    from sweep.config.load import load_config
     from sweep.numbers import counted
 
     config = load_config(name)

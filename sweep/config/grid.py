@@ -1,18 +1,17 @@
-"""From a config to its cases: grid x zips, without excluded cases and duplicates."""
+"""From what a config writes to its cases: grid x zips, without excluded ones and duplicates."""
 
 import json
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 from itertools import product
 from math import prod
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES, Case, Draft, cached, complete
+from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.table import RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
@@ -21,7 +20,6 @@ from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
-SHOWN = 10  # faults that the text of a ConfigError lists
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
 OF_A_FILE = frozenset(f"material.{name}" for name in KEYS.values())
@@ -29,154 +27,90 @@ ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
 
-class Fault(NamedTuple):
-    """One fault: its key, and one line with key, value and allowed values."""
-
-    key: str
-    line: str
-
-
-class ConfigError(ValueError):
-    """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
-
-    def __init__(self, faults: list[Fault]) -> None:
-        super().__init__("\n".join(_shown(faults)))
-        self.faults = faults
-
-
-def _shown(faults: list[Fault]) -> list[str]:
-    """One line each for `SHOWN` faults; the first fault of every key goes before further ones."""
-    seen: Counter[str] = Counter()
-    repeats = []  # number of earlier faults of the same key
-    for fault in faults:
-        repeats.append(seen[fault.key])
-        seen[fault.key] += 1
-    chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
-    more = len(faults) - len(chosen)
-    counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []
-    return [faults[k].line for k in sorted(chosen)] + counted
-
-
 Values = dict[str, Written]
 Axes = dict[str, tuple[Written, ...]]
 
 
 @dataclass(frozen=True)
-class Config:
-    """A sweep: the values that all cases share, and the axes that vary; keys are dotted.
+class Recipe:
+    """What a config writes: the values that all cases share, and the axes; keys are dotted.
 
     grid, zip: key -> values; every value of the grid meets every row of every zip.
     exclude: tables key -> rounded values. A case is dropped if, for every key of a table, its value
-    is among the values of that key. search: key -> what a search may choose; a config with it has
-    no cases but those that the search chooses.
+    is among the values of that key. search: key -> what a search may choose.
     """
 
-    name: str
     base: Values = field(default_factory=dict)
     grid: Axes = field(default_factory=dict)
     zip: tuple[Axes, ...] = ()
     exclude: tuple[dict[str, tuple[object, ...]], ...] = ()
+    search: dict[str, Interval | Choice] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Number of combinations, including excluded and equal ones."""
+        lengths = [len(values) for values in self.grid.values()]
+        return prod(lengths + [len(next(iter(tied.values()))) for tied in self.zip])
+
+
+@dataclass(frozen=True)
+class Config:
+    """A sweep: its cases, and what it asks of their results.
+
+    cases: of a config with a search, those that the search has chosen so far. unprintable: number
+    of combinations that are left out, as they do not print (`lattice.printable`). seed: of a
+    search. recipe: what its file says; nothing for cases without a file.
+    """
+
+    name: str
+    cases: tuple[Case, ...] = ()
     rank: Rank = field(default_factory=Rank)
     require: Require = field(default_factory=Require)
     path: Path | None = None
-    search: dict[str, Interval | Choice] = field(default_factory=dict)
-
-    @cached_property
-    def _expanded(self) -> tuple[tuple[Case, ...], int]:
-        cases, unprintable = _cases(self)
-        return tuple(cases), unprintable
-
-    @property
-    def cases(self) -> tuple[Case, ...]:
-        """The cases that `expand` returns, computed once."""
-        if self.search:
-            line = f"[search] of {', '.join(self.search)}: {ONLY_OPTIMIZE}"
-            raise ConfigError([Fault("search", line)])
-        return self._expanded[0]
-
-    @property
-    def unprintable(self) -> int:
-        """Number of combinations that are left out, as they do not print (`lattice.printable`)."""
-        return self._expanded[1]
-
-
-@dataclass(frozen=True)
-class Chosen(Config):
-    """A sweep of which only some designs are to run."""
-
-    designs: tuple[Case, ...] = ()
-
-    @cached_property
-    def cases(self) -> tuple[Case, ...]:
-        """The designs."""
-        return self.designs
-
-
-@dataclass(frozen=True)
-class Designs(Chosen):
-    """The designs that a search has chosen so far, and its seed."""
-
+    recipe: Recipe = field(default_factory=Recipe)
+    unprintable: int = 0
     seed: int = 0
 
 
-def chosen_of(config: Config, designs: Iterable[Case]) -> Chosen:
-    """The config, of which only these designs are to run."""
-    return Chosen(**_fields_of(config), designs=tuple(designs))
-
-
-def designs_of(config: Config, designs: Iterable[Case], seed: int) -> Designs:
-    """The config of a search, whose cases are these designs."""
-    return Designs(**_fields_of(config), designs=tuple(designs), seed=seed)
-
-
-def _fields_of(config: Config) -> dict[str, Any]:
-    return {each.name: getattr(config, each.name) for each in fields(Config)}
-
-
-def check(config: Config) -> None:
-    """Refuse a config that cannot be run; a search is tried at a few points (`_combinations`)."""
-    if config.search:
-        _cases(config)
-    else:
-        expand(config)
-
-
-def chosen_case(config: Config, chosen: Values) -> Case | None:
-    """The case of a search with these values, in SI; None if they cannot be combined."""
-    alone: Axes = {key: (written,) for key, written in chosen.items()}
-    (draft,) = _drafts(replace(config, search={}, grid=alone))
-    return None if draft.faults else draft.labelled()
-
-
-def case_count(config: Config) -> int:
-    """Number of combinations, including excluded and equal ones."""
-    lengths = [len(values) for values in config.grid.values()]
-    return prod(lengths + [len(next(iter(tied.values()))) for tied in config.zip])
-
-
 def expand(config: Config) -> list[Case]:
-    """All cases; the first axis of the grid varies slowest, and of equal cases the first is kept.
-
-    A key that no case uses is refused, since it has no effect. So is a table of [[exclude]] that
-    drops no case. Of several combinations, those that do not print are left out if
-    `lattice.printable` asks for it, but not all of them.
-    """
+    """All cases of a config; those of a search are not known before it."""
+    if config.recipe.search and not config.cases:
+        line = f"[search] of {', '.join(config.recipe.search)}: {ONLY_OPTIMIZE}"
+        raise ConfigError([Fault("search", line)])
     return list(config.cases)
 
 
-def _cases(config: Config) -> tuple[Iterable[Case], int]:
-    """The cases, and the number of combinations that are left out as they do not print."""
-    count = case_count(config)
+def sweep_of(cases: Config | Iterable[Case]) -> Config:
+    """A config, or cases without one."""
+    return cases if isinstance(cases, Config) else Config("", tuple(cases))
+
+
+def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:
+    """The case of a search with these values, in SI; None if they cannot be combined."""
+    alone: Axes = {key: (value,) for key, value in chosen.items()}
+    (combination,) = _drafts(replace(recipe, search={}, grid=alone))
+    return None if combination.faults else combination.labelled()
+
+
+def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], int]:
+    """The cases, and the number of combinations that are left out as they do not print.
+
+    The first axis of the grid varies slowest, and of equal cases the first is kept. A key that no
+    case uses is refused, since it has no effect. So is a table of [[exclude]] that drops no case.
+    Of several combinations, those that do not print are left out if `lattice.printable` asks for
+    it, but not all of them. A search is tried at a few points (`_combinations`), and has no cases.
+    """
+    count = recipe.count
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
         raise ConfigError([Fault("grid", line)])
     cases: dict[str, Case] = {}
     refused: dict[str, list[tuple[Fault, Values]]] = {}
-    unused = dict.fromkeys(_keys_to_use(config), "")
+    unused = dict.fromkeys(_keys_to_use(recipe), "")
     dropped: set[int] = set()
     unprintable: list[tuple[Fault, Values]] = []
-    for draft in _drafts(config):
-        matching = {k for k, table in enumerate(config.exclude) if draft.matches(table)}
+    for draft in _drafts(recipe):
+        matching = {k for k, table in enumerate(recipe.exclude) if draft.matches(table)}
         dropped |= matching
         if matching:
             continue
@@ -188,20 +122,20 @@ def _cases(config: Config) -> tuple[Iterable[Case], int]:
         if not draft.faults:
             cases.setdefault(draft.case.case_id, draft.labelled())
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
-    if refused and not (config.search and cases):
+    if refused and not (recipe.search and cases):
         count = max(count, *map(len, refused.values()))
-        raise ConfigError([_merged(found, count, config) for found in refused.values()])
+        raise ConfigError([_merged(found, count, recipe) for found in refused.values()])
     if unprintable and not cases:
-        raise ConfigError([_merged(unprintable, count, config)])
+        raise ConfigError([_merged(unprintable, count, recipe)])
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
-    faults = [_dropping_none(config, k) for k in range(len(config.exclude)) if k not in dropped]
+    faults = [_dropping_none(recipe, k) for k in range(len(recipe.exclude)) if k not in dropped]
     if any(unused.values()):
-        faults += _without_effect(config, unused)
+        faults += _without_effect(recipe, unused)
     if faults:
         raise ConfigError(faults)
-    return cases.values(), len(unprintable)
+    return (() if recipe.search else tuple(cases.values())), len(unprintable)
 
 
 @dataclass(frozen=True)
@@ -227,7 +161,7 @@ class _Combination:
         """The value of a key; where its table is refused, the given one or the default."""
         table, name = target.split(".")
         if table in self.draft.tables:
-            return getattr(self.draft.tables[table], name, None)
+            return self.draft.tables[table].value(name)
         kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]
         return self.given.get(target, kinds[0].get_default() if kinds else None)
 
@@ -242,10 +176,10 @@ class _Combination:
         return self.case.model_copy(update={"axes": axes})
 
 
-def _drafts(config: Config) -> Iterator[_Combination]:
+def _drafts(recipe: Recipe) -> Iterator[_Combination]:
     make = cached()
-    for chosen in _combinations(config):
-        written = config.base | _targets(chosen)
+    for chosen in _combinations(recipe):
+        written = recipe.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}
         tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
         for key, value in given.items():
@@ -260,46 +194,46 @@ def _drafts(config: Config) -> Iterator[_Combination]:
         yield _Combination(chosen, given, draft, faults)
 
 
-def _keys_to_use(config: Config) -> list[str]:
+def _keys_to_use(recipe: Recipe) -> list[str]:
     """The keys of a case that a config sets, of which every one must have an effect."""
-    stated = [key for key in config.base if key not in MAY_BE_UNUSED]
-    return stated + [target for _, name, _ in _axes(config) for target in _keys(name)]
+    stated = [key for key in recipe.base if key not in MAY_BE_UNUSED]
+    return stated + [target for _, name, _ in _axes(recipe) for target in _keys(name)]
 
 
-def _without_effect(config: Config, unused: dict[str, str]) -> list[Fault]:
+def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:
     """A fault for each key that no case uses; `unused` holds the reasons."""
-    lines = {key: f"{written.name or key} = {written.text}" for key, written in config.base.items()}
-    for where, name, values in _axes(config):
+    lines = {key: f"{written.name or key} = {written.text}" for key, written in recipe.base.items()}
+    for where, name, values in _axes(recipe):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
     return [Fault(key, f"{line}: {unused[key]}") for key, line in lines.items() if unused.get(key)]
 
 
-def _dropping_none(config: Config, number: int) -> Fault:
+def _dropping_none(recipe: Recipe, number: int) -> Fault:
     """The fault of an [[exclude]] table that matches no combination."""
-    where = f"[[exclude]] of {', '.join(config.exclude[number])}, number {number + 1}"
+    where = f"[[exclude]] of {', '.join(recipe.exclude[number])}, number {number + 1}"
     return Fault("exclude", f"{where}: drops no case; allowed: tables that drop at least one")
 
 
-def _axes(config: Config) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
+def _axes(recipe: Recipe) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
     """Every axis: the table that has it, its key, its values."""
-    for where, axes in [("[grid]", config.grid), *(("[[zip]]", tied) for tied in config.zip)]:
+    for where, axes in [("[grid]", recipe.grid), *(("[[zip]]", tied) for tied in recipe.zip)]:
         yield from ((where, name, values) for name, values in axes.items())
-    yield from (("[search]", name, axis.probes) for name, axis in config.search.items())
+    yield from (("[search]", name, axis.probes) for name, axis in recipe.search.items())
 
 
-def _combinations(config: Config) -> Iterator[Values]:
+def _combinations(recipe: Recipe) -> Iterator[Values]:
     """Values along the axes: every value of the grid with every row of each zip.
 
     Of a search, one axis at a time takes its values, while the others keep their middle.
     """
-    if config.search:
-        middle = {key: axis.probes[0] for key, axis in config.search.items()}
-        for key, axis in config.search.items():
+    if recipe.search:
+        middle = {key: axis.probes[0] for key, axis in recipe.search.items()}
+        for key, axis in recipe.search.items():
             yield from (middle | {key: written} for written in axis.probes)
         return
-    parts = [[{key: value} for value in values] for key, values in config.grid.items()]
-    for tied in config.zip:
+    parts = [[{key: value} for value in values] for key, values in recipe.grid.items()]
+    for tied in recipe.zip:
         rows = zip(*tied.values(), strict=True)
         parts.append([dict(zip(tied, row, strict=True)) for row in rows])
     for choice in product(*parts):
@@ -345,22 +279,22 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
     return in_si.sub(lambda found: f"{float(found[1]) * scale:.4g} {match[2]}", sentence)
 
 
-def _merged(found: list[tuple[Fault, Values]], count: int, config: Config) -> Fault:
+def _merged(found: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
     """One fault for all cases that share it, with the line of the first and what only they have."""
     (key, line), _ = found[0]
     if count > 1:
-        shared = _shared(key, [chosen for _, chosen in found], config)
+        shared = _shared(key, [chosen for _, chosen in found], recipe)
         line += f" ({len(found):,} of {count:,} combinations{shared})"
     return Fault(key, line)
 
 
-def _shared(key: str, chosen: list[Values], config: Config) -> str:
+def _shared(key: str, chosen: list[Values], recipe: Recipe) -> str:
     """The values along the axes, but for those of a key, that all of these combinations have, and
     not all others.
     """
     words = [
         f"{name} = {values[0].text}"
-        for _, name, axis in _axes(config)
+        for _, name, axis in _axes(recipe)
         if name != key and len({written.text for written in axis}) > 1
         for values in [[combination[name] for combination in chosen]]
         if len({written.text for written in values}) == 1

@@ -1,45 +1,98 @@
-"""From TOML to a sweep in SI.
+"""A number with a unit, such as "100 mm/min", in SI.
 
-Columns of results have their unit in their name.
+A unit is a product such as "kg m/s^2", in which a stroke divides by the next factor alone. Names
+may have a prefix and a plural. No regular expression here backtracks: a long text costs no time.
 """
 
 import re
-import tomllib
-from os import PathLike
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
+from math import isfinite, pi
+from typing import NamedTuple
 
-from sweep.config.grid import MAX_CASES, Config, ConfigError, Fault, case_count, check, expand
+from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import QUANTITIES
-from sweep.config.reading.examples import examples, find_config
-from sweep.config.reading.quantity import in_si
-from sweep.config.reading.reader import Reader, in_words, one_line
-
-__all__ = ["MAX_CASES", "Config", "ConfigError", "case_count", "expand", "load_config", "quantity"]
+from sweep.config.reading.reader import in_words
+from sweep.constants import STANDARD_GRAVITY
 
 
-def load_config(path: str | PathLike[str]) -> Config:
-    """Read a sweep and check all of its cases; `ConfigError` holds all faults.
+class Unit(NamedTuple):
+    """Value of a unit in SI, and its powers of m, kg, s and rad."""
 
-    path: path of a TOML file; if there is no such file, the name of an example, such as "smoke".
+    size: float
+    powers: tuple[int, ...]
+
+
+UNITS = {
+    "m": Unit(1.0, (1, 0, 0, 0)),
+    "g": Unit(1e-3, (0, 1, 0, 0)),
+    "s": Unit(1.0, (0, 0, 1, 0)),
+    "rad": Unit(1.0, (0, 0, 0, 1)),
+    "1": Unit(1.0, (0, 0, 0, 0)),
+    "%": Unit(1e-2, (0, 0, 0, 0)),
+}
+OTHERS = {
+    "meter metre": "1 m",
+    "gram": "1 g",
+    "second sec": "1 s",
+    "radian": "1 rad",
+    "percent": "1 %",
+    "deg degree": f"{pi / 180.0} rad",
+    "min minute": "60 s",
+    "h hour": "60 min",
+    "in inch inches": "0.0254 m",
+    "thou": "0.001 in",
+    "ft foot feet": "12 in",
+    "oz ounce": "28.349523125 g",
+    "lb pound": "16 oz",
+    "g0 gn standard_gravity": f"{STANDARD_GRAVITY} m/s^2",
+    "N newton": "1 kg m/s^2",
+    "kgf kilogram_force": "1 kg g0",
+    "lbf pound_force": "4.4482216152605 N",
+    "Pa pascal": "1 N/m^2",
+    "bar": "1e5 Pa",
+    "psi": "1 lbf/in^2",
+    "J joule": "1 N m",
+}
+"""Names of other units -> their definition."""
+PREFIXES = {
+    "": 1.0,
+    **dict.fromkeys(("u", "µ", "μ", "micro"), 1e-6),
+    **dict.fromkeys(("m", "milli"), 1e-3),
+    **dict.fromkeys(("c", "centi"), 1e-2),
+    **dict.fromkeys(("k", "kilo"), 1e3),
+    **dict.fromkeys(("M", "mega"), 1e6),
+    **dict.fromkeys(("G", "giga"), 1e9),
+}
+SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
+"""Other signs in a unit -> those that are read."""
+
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
+_POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)
+
+
+def in_si(text: object, unit: str) -> float:
+    """A number with a unit in the SI unit given, rounded to 15 digits, or ValueError with the
+    reason.
     """
-    if not isinstance(path, str | PathLike):
-        needed = "the path of a TOML file, or the name of an example"
-        raise ConfigError([Fault("path", f"{in_words(path)} is no path; needed: {needed}")])
-    path = find_config(path)
-    reader = Reader(path.parent, in_si)
-    config = reader.config(_document(path), path)
-    try:
-        check(config)
-    except ConfigError as error:
-        reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
-    if reader.faults:
-        raise ConfigError(reader.faults)
-    return config
+    if isinstance(text, bool) or not isinstance(text, str | int | float):
+        raise ValueError("no quantity")
+    match = _NUMBER.fullmatch(str(text).strip())
+    if match is None:
+        raise ValueError("not a number with a unit")
+    number, written = match[1], match[2].strip()
+    if not written:
+        raise ValueError("a bare number")
+    size, powers = _unit(written)
+    if powers != _unit(unit).powers:
+        raise ValueError(f"{in_words(written)} is a unit of another kind")
+    value = float(number) * size
+    if not isfinite(value):
+        raise ValueError("not finite")
+    return float(f"{value:.15g}")
 
 
 def quantity(text: object, unit: str) -> float:
-    """A quantity such as "25 g" in the SI unit given, rounded to 15 digits."""
+    """As `in_si`, for one value that a user gives; `ConfigError` with a line."""
     try:
         return in_si(text, unit)
     except ValueError as error:
@@ -47,26 +100,48 @@ def quantity(text: object, unit: str) -> float:
         raise ConfigError([Fault(unit, line)]) from None
 
 
-def _document(path: Path) -> dict[str, Any]:
-    """The TOML of a file."""
-    text = ""
+def _unit(text: str) -> Unit:
+    """A product of units."""
+    size, powers = UNITS["1"]
     try:
-        text = path.read_text(encoding="utf-8")
-        return tomllib.loads(text)
-    except OSError as error:
-        needed = f"a TOML file, or an example: {', '.join(examples())}"
-        wrong = f"cannot be read ({error.strerror}); needed: {needed}"
-    except (ValueError, RecursionError) as error:
-        wrong = f"not TOML ({error}){_quoted_line(str(error), text)}"
-    raise ConfigError([Fault("path", f"{path}: {wrong}")])
+        for name, exponent in _factors(text):
+            factor = _named(name)
+            size *= factor.size**exponent
+            powers = tuple(p + exponent * q for p, q in zip(powers, factor.powers, strict=True))
+    except LookupError:
+        raise ValueError(f"unknown unit {in_words(text)}") from None
+    return Unit(size, powers)
 
 
-def _quoted_line(message: str, text: str) -> str:
-    """The line of a text at which its parser gave up, shortened; nothing if it tells no line."""
-    place = re.search(r"\(at (?:line (\d+)|end of document)", message)
-    lines = text.rstrip().split("\n")
-    if place is None:
-        return ""
-    number = min(int(place[1] or len(lines)), len(lines))
-    line = one_line(lines[number - 1].strip())
-    return f"; line {number}: {line if len(line) <= 60 else f'{line[:57]}...'}"
+def _factors(text: str) -> Iterator[tuple[str, int]]:
+    """Names and exponents of a product."""
+    if text.count("%") > 1:
+        raise LookupError(text)
+    for sign, read in SIGNS.items():
+        text = text.replace(sign, read)
+    for sign in "*/^":
+        text = sign.join(part.strip() for part in text.split(sign))
+    text = f"1{text}" if text.startswith("/") else text
+    for piece in "*".join(text.split()).split("*"):
+        for place, factor in enumerate(piece.split("/")):
+            power = _POWER.fullmatch(factor)
+            name, exponent = (power[1], int(power[2])) if power else (factor, 1)
+            yield name, -exponent if place else exponent
+
+
+def _named(name: str) -> Unit:
+    """A unit by its name, which may have a prefix and end in the s of a plural."""
+    if name in UNITS:
+        return UNITS[name]
+    for word in (name, name.removesuffix("s")):
+        for prefix, factor in PREFIXES.items():
+            unit = UNITS.get(word[len(prefix) :])
+            if unit and word.startswith(prefix) and word[-1].isalpha():
+                return unit._replace(size=factor * unit.size)
+    raise LookupError(name)
+
+
+for _names, _definition in OTHERS.items():
+    _number, _, _text = _definition.partition(" ")
+    _size, _powers = _unit(_text)
+    UNITS |= dict.fromkeys(_names.split(), Unit(float(_number) * _size, _powers))

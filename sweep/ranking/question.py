@@ -38,7 +38,8 @@ def in_si(value: Any, unit: str) -> float:
     """A positive number in SI, from a number or from text with a unit."""
     number = value
     if isinstance(value, str):
-        from sweep.config.units import ConfigError, quantity
+        from sweep.config.faults import ConfigError
+        from sweep.config.units import quantity
 
         try:
             number = quantity(value, unit)

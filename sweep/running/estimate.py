@@ -14,7 +14,7 @@ from itertools import accumulate, pairwise
 from math import isnan
 
 from sweep.config.case import Case
-from sweep.config.grid import Config, case_count, expand
+from sweep.config.grid import Config, expand
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
@@ -67,7 +67,7 @@ def dry_run(
     done = finished_ids(out, rerun)
     waiting = [case for case in cases if case.case_id not in done]
     counts = (
-        f"{config.name}: {counted(case_count(config), 'combination')}, "
+        f"{config.name}: {counted(config.recipe.count, 'combination')}, "
         f"{counted(len(cases), 'different case')}, "
         f"{len(cases) - len(waiting):,} of them finished in {out}"
     )

@@ -11,8 +11,7 @@ from typing import Any
 
 from kernels.compile.choice import compiler
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import Case
-from sweep.config.grid import Config, Designs
+from sweep.config.grid import Config
 from sweep.version import installed_version
 
 PACKAGES = ("crumple", "numpy", "numba", "h5py", "distributed")
@@ -32,21 +31,20 @@ def describe_run(config: str) -> dict[str, str]:
     } | versions
 
 
-def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
-    """A sweep as JSON, in SI: given values, axes, [rank], [require], all of its first case."""
-    text: dict[str, Any] = {"first_case": first.model_dump(exclude={"axes"})}
-    if isinstance(sweep, Config):
-        text |= {
-            "name": sweep.name,
-            "base": {key: written.value for key, written in sweep.base.items()},
-            "grid": _axes(sweep.grid),
-            "zip": [_axes(tied) for tied in sweep.zip],
-            "exclude": sweep.exclude,
-            "rank": sweep.rank.model_dump(),
-            "require": sweep.require.model_dump(),
-        }
-    if isinstance(sweep, Designs):
-        text |= {"search": _searched(sweep.search), "search_seed": sweep.seed}
+def config_text(config: Config) -> str:
+    """A sweep as JSON, in SI: given values, axes, [rank], [require]."""
+    recipe = config.recipe
+    text: dict[str, Any] = {
+        "name": config.name,
+        "base": {key: written.value for key, written in recipe.base.items()},
+        "grid": _axes(recipe.grid),
+        "zip": [_axes(tied) for tied in recipe.zip],
+        "exclude": recipe.exclude,
+        "rank": config.rank.model_dump(),
+        "require": config.require.model_dump(),
+    }
+    if recipe.search:
+        text |= {"search": _searched(recipe.search), "search_seed": config.seed}
     return json.dumps(text)
 
 

@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
-from sweep.config.grid import Config, expand
-from sweep.config.units import load_config
+from sweep.config.grid import Config
+from sweep.config.load import load_config
 from sweep.ranking.merit import check_panel
 from sweep.ranking.requirements import check_modes
 from sweep.report.results import Results
@@ -27,7 +27,7 @@ def run(
     check_question(known)
     path = Path(out or f"results/{known.name}.h5")
     run_sweep(known, path, workers, rerun=rerun)
-    ids = [case.case_id for case in expand(known)]
+    ids = [case.case_id for case in known.cases]
     question = {
         "budget": list(known.rank.budgets) or None,
         "panel": known.rank.panel,
@@ -42,6 +42,6 @@ def check_question(config: Config) -> None:
     that is smaller than half a specimen.
     """
     if config.rank.panel:
-        check_panel(config.rank.panel, expand(config))
+        check_panel(config.rank.panel, config.cases)
     if required := [name for name, limit in config.require if limit is not None]:
-        check_modes(required, {case.loading.mode for case in expand(config)})
+        check_modes(required, {case.loading.mode for case in config.cases})

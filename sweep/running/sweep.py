@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
-from sweep.config.grid import Config, expand
+from sweep.config.grid import Config, expand, sweep_of
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
@@ -40,15 +40,15 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
     keeps finished cases and raises `Interrupted`. part: as of `Progress`.
     """
-    given = expand(sweep) if isinstance(sweep, Config) else sweep
-    cases = {case.case_id: case for case in given}
+    config = sweep_of(sweep)
+    cases = {case.case_id: case for case in expand(config)}
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()
     if scheduler is not None:
         check_scheduler(scheduler)
     with ExitStack() as held:
         try:
-            about = describe_run(config_text(sweep, given[0]))
+            about = describe_run(config_text(config))
             writer = held.enter_context(Writer(out, axes, about))
         except WriteError as error:
             if cases.keys() - finished_ids(out, rerun):

@@ -254,7 +254,7 @@ def report(path: Path) -> str:
 
 def main(folder: Path) -> None:
     """Simulate the cases that the results file in a folder lacks, and report."""
-    from sweep.config.units import load_config
+    from sweep.config.load import load_config
     from sweep.running.sweep import run_sweep
 
     config = load_config(CONFIG)

@@ -170,7 +170,7 @@ def bases_across(folder: Path) -> DataFrame:
 def main(folder: Path) -> None:
     """Simulate the cases that the results files in a folder lack, and report."""
     from sweep.config.grid import expand
-    from sweep.config.units import load_config
+    from sweep.config.load import load_config
     from sweep.running.sweep import run_sweep
 
     folder.mkdir(parents=True, exist_ok=True)

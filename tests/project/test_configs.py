@@ -7,7 +7,7 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.grid import chosen_case, expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
@@ -62,7 +62,7 @@ def test_armor_holds_its_numbers(mode, platen, force, energy):
         if (case.lattice.cells_x, case.lattice.wall_thickness) == (2, 0.8e-3)
         and case.material.name == "ninjaflex"
         and (case.loading.mode, case.loading.platen) == (mode, platen)
-        and case.loading.force == force
+        and case.loading.value("force") == force
     ]
     assert len(found) == 1
     summary = simulate(found[0]).summary
@@ -158,8 +158,8 @@ def test_drop_holds_its_numbers():
 def test_search_holds_its_number():
     """The middle of everything that may be chosen."""
     config = load_config(CONFIGS / "search.toml")
-    middle = {key: axis.at(0.5) for key, axis in config.search.items()}
-    case = chosen_case(config, middle)
+    middle = {key: axis.at(0.5) for key, axis in config.recipe.search.items()}
+    case = chosen_case(config.recipe, middle)
     lattice = case.lattice
     assert (lattice.kind, lattice.cells_x, lattice.cells_y) == ("hex", 4, 3)
     assert lattice.wall_thickness == 1e-3

@@ -14,10 +14,11 @@ from sweep.columns import COLUMNS, PER_GRAM
 from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
+from sweep.config.load import load_config
 from sweep.config.materials.material_file import COLUMNS as RECORD
 from sweep.config.question import QUESTION
 from sweep.config.structures.structure import Structure
-from sweep.config.units import load_config, quantity
+from sweep.config.units import quantity
 from sweep.design.infill import families
 from sweep.simulation.simulate import simulate
 from sweep.store.write import Writer

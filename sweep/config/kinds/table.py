@@ -57,6 +57,11 @@ class Table(BaseModel):
         held = {name: value for name, value in self if name not in self.derived}
         return {name: value for name, value in held.items() if value is not None}
 
+    def value(self, key: str) -> Any:
+        """The value of a key; None if this kind does not have it."""
+        fields = type(self).model_fields
+        return getattr(self, key) if key in fields else self.constants.get(key)
+
     @classmethod
     def implies(cls, key: str, value: object) -> bool:
         """Whether a value of a key that a kind need not have says what is so anyway."""

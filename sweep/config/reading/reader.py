@@ -14,7 +14,8 @@ from pydantic import ValidationError
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import TABLES
 from sweep.config.defaults import drop_tests
-from sweep.config.grid import Axes, Config, Fault, Values
+from sweep.config.faults import Fault
+from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.table import rounded
 from sweep.config.materials.material_file import (
@@ -60,22 +61,27 @@ class Reader:
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
 
     def config(self, document: dict[str, Any], path: Path) -> Config:
-        """The config of a whole document."""
+        """The config of a whole document, without its cases."""
         sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
         return Config(
             name=self._name(document["name"]) if "name" in document else path.stem,
-            base=self._base(document),
-            grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
-            zip=tuple(
-                tied for table in self._tables(document, "zip") if (tied := self._zip(table))
-            ),
-            exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
+            recipe=self._recipe(document),
             rank=self._rank(self._question(document, "rank")),
             require=Require(**self._question(document, "require")),
             path=path,
+        )
+
+    def _recipe(self, document: dict[str, Any]) -> Recipe:
+        """The values that a document writes."""
+        ties = map(self._zip, self._tables(document, "zip"))
+        return Recipe(
+            base=self._base(document),
+            grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
+            zip=tuple(filter(None, ties)),
+            exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
             search=self._search(document),
         )
 

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
-from sweep.config.grid import Config, expand
+from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.lattice import Lattice
@@ -170,7 +170,8 @@ def add_error_bars(
     Runs the missing companions. The error of a design is NaN if a companion failed or is of another
     version of the model. The arguments are those of `run_sweep`.
     """
-    cases = expand(sweep) if isinstance(sweep, Config) else sweep
+    config = sweep_of(sweep)
+    cases = config.cases
     beside, rows = file_beside(out, "companions"), _converged(out)
     designs = [case for case in cases if case.case_id in rows]
     others = companions_beside(designs, out, rerun)
@@ -179,7 +180,7 @@ def add_error_bars(
     rows |= _converged(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}
-    with Writer(out, labels, describe_run(config_text(sweep, cases[0]))) as writer:
+    with Writer(out, labels, describe_run(config_text(config))) as writer:
         writer.fold()
     without = sum(all(map(isnan, bar.values())) for bar in bars.values())
     if without:

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case
-from sweep.config.grid import Config, expand
+from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.running.beside.run_beside import How, file_beside, run_beside
@@ -93,7 +93,7 @@ def _other(material: Material, name: str, value: float) -> dict[str, Any]:
 
 def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
     """The corners of the cases whose ids are among the `best`, by the id of the case."""
-    cases = {case.case_id: case for case in (expand(sweep) if isinstance(sweep, Config) else sweep)}
+    cases = {case.case_id: case for case in sweep_of(sweep).cases}
     return {case_id: corners(cases[case_id]) for case_id in best if case_id in cases}
 
 

@@ -45,18 +45,18 @@ class DesignSpace:
     @property
     def dimension(self) -> int:
         """Number of coordinates."""
-        return len(self.config.search)
+        return len(self.config.recipe.search)
 
     def case(self, point: Sequence[float]) -> Case | None:
         """The case of a point (dimension,); None if no such lattice exists, or within no budget."""
-        shares = dict(zip(self.config.search, map(float, point), strict=True))
-        chosen = {key: self.config.search[key].at(share) for key, share in shares.items()}
+        shares = dict(zip(self.config.recipe.search, map(float, point), strict=True))
+        chosen = {key: self.config.recipe.search[key].at(share) for key, share in shares.items()}
         if self._size is not None:
             size = self._sized(chosen, shares[self._size.name])
             if size is None:
                 return None
             chosen[self._size.name] = size
-        case = chosen_case(self.config, chosen)
+        case = chosen_case(self.config.recipe, chosen)
         if case is None or not self._panels(case):
             return None
         return case if self.weight(case) <= greatest_mass(self.budget) else None
@@ -64,13 +64,13 @@ class DesignSpace:
     @cached_property
     def _size(self) -> Interval | None:
         """The axis that the budget limits."""
-        found = (self.config.search.get(key) for key in SIZES)
+        found = (self.config.recipe.search.get(key) for key in SIZES)
         return next((axis for axis in found if isinstance(axis, Interval)), None)
 
     def _sized(self, chosen: Values, share: float) -> Written | None:
         """The wall thickness, or the mass, at a share of what the other chosen values allow."""
         assert self._size is not None
-        least = chosen_case(self.config, chosen | {self._size.name: self._size.at(0.0)})
+        least = chosen_case(self.config.recipe, chosen | {self._size.name: self._size.at(0.0)})
         if least is None:
             return None
         if least.case_id not in self._limits:

@@ -17,7 +17,7 @@ Requirements are compared by the three rules of K. Deb (Comput. Methods Appl. Me
 """
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count
 from math import inf
 from typing import NamedTuple
@@ -29,7 +29,6 @@ from scipy.stats import qmc
 
 from sweep.columns import in_words, less_is_better
 from sweep.config.case import Case
-from sweep.config.grid import designs_of
 from sweep.numbers import three_digits
 from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Known, with_allowed
@@ -175,7 +174,8 @@ class Search:
 
     def _simulate(self) -> None:
         """Run the designs so far that the file does not hold."""
-        designs = designs_of(self.space.config, self.cases.values(), self.settings.seed)
+        chosen = tuple(self.cases.values())
+        designs = replace(self.space.config, cases=chosen, seed=self.settings.seed)
         how = self.settings.workers, self.settings.scheduler, RENEW, self.simulate
         run_sweep(designs, self.out, *how, part=True)
 

@@ -10,7 +10,7 @@ from pandas import DataFrame
 
 from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.result import Result
 from sweep.simulation.simulate import simulate
 

@@ -8,7 +8,8 @@ from kernels.geometry.distance import squared_distance
 from kernels.planar import position_based
 from kernels.terms import contact
 from sweep.config.case import Case
-from sweep.config.units import ConfigError, load_config
+from sweep.config.faults import ConfigError
+from sweep.config.load import load_config
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import run, unbalanced

@@ -8,8 +8,9 @@ import pytest
 
 from kernels.solve import arc_length, outcomes
 from sweep.config.case import Case
-from sweep.config.grid import ConfigError, expand
-from sweep.config.units import load_config
+from sweep.config.faults import ConfigError
+from sweep.config.grid import expand
+from sweep.config.load import load_config
 from sweep.scene.arc_length import arc_of
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import simulate

@@ -12,7 +12,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary

@@ -11,7 +11,8 @@ from pathlib import Path
 import pandas as pd
 
 from sweep.columns import ERROR
-from sweep.config.units import expand, load_config
+from sweep.config.grid import expand
+from sweep.config.load import load_config
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status

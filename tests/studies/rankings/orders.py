@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.stats import spearmanr
 
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 
 CONFIGS = ("armor", "infills", "impact")
 BY = {"force": "peak_strain", "impact": "peak_force_N"}  # the least is the best

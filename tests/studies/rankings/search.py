@@ -19,7 +19,7 @@ import numpy as np
 from sweep.config.axis import Interval, Written
 from sweep.config.case import Case
 from sweep.config.grid import Config, chosen_case
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.numbers import three_digits
 from sweep.ranking.assessment import assess
 from sweep.ranking.question import Question
@@ -58,11 +58,16 @@ def peak():
     """The hexagon, whose only freedom is the thickness of its walls."""
     config = load_config(CONFIG)
     scan = [
-        chosen_case(config, written("hex", 4, 2, float(walls)))
+        chosen_case(config.recipe, written("hex", 4, 2, float(walls)))
         for walls in np.linspace(THIN, THICK, 60)
     ]
     search = {WALLS: Interval(WALLS, THIN, THICK, "m")}
-    hexagon = replace(config, base=config.base | written("hex", 4, 2), search=search)
+    hexagon = replace(
+        config,
+        recipe=replace(
+            config.recipe, base=config.recipe.base | written("hex", 4, 2), search=search
+        ),
+    )
     return Question("peak", hexagon, {"a scan of 60 walls": scan}, 30)
 
 
@@ -74,7 +79,7 @@ def cushion():
         "another grid": product(KINDS, (2, 4, 6), (2, 4), (0.6e-3, 1.0e-3)),
     }
     beside = {
-        name: [chosen_case(config, written(*point)) for point in points]
+        name: [chosen_case(config.recipe, written(*point)) for point in points]
         for name, points in grids.items()
     }
     return Question("cushion", config, beside, 35)

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
 from tests.studies.stability.draw import CONFIGS, remembering, second_order

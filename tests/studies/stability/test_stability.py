@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability import audit, draw, model, structures

@@ -9,7 +9,7 @@ import pytest
 from sweep.cli import new as cli_new
 from sweep.cli.new import KINDS, template
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.design.infill import families
 from sweep.result import Status
 from sweep.simulation.simulate import simulate

@@ -2,7 +2,8 @@
 
 import pytest
 
-from sweep.config.units import ConfigError, load_config
+from sweep.config.faults import ConfigError
+from sweep.config.load import load_config
 
 
 @pytest.fixture

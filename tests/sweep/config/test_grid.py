@@ -1,10 +1,12 @@
 """From a config to its cases: products, zips, what is excluded, and faults of many cases."""
 
+from dataclasses import replace
+
 import pytest
 
-from sweep.config.grid import case_count, chosen_case, designs_of, expand
+from sweep.config.faults import ConfigError
+from sweep.config.grid import chosen_case, expand
 from sweep.config.materials import material_file
-from sweep.config.units import ConfigError
 
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
 WRONG = {
@@ -33,7 +35,7 @@ def test_grid_is_a_product(load):
         '[grid]\n"lattice.cells" = [2, 3]\nlattice.wall_thickness = ["0.4 mm", "0.8 mm", "1 mm"]'
     )
     cases = expand(config)
-    assert case_count(config) == len(cases) == 6
+    assert config.recipe.count == len(cases) == 6
     assert cases[1].axes == {"lattice.cells": 2, "lattice.wall_thickness": 0.8e-3}
     assert (cases[-1].lattice.cells_x, cases[-1].lattice.cells_y) == (3, 3)
 
@@ -88,7 +90,7 @@ def test_equal_cases_are_one(load):
     config = load(
         '[grid]\nloading.mode = ["displacement", "force"]\nloading.force = ["5 N", "10 N"]'
     )
-    assert case_count(config) == 4
+    assert config.recipe.count == 4
     assert [case.axes["loading.force"] for case in expand(config)] == [None, 5.0, 10.0]
 
 
@@ -168,15 +170,16 @@ def test_a_search_has_no_cases_of_its_own(load):
     config = load(SEARCH)
     with pytest.raises(ConfigError, match="only `crumple optimize` searches"):
         expand(config)
-    chosen = {key: axis.at(0.0) for key, axis in config.search.items()}
-    case = chosen_case(config, chosen)
+    chosen = {key: axis.at(0.0) for key, axis in config.recipe.search.items()}
+    case = chosen_case(config.recipe, chosen)
     assert case.axes == {
         "lattice.kind": "square",
         "lattice.cells_x": 2,
         "lattice.wall_thickness": 0.4e-3,
     }
-    assert expand(designs_of(config, [case], seed=3)) == [case]
-    assert chosen_case(config, {key: axis.at(1.0) for key, axis in config.search.items()}) is None
+    assert expand(replace(config, cases=(case,), seed=3)) == [case]
+    thick = {key: axis.at(1.0) for key, axis in config.recipe.search.items()}
+    assert chosen_case(config.recipe, thick) is None
 
 
 def test_search_without_any_possible_design(lines):

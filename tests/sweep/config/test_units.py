@@ -1,83 +1,132 @@
-"""From TOML to a sweep in SI: what is refused, light imports."""
+"""Numbers with units in SI."""
 
-import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
+from scipy import constants
 
-from sweep.config.units import ConfigError, load_config, quantity
+from sweep.config.units import in_si
 
-
-@pytest.mark.parametrize(
-    "text", ["25", "g", "", "25 N", "25 gg", "nan g", "1e999 g", "3 ((", "1 1/0"]
-)
-def test_bad_quantities_are_refused_in_one_line(text):
-    with pytest.raises(ConfigError, match=r'allowed: a mass with a unit, such as "25 g"') as caught:
-        quantity(text, "kg")
-    assert len(str(caught.value).splitlines()) == 1
-
-
-def test_not_toml(lines, tmp_path):
-    (line,) = lines("hello world")
-    assert line.startswith(f"{tmp_path / 'sweep.toml'}: not TOML (Expected '='")
+INCH, POUND = constants.inch, constants.pound
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "unit", "value"),
     [
-        ("a = 1\nthis_line_is_a_note_without_a_hash", "line 2: this_line_is_a_note_without_a_hash"),
-        ('a = [\n"0.4" mm"' + 30 * ', "1 mm"' + "\n]", 'line 2: "0.4" mm", "1 mm", "1 mm"'),
-        ("cells = [4, 6\nrows = 3\n\n", "line 2: rows = 3"),
-        ('a = """\nb = 1\n\n', "line 2: b = 1"),
-        ('a = "\x1b[31m"', 'line 1: a = "?[31m'),
+        ("0.8 mm", "m", 0.8e-3),
+        ("0.8mm", "m", 0.8e-3),
+        ("400 um", "m", 0.4e-3),
+        ("400 µm", "m", 0.4e-3),
+        ("3 meters", "m", 3.0),
+        ("3 millimetres", "m", 3e-3),
+        ("100 mm/min", "m/s", 0.1 / 60),
+        ("100 mm per min", "m/s", 0.1 / 60),
+        ("36 km/hour", "m/s", 10.0),
+        ("5 1/s", "1/s", 5.0),
+        ("5/s", "1/s", 5.0),
+        ("5 %/s", "1/s", 0.05),
+        ("5 s^-1", "1/s", 5.0),
+        ("1e-4 s", "s", 1e-4),
+        ("12 MPa", "Pa", 12e6),
+        ("12 N/mm^2", "Pa", 12e6),
+        ("12 N / mm**2", "Pa", 12e6),
+        ("12 N/mm²", "Pa", 12e6),
+        ("3 kg m^2/s^2", "J", 3.0),
+        ("3 N·m", "J", 3.0),
+        ("6 kg/m/m*s/s/m", "kg/m^3", 6.0),
+        ("1.19 g/cm^3", "kg/m^3", 1190.0),
+        ("45 deg", "rad", constants.pi / 4.0),
+        ("20 %", "1", 0.2),
+        ("80 g0", "m/s^2", 80.0 * constants.g),
     ],
 )
-def test_line_at_which_the_parser_gives_up_is_told_at_once(lines, text, told):
-    started = time.process_time()
-    (line,) = lines(text)
-    assert time.process_time() - started < 1.0
-    assert told in line
-    assert len(line.split("line ")[-1]) <= 64
+def test_quantities(text, unit, value):
+    assert in_si(text, unit) == pytest.approx(value, rel=1e-14)
 
 
-def test_missing_file(tmp_path):
-    with pytest.raises(ConfigError, match=r"no\.toml: cannot be read \(No such file"):
-        load_config(tmp_path / "no.toml")
-    with pytest.raises(
-        ConfigError, match=r'^\{"name": "a"\} is no path; needed: the path of a TOML'
-    ):
-        load_config({"name": "a"})
-
-
-def test_not_text(tmp_path):
-    path = tmp_path / "sweep.toml"
-    path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(ConfigError, match="not TOML"):
-        load_config(path)
-
-
-CONFIGS = Path(__file__).parents[3] / "configs"
-
-
-def test_a_refused_config_loads_nothing_heavy(tmp_path):
-    path = tmp_path / "bad.toml"
-    path.write_text('[lattice]\nwidth = "1 kg"')
-    heavy = ["numpy", "scipy", "pandas", "numba", "dask", "h5py", "matplotlib", "shapely"]
-    script = f"""
-import sys
-from sweep.config.units import ConfigError, load_config
-try:
-    load_config({str(path)!r})
-except ConfigError:
-    print(*[name for name in {heavy} if sys.modules.get(name)])
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        cwd=CONFIGS.parent,
-        capture_output=True,
-        text=True,
-        check=True,
+@pytest.mark.parametrize(
+    ("names", "si", "value"),
+    [
+        ("in inch inches", "m", INCH),
+        ("ft foot feet", "m", constants.foot),
+        ("thou", "m", constants.mil),
+        ("oz ounce ounces", "kg", constants.oz),
+        ("lb lbs pound", "kg", POUND),
+        ("kgf kilogram_force", "N", constants.kgf),
+        ("lbf pound_force", "N", constants.lbf),
+        ("psi", "Pa", constants.psi),
+        ("bar", "Pa", constants.bar),
+        ("GPa gigapascal", "Pa", constants.giga),
+        ("min minutes", "s", constants.minute),
+        ("h hours", "s", constants.hour),
+        ("deg degrees", "rad", constants.degree),
+    ],
+)
+def test_units_are_those_of_scipy(names, si, value):
+    assert [in_si(f"1 {name}", si) for name in names.split()] == pytest.approx(
+        [value] * len(names.split()), rel=1e-12
     )
-    assert done.stdout.strip() == ""
+
+
+@pytest.mark.parametrize("number", ["0.3", "0.7", "1.1", "123.4", "0.45"])
+def test_value_is_the_float_that_is_nearest_to_the_decimals(number):
+    assert in_si(f"{number} mm", "m") == float(f"{number}e-3")
+    assert in_si(f"{number} g/cm^3", "kg/m^3") == float(f"{number}e3")
+
+
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "gg",
+        "KG",
+        "g^",
+        "g^x",
+        "g*",
+        "*g",
+        "g//s",
+        "%",
+        "((",
+        "1/0",
+        "g^10",
+        "1s",
+        "m1",
+        "%s",
+        "km2",
+    ],
+)
+def test_what_is_no_unit_of_mass_is_refused(unit):
+    with pytest.raises(ValueError, match=r"unknown unit|of another kind|not a number"):
+        in_si(f"4 {unit}", "kg")
+
+
+@pytest.mark.parametrize("text", ["4 %%", "4 % %"])
+def test_percent_is_written_once(text):
+    with pytest.raises(ValueError, match="unknown unit"):
+        in_si(text, "1")
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (True, "no quantity"),
+        ([], "no quantity"),
+        ("a", "not a number with a unit"),
+        ("٣ m", "not a number with a unit"),
+        (25, "a bare number"),
+        ("1e999 m", "not finite"),
+        ("1 s", "of another kind"),
+    ],
+)
+def test_reasons(text, why):
+    with pytest.raises(ValueError, match=why):
+        in_si(text, "m")
+
+
+@pytest.mark.parametrize(
+    ("piece", "count"), [("m ", 10**5), ("m*", 10**5), ("s^", 10**5), ("  ", 10**6), ("9", 10**6)]
+)
+def test_long_texts_cost_no_time(piece, count):
+    started = time.process_time()
+    with pytest.raises(ValueError, match=r"unknown unit|another kind"):
+        in_si(f"1 m{count * piece}x", "m")
+    assert time.process_time() - started < 1.0

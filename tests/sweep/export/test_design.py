@@ -7,8 +7,8 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.grid import Config, Written
+from sweep.config.load import load_config
 from sweep.config.reading.examples import examples
-from sweep.config.units import load_config
 from sweep.design.lattice import build_network
 from sweep.export.design import design_of, stored_design
 from sweep.export.errors import ExportError

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
 from sweep.report.tables.accuracy_tables import accuracy_sheets, setting
 from sweep.running.sweep import run_sweep

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import warm_up
 from sweep.store.read import finished_ids, read_history, read_summary

@@ -51,6 +51,6 @@ def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
             main([verb, "results/trial.h5"])
         told = capsys.readouterr().out
         if verb == "status":
-            others = others and "2 cases belong to other configs than that of the last run"
+            others = others and "2 cases belong to other configs than the last run"
         assert ("other configs" in told) == bool(others)
         assert others in told

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import ranked
 from sweep.running.run import run

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from tests.studies.validation.elastica import cantilever
 from tests.support.designs.structures import (
     AXIAL,

@@ -9,7 +9,7 @@ from kernels.solve import outcomes
 from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.scene.lattice import build_scene
 from sweep.simulation.deceleration import filtered_peak
 from sweep.simulation.simulate import simulate

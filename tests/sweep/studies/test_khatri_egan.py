@@ -7,7 +7,7 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from sweep.studies.course_report.cases import varied

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.grid import expand
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from sweep.studies import khatri_egan as across
 from sweep.studies.course_report.cases import varied

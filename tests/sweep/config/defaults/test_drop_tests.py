@@ -5,7 +5,8 @@ import pytest
 from sweep.config.case import Case
 from sweep.config.defaults.drop_tests import drop_of, drops, in_si, limits
 from sweep.config.grid import expand
-from sweep.config.units import load_config, quantity
+from sweep.config.load import load_config
+from sweep.config.units import quantity
 
 ALLOWED = (
     'allowed: ista-1a, ista-2a or mil-std-810 with a mass or a height, such as "ista-1a 5 kg" or'

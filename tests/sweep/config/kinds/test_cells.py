@@ -5,7 +5,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.kinds.table import RefusedError
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from tests.support.designs.tables import lattice_with
 
 

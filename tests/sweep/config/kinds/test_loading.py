@@ -3,10 +3,10 @@
 import pytest
 
 from sweep.config.case import Case
+from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
 from sweep.config.kinds.table import RefusedError
 from sweep.config.materials.material_file import locate, read_record
-from sweep.config.units import ConfigError
 from tests.support.designs.cases import pressed
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER

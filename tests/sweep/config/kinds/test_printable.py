@@ -3,7 +3,8 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.grid import ConfigError, expand
+from sweep.config.faults import ConfigError
+from sweep.config.grid import expand
 from sweep.config.kinds.printable import what_does_not_print
 from tests.support.designs.structures import ROD, structure
 from tests.support.designs.tables import lattice_with

@@ -6,8 +6,9 @@ import re
 import pytest
 
 from sweep.config.case import Case
+from sweep.config.faults import ConfigError
 from sweep.config.kinds.table import RefusedError
-from sweep.config.units import ConfigError, load_config
+from sweep.config.load import load_config
 from tests.support.designs.cases import pressed
 from tests.support.designs.tables import material_with
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from sweep.config.grid import expand
+from sweep.config.load import load_config
 from sweep.config.reading.examples import FOLDER, examples, find_config
-from sweep.config.units import load_config
 
 
 def test_every_config_that_is_shipped_is_an_example():

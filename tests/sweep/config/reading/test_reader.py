@@ -7,8 +7,8 @@ import pytest
 from sweep.config.axis import Interval
 from sweep.config.case import Case
 from sweep.config.grid import expand
+from sweep.config.load import load_config
 from sweep.config.materials.material_file import available
-from sweep.config.units import load_config
 from tests.support.designs.structures import BEAM
 
 
@@ -301,7 +301,7 @@ def test_files_are_an_axis(tmp_path):
 def test_ranges_and_lists_of_a_search(load):
     text = '[search]\n"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"}\n'
     text += 'lattice.cells = {from = 2, to = 5}\n"lattice.kind" = ["square", "hex"]'
-    search = load(text).search
+    search = load(text).recipe.search
     assert search["lattice.wall_thickness"] == Interval(
         "lattice.wall_thickness", 0.4e-3, 1.6e-3, "m"
     )
@@ -310,7 +310,7 @@ def test_ranges_and_lists_of_a_search(load):
 
 
 def test_number_without_a_unit_is_no_whole_number(load):
-    search = load("[search]\nlattice.grading = {from = 1, to = 3}").search
+    search = load("[search]\nlattice.grading = {from = 1, to = 3}").recipe.search
     assert not search["lattice.grading"].whole
 
 

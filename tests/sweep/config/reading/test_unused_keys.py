@@ -4,8 +4,9 @@ import json
 
 import pytest
 
+from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
-from sweep.config.units import ConfigError, load_config
+from sweep.config.load import load_config
 from tests.support.designs.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'

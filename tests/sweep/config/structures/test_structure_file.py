@@ -4,8 +4,9 @@ import json
 
 import pytest
 
+from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
-from sweep.config.units import ConfigError, load_config
+from sweep.config.load import load_config
 
 GOOD = {"nodes_mm": [[0, 0], [10, 0], [10, 5]], "walls": [[0, 1], [1, 2]]}
 FIXED = [{"node": 0, "fix": ["x", "y", "rotation"]}]

@@ -8,7 +8,7 @@ import pytest
 
 from sweep.columns import describe_column, is_grid_key
 from sweep.config.case import Case
-from sweep.config.grid import Config, Written, expand
+from sweep.config.grid import Config, Recipe, Written, expand, expanded
 from sweep.config.structures.structure_file import read_structure
 from sweep.ranking.rank import rank
 from sweep.result import Status
@@ -37,14 +37,14 @@ def config(**axes):
     """A sweep of crushes in 40 steps; "__" stands for the dot of a key."""
     base = {"loading.mode": "displacement", "solver.load_steps": 40}
     axes = axes or {"lattice__imperfection": (0.001, 0.002)}
-    return Config(
-        name="trial",
+    recipe = Recipe(
         base={key: Written(value, str(value)) for key, value in base.items()},
         grid={
             key.replace("__", "."): tuple(Written(value, str(value)) for value in values)
             for key, values in axes.items()
         },
     )
+    return Config("trial", expanded(recipe)[0], recipe=recipe)
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.running.searching.design_space import USED_UP, DesignSpace

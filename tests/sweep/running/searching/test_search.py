@@ -5,7 +5,7 @@ from math import exp
 
 import pytest
 
-from sweep.config.units import load_config
+from sweep.config.load import load_config
 from sweep.ranking.question import Question
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import MOST_TRIED, Search, Settings

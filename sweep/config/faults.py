@@ -1,0 +1,34 @@
+"""The faults of a config: all of them at once, one line each."""
+
+from collections import Counter
+from typing import NamedTuple
+
+SHOWN = 10  # faults that the text of a ConfigError lists
+
+
+class Fault(NamedTuple):
+    """One fault: its key, and one line with key, value and allowed values."""
+
+    key: str
+    line: str
+
+
+class ConfigError(ValueError):
+    """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
+
+    def __init__(self, faults: list[Fault]) -> None:
+        super().__init__("\n".join(_shown(faults)))
+        self.faults = faults
+
+
+def _shown(faults: list[Fault]) -> list[str]:
+    """One line each for `SHOWN` faults; the first fault of every key goes before further ones."""
+    seen: Counter[str] = Counter()
+    repeats = []  # number of earlier faults of the same key
+    for fault in faults:
+        repeats.append(seen[fault.key])
+        seen[fault.key] += 1
+    chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
+    more = len(faults) - len(chosen)
+    counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []
+    return [faults[k].line for k in sorted(chosen)] + counted

@@ -1,0 +1,86 @@
+"""From TOML to a sweep in SI: what is refused, light imports."""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from sweep.config.faults import ConfigError
+from sweep.config.load import load_config
+from sweep.config.units import quantity
+
+
+@pytest.mark.parametrize(
+    "text", ["25", "g", "", "25 N", "25 gg", "nan g", "1e999 g", "3 ((", "1 1/0"]
+)
+def test_bad_quantities_are_refused_in_one_line(text):
+    with pytest.raises(ConfigError, match=r'allowed: a mass with a unit, such as "25 g"') as caught:
+        quantity(text, "kg")
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_not_toml(lines, tmp_path):
+    (line,) = lines("hello world")
+    assert line.startswith(f"{tmp_path / 'sweep.toml'}: not TOML (Expected '='")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("a = 1\nthis_line_is_a_note_without_a_hash", "line 2: this_line_is_a_note_without_a_hash"),
+        ('a = [\n"0.4" mm"' + 30 * ', "1 mm"' + "\n]", 'line 2: "0.4" mm", "1 mm", "1 mm"'),
+        ("cells = [4, 6\nrows = 3\n\n", "line 2: rows = 3"),
+        ('a = """\nb = 1\n\n', "line 2: b = 1"),
+        ('a = "\x1b[31m"', 'line 1: a = "?[31m'),
+    ],
+)
+def test_line_at_which_the_parser_gives_up_is_told_at_once(lines, text, told):
+    started = time.process_time()
+    (line,) = lines(text)
+    assert time.process_time() - started < 1.0
+    assert told in line
+    assert len(line.split("line ")[-1]) <= 64
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(ConfigError, match=r"no\.toml: cannot be read \(No such file"):
+        load_config(tmp_path / "no.toml")
+    with pytest.raises(
+        ConfigError, match=r'^\{"name": "a"\} is no path; needed: the path of a TOML'
+    ):
+        load_config({"name": "a"})
+
+
+def test_not_text(tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(ConfigError, match="not TOML"):
+        load_config(path)
+
+
+CONFIGS = Path(__file__).parents[3] / "configs"
+
+
+def test_a_refused_config_loads_nothing_heavy(tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text('[lattice]\nwidth = "1 kg"')
+    heavy = ["numpy", "scipy", "pandas", "numba", "dask", "h5py", "matplotlib", "shapely"]
+    script = f"""
+import sys
+from sweep.config.faults import ConfigError
+from sweep.config.load import load_config
+try:
+    load_config({str(path)!r})
+except ConfigError:
+    print(*[name for name in {heavy} if sys.modules.get(name)])
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=CONFIGS.parent,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == ""
