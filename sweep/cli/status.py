@@ -35,7 +35,7 @@ def print_status(file: str, as_json: bool) -> bool:
     say_all(_failures(file, summary))
     say_all(_bars(summary))
     say_all(_versions(summary))
-    if others := about.get("other_cases", 0):
+    if others := about["other_cases"]:
         say(f"{others} cases belong to other configs than that of the last run")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
@@ -84,7 +84,7 @@ def _versions(summary: DataFrame) -> Iterator[str]:
     if counts.keys() - {MODEL_VERSION}:
         older = f"; {HOW_TO_RENEW}" if min(counts) < MODEL_VERSION else ""
         yield f"{version_counts(counts)}{older}"
-    revisions = summary["git_revision"].replace("", "a revision not recorded").value_counts()
+    revisions = summary["git_revision"].value_counts()
     if len(revisions) > 1:
         yield "computed with " + ", ".join(f"{name} ({n})" for name, n in revisions.items())
 

@@ -19,7 +19,7 @@ PACKAGES = ("crumple", "numpy", "numba", "h5py", "dask")
 
 
 def describe_run(config: str) -> dict[str, str]:
-    """Attributes of a results file; `config` is the resolved configuration as text."""
+    """Attributes of a results file; `config`: as `config_text` returns it."""
     versions = {f"version_{name}": installed_version(name) for name in PACKAGES}
     return {
         "config": config,
@@ -32,9 +32,9 @@ def describe_run(config: str) -> dict[str, str]:
     } | versions
 
 
-def config_text(sweep: Config | Sequence[Case], first: Case) -> str:
-    """A sweep as JSON, in SI: given values, axes, [rank], [require], all of its first case."""
-    text: dict[str, Any] = {"first_case": first.model_dump(exclude={"axes"})}
+def config_text(sweep: Config | Sequence[Case]) -> str:
+    """A sweep as JSON, in SI: given values, axes, [rank], [require]; every row has its case."""
+    text: dict[str, Any] = {}
     if isinstance(sweep, Config):
         text |= {
             "name": sweep.name,

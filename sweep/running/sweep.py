@@ -49,7 +49,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         check_scheduler(scheduler)
     with ExitStack() as held:
         try:
-            about = describe_run(config_text(sweep, given[0]))
+            about = describe_run(config_text(sweep))
             writer = held.enter_context(Writer(out, axes, about))
         except WriteError as error:
             if cases.keys() - finished_ids(out, rerun):

@@ -175,7 +175,7 @@ def add_error_bars(
     rows |= _converged(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}
-    with Writer(out, labels, describe_run(config_text(sweep, cases[0]))) as writer:
+    with Writer(out, labels, describe_run(config_text(sweep))) as writer:
         writer.fold()
     without = sum(all(map(isnan, bar.values())) for bar in bars.values())
     if without:

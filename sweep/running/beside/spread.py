@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 
 from sweep.config.case import Case, Material
 from sweep.config.defaults.direction import is_along
-from sweep.config.grid import Config, expand
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.store.read import ONLY_MISSING, Rerun
+from sweep.store.read import ONLY_MISSING, Rerun, read_case
 
 FRICTION = (
     0.2,
@@ -96,10 +95,14 @@ def _other(material: Material, name: str, value: float) -> Material:
     return material.model_copy(update=change)
 
 
-def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
-    """The corners of the cases whose ids are among the `best`, by the id of the case."""
-    cases = {case.case_id: case for case in (expand(sweep) if isinstance(sweep, Config) else sweep)}
-    return {case_id: corners(cases[case_id]) for case_id in best if case_id in cases}
+def corners_of(
+    cases: Iterable[Case], best: Iterable[str], out: str | os.PathLike[str]
+) -> dict[str, list[Corner]]:
+    """The corners of the `best` cases by their ids: those of a sweep, which has their labels and
+    time limit as they are now, and others as `out` holds them.
+    """
+    known = {case.case_id: case for case in cases}
+    return {case_id: corners(known.get(case_id) or read_case(out, case_id)) for case_id in best}
 
 
 def run_corners(

@@ -297,7 +297,6 @@ def test_file_says_where_its_results_come_from(tmp_path):
     run_sweep(config, out, simulate=lambda case, stop: simulate(case))
     about = read_attributes(out)
     assert '"lattice.imperfection": [0.0, 0.001]' in about["config"]
-    assert '"wall_thickness": 0.0008' in about["config"]
     assert about["version_h5py"][0].isdigit()
     assert about["seed"].startswith("none")
     assert len(about["git_revision"]) >= 7
