@@ -25,7 +25,14 @@ if TYPE_CHECKING:
     from sweep.running.run import run
     from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
-    from sweep.store.read import Rerun, StoreError, read_frames, read_history, read_summary
+    from sweep.store.read import (
+        Rerun,
+        StoreError,
+        read_case,
+        read_frames,
+        read_history,
+        read_summary,
+    )
     from sweep.version import __version__
 
 __all__ = [
@@ -49,6 +56,7 @@ __all__ = [
     "load_config",
     "rank",
     "ranked",
+    "read_case",
     "read_frames",
     "read_history",
     "read_summary",
@@ -78,6 +86,7 @@ _HOME = {
     "load_config": "config.load",
     "rank": "ranking.rank",
     "ranked": "ranking.rank",
+    "read_case": "store.read",
     "read_frames": "store.read",
     "read_history": "store.read",
     "read_summary": "store.read",

@@ -1,4 +1,4 @@
-"""The columns of results: units and a description of each, and its value in files that lack it.
+"""The columns of results: units and a description of each.
 
 `COLUMNS` has those of a summary, `HISTORY_COLUMNS` those of a curve. Columns of energies up to a
 force, of cycles, errors and the like have derived names.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import nan
 from typing import Literal
 
 
@@ -374,51 +373,9 @@ FRAME_COLUMNS: dict[str, Column] = {
     "quad_thickness_m": Column("m", "wall thickness of every quad"),
     "edges": Column("", "the two nodes of every element"),
     "edge_thickness_m": Column("m", "wall thickness of every element"),
+    "json": Column("", "the case of every row as JSON in UTF-8, in SI, one byte per entry"),
 }
-"""The arrays of the frames of a case."""
-
-OLDER: dict[str, float | int | str] = {
-    "model_version": 1,
-    "git_revision": "",
-    "direction": "in_plane",
-    "solid_strain": nan,
-    "absorbed_energy_until_packed_J": nan,
-    "peak_force_until_packed_N": nan,
-    "packing_strain": nan,
-    "packing_span": nan,
-    "plateau_stress_iso_Pa": nan,
-    "greatest_fibre_strain": nan,
-    "broke_at_strain": nan,
-    "stretch_over_curve": nan,
-    "material_memory": "none",
-    "lost_energy_J": nan,
-    "lost_share": nan,
-    "lost_energy_J_per_g": nan,
-    "second_cycle_share": nan,
-    "dissipated_material_J": nan,
-    "dissipated_friction_J": nan,
-    "solid_joint_share": nan,
-    "printed_mass_g": nan,
-    "infill_share": nan,
-    "slicer_settings": "",
-    "does_not_print": "",
-    "peak_deceleration_filtered_m_per_s2": nan,
-    "material_modulus_Pa": nan,
-    "plateau_stress_20_30_Pa": nan,
-    "plateau_end_strain": nan,
-    "quasi_elastic_gradient_Pa": nan,
-    "energy_to_50_J_per_m3": nan,
-    "efficiency_to_50": nan,
-    "energy_to_plateau_end_J_per_m3": nan,
-    "efficiency_to_plateau_end": nan,
-    "ideality": nan,
-    "cushion_factor": nan,
-    "crush_force_efficiency": nan,
-}
-"""Values of columns that rows of older versions do not have.
-
-A new column must be added here: NaN, or "" for text. Otherwise older files cannot be ranked.
-"""
+"""The arrays of the frames of a case, and its text."""
 
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")

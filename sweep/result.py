@@ -43,6 +43,7 @@ class Status(StrEnum):
 class Result:
     """The result of one case, converged or not.
 
+    case: as it was computed; its row keeps it.
     summary: column -> float, int or str; names and units in `COLUMNS`.
     history: column -> float64 (rows,); names and units in `HISTORY_COLUMNS`.
     frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
@@ -51,12 +52,17 @@ class Result:
     `quads (m, 4)`, `quad_thickness_m (m,)` in place of edges.
     """
 
-    case_id: str
+    case: Case
     status: Status
     message: str = ""
     summary: Mapping[str, float | int | str] = field(default_factory=dict)
     history: Mapping[str, np.ndarray] = field(default_factory=dict)
     frames: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def case_id(self) -> str:
+        """The id of the case."""
+        return self.case.case_id
 
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
@@ -98,4 +104,4 @@ def failed_result(case: Case, status: Status, message: str) -> Result:
     for number in range(1, cycles + 1) if cycles > 1 else ():
         measures |= dict.fromkeys(cycle_columns(number), nan)
     counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}
-    return Result(case.case_id, status, message, measures | counts | design_columns(case))
+    return Result(case, status, message, measures | counts | design_columns(case))

@@ -104,7 +104,7 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) 
 
     summary = read_summary(out)
     ranking = answer(summary, question._replace(top=BEST))
-    corners = corners_of(config, ranking.table["case_id"])
+    corners = corners_of(config.cases, ranking.table["case_id"], out)
     if not any(corners.values()):
         say("No number of the best designs is uncertain.")
         return 0

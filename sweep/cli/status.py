@@ -35,7 +35,7 @@ def print_status(file: str, as_json: bool) -> bool:
     say_all(_failures(file, summary))
     say_all(_bars(summary))
     say_all(_versions(summary))
-    if others := about.get("other_cases", 0):
+    if others := about["other_cases"]:
         say(f"{others} cases belong to other configs than the last run")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
     known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}

@@ -36,7 +36,7 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
         ],
         "with_error_bars": int(bars.sum()),
         "model_versions": {str(key): n for key, n in model_versions(summary).items()},
-        "other_cases": int(about.get("other_cases", 0)),
+        "other_cases": int(about["other_cases"]),
         "missing_cases": missing_cases(summary, about),
         "processor_time_s": float(summary["cpu_s"].sum()),
         "last_run": _text(about, "created"),
@@ -52,8 +52,8 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
 
 def missing_cases(summary: DataFrame, about: Mapping[str, Any]) -> int:
     """How many cases the last run was asked for that the file does not hold: it was interrupted."""
-    held = len(summary) - int(about.get("other_cases", 0))
-    return max(int(about.get("asked_cases", 0)) - held, 0)
+    held = len(summary) - int(about["other_cases"])
+    return max(int(about["asked_cases"]) - held, 0)
 
 
 def _text(about: Mapping[str, Any], name: str) -> str | None:

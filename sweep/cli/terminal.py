@@ -49,7 +49,7 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
-    if others := read_attributes(file).get("other_cases", 0):
+    if others := read_attributes(file)["other_cases"]:
         yield (
             f"{others} of {ranking.cases} cases belong to other configs than the last run; "
             "they are ranked too. To keep configs apart, give each its own --out or name."

@@ -33,6 +33,7 @@ from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import Given, RefusedError, Table, canonical
 from sweep.config.kinds.upright import across, upright
+from sweep.config.structures.structure_file import faults
 
 T = TypeVar("T")
 TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
@@ -107,13 +108,19 @@ class Case(BaseModel):
 
     @staticmethod
     def from_json(text: str | bytes) -> "Case":
-        """The case of a text that `to_json` wrote; ValueError if it is none."""
+        """The case of `to_json`, for which no file is read; `ValueError` if the text is no case."""
         try:
-            return Case.model_validate_json(text)
+            case = Case.model_validate_json(text)
         except ValidationError as error:
-            first = error.errors()[0]
+            first = error.errors(include_url=False)[0]
             place = ".".join(map(str, first["loc"])) or "the text"
-            raise ValueError(f"no case: {place}: {first['msg']}") from None
+            raise ValueError(f"{place}: {first['msg']}") from None
+        drawn = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
+        for line in faults(drawn) if drawn else ():
+            raise ValueError(f"lattice.structure: {line}")
+        if case.changed().case_id != case.case_id:
+            raise ValueError("its numbers do not follow from one another")
+        return case
 
 
 @dataclass

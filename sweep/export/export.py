@@ -5,7 +5,6 @@ Nothing is half-written: files are made in a folder beside, then get their names
 
 from __future__ import annotations
 
-import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -48,14 +47,10 @@ class Source:
     @cached_property
     def design(self) -> Design:
         """What is printed."""
-        from sweep.export.design import stored_design
-        from sweep.store.read import read_attributes
+        from sweep.export.design import design_of
+        from sweep.store.read import read_case
 
-        try:
-            config = json.loads(read_attributes(self.file).get("config") or "{}")
-        except ValueError as error:
-            raise ExportError(f"{self.file} is damaged: the config in it is not JSON") from error
-        return stored_design(self.row, config)
+        return design_of(read_case(self.file, self.row["case_id"]))
 
     @property
     def history(self) -> DataFrame:

@@ -21,7 +21,7 @@ def greatest_mass(budget: float) -> float:
 
 def counted_mass(finished: DataFrame) -> tuple[str, Series]:
     """The column of the mass that counts, and its values, g: as extruded if there is a slicer."""
-    printed = finished.get("printed_mass_g")
-    if printed is None or printed.isna().all():
+    printed = finished["printed_mass_g"]
+    if printed.isna().all():
         return "mass_g", finished["mass_g"]
     return "counted_mass_g", printed.fillna(finished["mass_g"])

@@ -38,7 +38,7 @@ def with_allowed(
     in rows that are no finished crush. known : what was found before, and is not read again; new
     values are added.
     """
-    from sweep.store.read import read_cases
+    from sweep.store.read import read_runs
 
     force, panel = question.allowed_force, question.panel
     of_panel = question.per == "panel"
@@ -54,7 +54,7 @@ def with_allowed(
     keys = [(str(case_id), float(force)) for case_id, force in at]
     known = {} if known is None else known
     new = [key for key in keys if key not in known]
-    cases = read_cases(file, [case_id for case_id, _ in new], shapes=False)
+    cases = read_runs(file, [case_id for case_id, _ in new], shapes=False)
     known |= {key: reached(case.history, key[1]) for key, case in zip(new, cases, strict=True)}
     found = [known[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})

@@ -55,7 +55,7 @@ def crush_of(history: DataFrame, row: Mapping[Any, Any]) -> Crush:
     end = int(np.argmax(strain >= strain.max() * (1.0 - SLACK))) + 1 if len(strain) else 0
     greatest = np.maximum.accumulate(history["reaction_top_N"].to_numpy()[:end]) / area
     work = history["work_in_J"].to_numpy()[:end] / (area * height)
-    within = row.get("absorbed_energy_within_model_J", np.inf) / (area * height)
+    within = row["absorbed_energy_within_model_J"] / (area * height)
     kept = (work > 0.0) & (greatest > 0.0) & (work <= within * (1.0 + SLACK))
     return Crush(strain[:end][kept], greatest[kept], work[kept], float(height))
 

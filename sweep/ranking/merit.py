@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from sweep.columns import (
     ABSORBED_AT,
     COLUMNS,
-    OLDER,
     absorbed_energy_column,
     correction_column,
     error_column,
@@ -67,10 +66,8 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     crush; `ends_early`; `beyond_model`; `crossed`; `beyond_curve`; and errors and corrections of
     added columns, if the energy has them.
     """
-    if missing := [name for name in COLUMNS if name not in finished and name not in OLDER]:
-        raise RankError(
-            f"no {missing[0]}: an older version wrote these results; run them again into a new file"
-        )
+    if missing := [name for name in COLUMNS if name not in finished]:
+        raise RankError(f"no {missing[0]}; needed: all columns of a summary (`read_summary`)")
     filled = None if question.panel is None else panel_in(finished, question.panel)
     count = None if filled is None else filled.specimens
     energy, force, until = _counted(finished, question, count)

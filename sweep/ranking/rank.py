@@ -9,20 +9,13 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
 from os import PathLike
 
 import numpy as np
 import pandas as pd
-from pandas import DataFrame, Series
+from pandas import DataFrame
 
-from sweep.columns import (
-    OLDER,
-    describe_column,
-    error_column,
-    is_grid_key,
-    less_is_better,
-)
+from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import LEAST, Compared, merits
@@ -34,12 +27,6 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.result import Status
 
 PER = ("specimen", "panel")
-NO_ATTRS = (
-    "lightest",
-    "per",
-    "required",
-    "outcomes",
-)  # fields of `Ranking` that are newer than attributes
 USUAL = (
     *("absorbed_energy_until_packed_J", "specific_absorption_until_packed_J_per_g"),
     *("absorbed_energy_J", "specific_absorption_J_per_g", "absorbed_energy_within_model_J"),
@@ -136,17 +123,11 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
     beyond_curve : True if a wall was stretched beyond the measured curve in the run.
-
-    `attrs` holds older fields of `Ranking`, for one more release; use `ranked` for them.
     """
     asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
     check_units(asked | dict(require or {}))
     question = Question(budget, panel, by, top, allowed_force, require, per)
-    ranking = answer(source, question)
-    names = [field.name for field in fields(ranking)[1:] if field.name not in NO_ATTRS]
-    others = {name: getattr(ranking, name) for name in names}
-    ranking.table.attrs = others | {"budgets_g": list(ranking.budgets_g)}
-    return ranking.table
+    return answer(source, question).table
 
 
 def ranked(  # noqa: PLR0913  every argument is a part of one question
@@ -196,9 +177,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         failed=len(summary) - len(finished),
         unranked=sum(int(rows[order].isna().sum()) for rows, order in scenes),
         without_bar=sum(_without_bar(rows, order) for rows, order in scenes),
-        pointed=int(
-            (finished.get("solid_joint_share", Series(np.nan, finished.index)) < 1.0).sum()
-        ),
+        pointed=int((finished["solid_joint_share"] < 1.0).sum()),
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
         lightest_g={label: rows[names.mass].min() for label, rows in found.items() if len(rows)},
@@ -215,8 +194,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
 
 def model_versions(summary: DataFrame) -> dict[int, int]:
     """Number of rows of each version of the model, the oldest first."""
-    versions = summary.get("model_version", Series(OLDER["model_version"], summary.index))
-    return {int(version): int(n) for version, n in versions.value_counts().sort_index().items()}
+    counts = summary["model_version"].value_counts().sort_index()
+    return {int(version): int(number) for version, number in counts.items()}
 
 
 def _order(rows: DataFrame, by: str | None, usual: str) -> str:

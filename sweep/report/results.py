@@ -14,12 +14,14 @@ from sweep.ranking.question import Question, check_units
 from sweep.ranking.rank import answer
 from sweep.report.publish import case_figures, ranking_figures
 from sweep.result import Status
-from sweep.store.read import read_frames, read_history, read_summary
+from sweep.store.read import read_case, read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
+
+    from sweep.config.case import Case
 
 SHARPNESS = 110  # dots per inch in a notebook
 
@@ -81,6 +83,13 @@ class Results:
         check_units(given | dict(question.get("require") or {}))
         asked = Question(**self._question._asdict() | question)
         return answer(with_allowed(self.path, self.table, asked), asked).table
+
+    def case(self, case: int | str) -> Case:
+        """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.
+
+        case : row of the table, or its id.
+        """
+        return read_case(self.path, self._row(case)["case_id"])
 
     def curve(self, case: int | str) -> DataFrame:
         """The history of a case: a row per stored step. case : row of the table, or its id."""

@@ -77,15 +77,14 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
     summary = summarise(case, scene, curves, frames, strains, run.cycles)
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
-    case_id = case.case_id
     summary |= {
-        "case_id": case_id,
+        "case_id": case.case_id,
         "status": str(status),
         "message": message,
         "steps": int(run.state.totals["steps"][0]),
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
-    return Result(case_id, status, message, summary, curves, frames)
+    return Result(case, status, message, summary, curves, frames)
 
 
 def _scene(case: Case) -> Scene | PlateScene:

@@ -25,12 +25,16 @@ FRAME_GROUPS = {
 Nodes and elements of plates have groups of their own, as their rows are longer.
 """
 
-OF_PLATES = ("plate_points", "quads")  # groups that older files do not have
+TEXT = "json"
+"""The array of the group of cases: `Case.to_json` of all of them, a row per byte."""
 
 DIMENSIONS = {"points": 2, "plate_points": 3}
 """Length of a row of positions."""
 
-GROUPS = ("histories", *FRAME_GROUPS)
+FORMAT = 2
+"""Version of the layout and of the columns of a file; `read` refuses files of another."""
+
+GROUPS = ("cases", "histories", *FRAME_GROUPS)
 
 CHUNK = 1 << 18  # rows copied at a time
 
@@ -94,7 +98,11 @@ def block_of(results: Sequence[Result], revision: str = "") -> Block:
         {"case_id": r.case_id, "status": str(r.status), "message": r.message} | by for r in results
     ]
     table = tabulate([row | dict(r.summary) for row, r in zip(who, results, strict=True)])
-    ragged = {"histories": _ragged([result.history for result in results])}
+    texts = [result.case.to_json().encode() for result in results]
+    ragged = {
+        "cases": _ragged([{TEXT: np.frombuffer(text, np.uint8)} for text in texts]),
+        "histories": _ragged([result.history for result in results]),
+    }
     for group, names in FRAME_GROUPS.items():
         ragged[group] = _ragged([_flat_frames(result, group, names) for result in results])
     return Block(table, ragged, {})
@@ -150,5 +158,10 @@ def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.nda
         for case, n in zip(cases, rows, strict=True)
         if case
     ]
-    digits = np.float32 if like.dtype.kind == "f" else np.int32
-    return np.concatenate(values or [like[:0]], dtype=digits, casting="same_kind")
+    return np.concatenate(values or [like[:0]], dtype=digits(like.dtype), casting="same_kind")
+
+
+def digits(dtype: np.dtype) -> type[np.number]:
+    """The numbers that a file keeps of an array: single precision, short integers, or bytes."""
+    kinds: dict[str, type[np.number]] = {"f": np.float32, "i": np.int32, "u": np.uint8}
+    return kinds[dtype.kind]

@@ -14,13 +14,13 @@ import numpy as np
 from h5py import h5d, h5s, h5t
 
 from sweep.columns import Column, describe_array, describe_column
-from sweep.store.batch import GROUPS, Block, Ragged, newest_rows
+from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
 from sweep.store.parts import Unsealed
 from sweep.store.tables import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 
-FORMAT = 1  # version of the layout
 CHUNK = 4096  # rows of a chunk that is compressed and has a checksum
 LARGE_CHUNK = 16384  # rows of a chunk that has only a checksum
+TEXT_CHUNK = 1 << 16  # bytes of a chunk of cases: it holds the texts of many, which are alike
 CACHE = 1 << 18  # bytes of unfinished chunks that HDF5 keeps in memory for each array
 
 
@@ -143,22 +143,17 @@ class _Ragged:
     def _array(self, name: str, like: Any, rows: int) -> h5py.Dataset:
         if name not in self._data:
             packed = self._packed and name != "position_m"
-            chunk = CHUNK if packed else LARGE_CHUNK
+            chunk = TEXT_CHUNK if name == TEXT else CHUNK if packed else LARGE_CHUNK
             self._data[name] = self._values.create_dataset(
                 name,
                 (0, *like.shape[1:]),
                 maxshape=(None, *like.shape[1:]),
                 chunks=(chunk if self._packed else min(max(rows, 1), chunk), *like.shape[1:]),
-                **_digits(like.dtype),
+                dtype=digits(like.dtype),
+                fillvalue=np.nan if like.dtype.kind == "f" else 0,
                 **_filters(packed),
             )
         return self._data[name]
-
-
-def _digits(dtype: np.dtype) -> dict[str, Any]:
-    """Single precision; missing values are NaN, or 0 in an array of integers."""
-    real = dtype.kind == "f"
-    return {"dtype": np.float32 if real else np.int32, "fillvalue": np.nan if real else 0}
 
 
 def _filters(packed: bool) -> dict[str, Any]:

@@ -10,7 +10,8 @@ with the same case id it takes the newer one.
     /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases one after another
     /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
-    /plate_points, /quads      the same of plates; files of older versions lack them
+    /plate_points, /quads      the same of plates
+    /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
 """
 
 import os
@@ -23,21 +24,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import h5py
 import numpy as np
 
-from sweep.columns import HISTORY_COLUMNS, OLDER
+from sweep.columns import HISTORY_COLUMNS
 from sweep.result import MODEL_VERSION, Status
-from sweep.store.batch import FRAME_GROUPS, GROUPS, OF_PLATES, Block, Ragged, newest
+from sweep.store.batch import FORMAT, FRAME_GROUPS, GROUPS, TEXT, Block, Ragged, newest
 from sweep.store.parts import list_parts
 from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from sweep.config.case import Case
+
 ATTEMPTS = 100  # to open all files of a set before the writer changes the set
+AGAIN = "move it away, and `crumple run` computes its cases again"
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
 
 class Rerun(NamedTuple):
-    """Which cases run again although they have a row: failed ones, those of an older model."""
+    """Which cases run again although they have a row: failed ones, those of another model."""
 
     failed: bool = False
     older: bool = False
@@ -46,7 +50,7 @@ class Rerun(NamedTuple):
 ONLY_MISSING = Rerun()
 
 
-class StoredCase(NamedTuple):
+class StoredRun(NamedTuple):
     """Curves of a case, a row per stored step, and its shapes; both empty if it has none."""
 
     case_id: str
@@ -104,19 +108,33 @@ def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
         return dict(blocks[-1].attributes)
 
 
+def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
+    """The case that a row was computed from. Its labels are those of the sweep that computed it."""
+    from sweep.config.case import Case
+
+    text = bytes(_read_arrays(Path(path), case_id, ["cases"]).get(TEXT, b""))
+    try:
+        case = Case.from_json(text.decode())
+        if case.case_id != case_id:
+            raise ValueError(f"it is case {case.case_id}")
+    except ValueError as error:
+        raise StoreError(f"{path} holds no usable case {case_id}: {error}.") from error
+    return case
+
+
 def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
     """Curves of one case, a row per stored step; no rows if the case has no curves."""
-    return _history(_read_case(Path(path), case_id, ["histories"]))
+    return _history(_read_arrays(Path(path), case_id, ["histories"]))
 
 
 def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndarray]:
     """Stored shapes of one case, the arrays of `Result.frames`; empty if the case has none."""
-    return _frames(_read_case(Path(path), case_id, FRAME_GROUPS))
+    return _frames(_read_arrays(Path(path), case_id, FRAME_GROUPS))
 
 
-def read_cases(
+def read_runs(
     path: str | os.PathLike[str], case_ids: Iterable[str], shapes: bool = True
-) -> Iterator[StoredCase]:
+) -> Iterator[StoredRun]:
     """Curves and shapes of many cases, one after another; the files are opened only once.
 
     shapes: False leaves the shapes unread, and `frames` empty.
@@ -132,7 +150,7 @@ def read_cases(
                 raise StoreError(f"{path} holds no case {case_id}.")
             found = partial(_arrays, *where[case_id])
             frames = _frames(found(FRAME_GROUPS)) if shapes else {}
-            yield StoredCase(case_id, _history(found(["histories"])), frames)
+            yield StoredRun(case_id, _history(found(["histories"])), frames)
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
@@ -160,7 +178,7 @@ def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
     if the file has this config: an edited [rank] or [require] changes no row.
     """
     with _union(path) as blocks:
-        table, others = newest(blocks), blocks[-1].attributes.get("other_cases", 0)
+        table, others = newest(blocks), blocks[-1].attributes["other_cases"]
         if blocks[-1].attributes.get("config") != config:
             return False
     wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
@@ -198,13 +216,10 @@ def open_sealed(path: Path, held: ExitStack) -> Block:
     with _undamaged(path):
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = held.enter_context(h5py.File(path, "r", locking=False))
-        empty = np.zeros(file["summary/case_id"].shape, np.int64)
-        ragged = {
-            name: Ragged(empty, empty, {})
-            if name in OF_PLATES and name not in file
-            else _open_ragged(path, file[name])
-            for name in GROUPS
-        }
+        if (written := file.attrs["format"]) != FORMAT:
+            needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
+            raise StoreError(f"{path} is a results file of format {written}; {needed}.")
+        ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
         attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
         return Block(_Columns(path, file["summary"]), ragged, attributes)
 
@@ -219,8 +234,7 @@ def _undamaged(path: Path) -> Iterator[None]:
     except DAMAGE as error:
         if isinstance(error, OSError) and error.errno:
             raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
-        advice = "move it away, and `crumple run` computes its cases again"
-        line = f"{path} is not a results file of Crumple, or is damaged: {advice}."
+        line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
         raise StoreError(line) from error
 
 
@@ -245,28 +259,24 @@ class _Array:
 
 
 class _Columns(Mapping[str, np.ndarray]):
-    """Columns of a sealed file, read when indexed; a file without a column of `OLDER` has that."""
+    """Columns of a sealed file, read when indexed."""
 
     def __init__(self, path: Path, group: h5py.Group) -> None:
         self._path, self._data = path, group
 
     def __getitem__(self, name: str) -> np.ndarray:
         with _undamaged(self._path):
-            if name in OLDER and name not in self._data:
-                value = OLDER[name]
-                kind = object if isinstance(value, str) else type(value)
-                return np.full(self._data["case_id"].shape, value, kind)
             data = self._data[name]
             return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(dict.fromkeys([*self._data, *OLDER]))
+        return iter(self._data)
 
     def __len__(self) -> int:
-        return len({*self._data, *OLDER})
+        return len(self._data)
 
 
-def _read_case(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
+def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
     with _union(path) as blocks:
         for block in reversed(blocks):
             found = np.flatnonzero(block.summary["case_id"] == case_id)

@@ -35,7 +35,7 @@ from sweep.report.tables.legend import meanings, unprintable
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
-from sweep.store.read import StoredCase, read_attributes, read_cases
+from sweep.store.read import StoredRun, read_attributes, read_runs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -76,7 +76,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
     stored, by_id = _Stored(len(cases)), finished.set_index("case_id", drop=False)
-    for case in read_cases(file, _first_shown(finished, counted, question)):
+    for case in read_runs(file, _first_shown(finished, counted, question)):
         cases[case.case_id] |= stored.take(case, by_id.loc[case.case_id])
         if len(case.history) and by_id.loc[case.case_id, "loading_mode"] == "displacement":
             strokes = [reached(case.history, force)[1] for force in forces]
@@ -156,7 +156,7 @@ def _cases(
             "open": part["ends_early"].tolist(),
             "struck": _exact(part["impact_energy_J"]),
             "message": part["message"],
-            "slicer": part["slicer_settings"] if "slicer_settings" in part else [""] * len(part),
+            "slicer": part["slicer_settings"],
         }
         for values in zip(*columns.values(), strict=True):
             case = dict(zip(columns, values, strict=True))
@@ -245,7 +245,7 @@ class _Stored:
         self._known: dict[bytes, int] = {}
         self._room = {"drawings": DRAWINGS, "shapes": SHAPES}
 
-    def take(self, case: StoredCase, row: Series) -> dict[str, Any]:
+    def take(self, case: StoredRun, row: Series) -> dict[str, Any]:
         """What the page shows of a case; `row`: of the summary."""
         history, frames = case.history, case.frames
         more: dict[str, Any] = {}
@@ -292,7 +292,7 @@ class _Stored:
                 self.drawings.append(drawn)
         return self._known.get(key)
 
-    def _move(self, case: StoredCase, row: Series) -> None:
+    def _move(self, case: StoredRun, row: Series) -> None:
         """Keep the moving shape of a case if there is room."""
         if self._room["shapes"] <= 0:
             return

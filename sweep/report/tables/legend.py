@@ -126,5 +126,5 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
 
 
 def unprintable(rows: DataFrame) -> Series:
-    """What of each design does not print, in words; empty for results of older versions."""
-    return rows.get("does_not_print", Series("", rows.index))
+    """What of each design does not print, in words."""
+    return rows["does_not_print"]

@@ -14,12 +14,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from sweep.config.case import Case
-from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
-from sweep.store.read import ONLY_MISSING, Rerun
+from sweep.store.read import ONLY_MISSING, Rerun, read_case
 
 FRICTION = (
     0.2,
@@ -91,10 +90,14 @@ def _other(material: Material, name: str, value: float) -> dict[str, Any]:
     return change
 
 
-def corners_of(sweep: Config | Sequence[Case], best: Iterable[str]) -> dict[str, list[Corner]]:
-    """The corners of the cases whose ids are among the `best`, by the id of the case."""
-    cases = {case.case_id: case for case in sweep_of(sweep).cases}
-    return {case_id: corners(cases[case_id]) for case_id in best if case_id in cases}
+def corners_of(
+    cases: Iterable[Case], best: Iterable[str], out: str | os.PathLike[str]
+) -> dict[str, list[Corner]]:
+    """The corners of the `best` cases by their ids: those of a sweep, which has their labels and
+    time limit as they are now, and others as `out` holds them.
+    """
+    known = {case.case_id: case for case in cases}
+    return {case_id: corners(known.get(case_id) or read_case(out, case_id)) for case_id in best}
 
 
 def run_corners(

@@ -1,13 +1,9 @@
 """Results files of designs that never ran, for tests of what is exported from them."""
 
-import json
-
 from sweep.config.case import Case
-from sweep.config.grid import Config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass, relative_density
 from sweep.result import design_columns
-from sweep.running.provenance import config_text
 from tests.support.results.specimens import summary, write
 
 
@@ -21,14 +17,8 @@ def row_of(case, **changes):
 
 
 def results(path, *cases):
-    """A results file of these cases, as a sweep whose first case is the first of them writes it."""
-    attributes = {"config": config_text(Config("trial"), cases[0])}
-    return write(path, summary(*(row_of(case) for case in cases)), attributes)
-
-
-def config_of(case):
-    """The config of a sweep of one case, as in a results file."""
-    return json.loads(config_text(Config("trial"), case))
+    """A results file of these cases."""
+    return write(path, summary(*(row_of(case) for case in cases)), cases=cases)
 
 
 def grid(cells=3, **lattice):

@@ -7,7 +7,7 @@ from sweep.ranking.accuracy import studies
 from sweep.result import Result, Status
 from sweep.store.read import read_summary
 from sweep.store.write import Writer
-from tests.support.results.specimens import summary
+from tests.support.results.specimens import Named, summary
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)
@@ -46,7 +46,7 @@ def study(folder, rows):
         )
         blank = dict.fromkeys(HISTORY_COLUMNS, np.zeros_like(TIME))
         history = blank | {"time_s": TIME, "strain": curve}
-        results.append(Result(case_id, Status(status), message, row, history, {}))
+        results.append(Result(Named(case_id), Status(status), message, row, history, {}))
     with Writer(folder / "made_up.h5") as writer:
         writer.append(results)
         writer.fold()

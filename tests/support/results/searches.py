@@ -47,7 +47,7 @@ def simulate(case, control=None):
         measures |= {"absorbed_energy_within_model_J": 0.5 * joules}
     status = Status.STOPPED if failed else Status.CONVERGED
     why = "no equilibrium" if failed else ""
-    return Result(case.case_id, status, why, measures, {} if failed else history(joules))
+    return Result(case, status, why, measures, {} if failed else history(joules))
 
 
 def history(joules):

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from sweep.columns import COLUMNS, HISTORY_COLUMNS, OLDER, absorbed_energy_column
+from sweep.columns import COLUMNS, HISTORY_COLUMNS, absorbed_energy_column
 from sweep.config.case import Case
 from sweep.result import Result, Status, design_columns
 from sweep.store.write import Writer
@@ -35,7 +35,7 @@ def simulate(case, stop=None):
     measures |= {"steps": 10 + number, "newton_iterations": 3, absorbed_energy_column(50): 0.5}
     failed = number == 7
     return Result(
-        case.case_id,
+        case,
         Status.STOPPED if failed else Status.CONVERGED,
         "No step was short enough: try a smaller time_step." if failed else "",
         measures,
@@ -75,17 +75,16 @@ def write(path, batch, fold=False, size=2, **about):
             writer.fold()
 
 
-def write_older(path, batch, **about):
-    """A results file from before rows had a version."""
-    write(path, batch, fold=True, **about)
-    forget_version(path)
+def write_older(path, batch):
+    """A results file of rows of an older model."""
+    write(path, batch, fold=True)
+    make_older(path)
 
 
-def forget_version(path):
-    """Make a results file one from before rows had a version."""
+def make_older(path):
+    """Make the rows of a results file those of the first version of the model."""
     with h5py.File(path, "r+") as file:
-        for name in OLDER:
-            del file["summary"][name]
+        file["summary/model_version"][:] = 1
 
 
 def parts_of(path):

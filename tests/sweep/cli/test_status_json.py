@@ -6,6 +6,8 @@ from sweep.cli.status_json import status_record
 from sweep.result import MODEL_VERSION
 from tests.support.results.specimens import summary
 
+COUNTS = {"other_cases": 0, "asked_cases": 1}
+
 
 def test_record_counts_cases_and_gathers_failures():
     stopped = {"status": "stopped", "message": "too long"}
@@ -26,10 +28,10 @@ def test_record_counts_cases_and_gathers_failures():
 
 def test_error_bars_count_where_a_case_has_one():
     table = summary({"error_absorbed_energy_J": 0.1}, {"error_absorbed_energy_J": float("nan")})
-    assert status_record("a.h5", table, {})["with_error_bars"] == 1
-    assert status_record("a.h5", summary({}), {})["with_error_bars"] == 0
+    assert status_record("a.h5", table, COUNTS)["with_error_bars"] == 1
+    assert status_record("a.h5", summary({}), COUNTS)["with_error_bars"] == 0
 
 
-def test_a_file_that_does_not_know_what_was_asked_misses_nothing():
-    assert status_record("a.h5", summary({}), {})["missing_cases"] == 0
-    assert status_record("a.h5", summary({}), {"asked_cases": 1})["missing_cases"] == 0
+def test_a_file_of_more_than_was_asked_for_misses_nothing():
+    assert status_record("a.h5", summary({}), COUNTS)["missing_cases"] == 0
+    assert status_record("a.h5", summary({}, {}), COUNTS)["missing_cases"] == 0

@@ -91,7 +91,7 @@ REFUSED = [
     (["export", "FILE", "0", "--to", "a.stl"], "begins 5 ids: 0000000000000000"),
     (["export", "FILE", "0000000000000000"], "required: --to"),
     (["export", "FILE", "0000000000000000", "--to", "a.step"], "a.step: .step is unknown; allow"),
-    (["export", "FILE", "0000000000000000", "--to", "a.stl"], "does not follow from the config"),
+    (["export", "FILE", "0000000000000000", "--to", "a.stl"], "holds no usable case 00"),
     (["export", "FILE", "0000000000000000", "--to", "a.3mf", "--kind", "x"], "invalid choice: 'x'"),
     (
         ["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"],

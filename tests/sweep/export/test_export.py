@@ -234,12 +234,6 @@ def test_case_that_failed_has_no_curves_and_says_why(tmp_path):
             export_case(file, tmp_path / f"a{ending}", "ab")
 
 
-def test_damaged_config_is_told(tmp_path):
-    file = write(tmp_path / "trial.h5", summary({"case_id": "ab"}), {"config": "{"})
-    with pytest.raises(ExportError, match="is damaged: the config in it is not JSON"):
-        export_case(file, tmp_path / "a.stl", "ab")
-
-
 def test_failure_leaves_the_older_file(file, tmp_path, monkeypatch):
     path = tmp_path / "part.svg"
     path.write_text("older")

@@ -16,6 +16,7 @@ from sweep.ranking.cushion import (
 from tests.support.results.specimens import summary, there_and_back
 
 ROW = {"outer_width_m": 10e-3, "depth_m": 20e-3, "height_m": 30e-3}
+ROW |= {"absorbed_energy_within_model_J": np.inf}
 AREA, THICKNESS = 2e-4, 30e-3
 STRAIN = np.linspace(0.0, 0.8, 801)
 

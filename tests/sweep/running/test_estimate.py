@@ -29,7 +29,7 @@ def stand_in(status=Status.CONVERGED):
         asked.append(case)
         pace = {"force": 1e-6, "displacement": 5e-6}[case.loading.mode]
         history = {"strain": np.zeros(1000)}
-        return Result(case.case_id, status, "why", {"cpu_s": pace * cost(case)}, history)
+        return Result(case, status, "why", {"cpu_s": pace * cost(case)}, history)
 
     return simulate, asked
 
@@ -62,7 +62,7 @@ def by_thickness(seconds):
     def simulate(case, control):
         asked.append(case)
         taken = seconds * 1e-6 * cost(case) * (3e-4 / case.lattice.wall_thickness) ** 3
-        return Result(case.case_id, Status.CONVERGED, "", {"cpu_s": taken}, {})
+        return Result(case, Status.CONVERGED, "", {"cpu_s": taken}, {})
 
     return many, simulate, asked
 
@@ -92,7 +92,7 @@ def test_long_pilots_are_stopped_and_extrapolated():
         done = int(count_of(case.loading, case.solver) / 4)
         history = {"strain": np.zeros(done + 1)}
         taken = {"cpu_s": case.solver.time_limit}
-        return Result(case.case_id, Status.TIMED_OUT, "raise it", taken, history)
+        return Result(case, Status.TIMED_OUT, "raise it", taken, history)
 
     (case,) = cases(GLUED, (3,))
     found = estimate([case], slow)

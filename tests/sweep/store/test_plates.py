@@ -5,17 +5,16 @@ import numpy as np
 import pytest
 
 from sweep.result import Result, Status
-from sweep.store.batch import OF_PLATES
-from sweep.store.read import StoreError, read_cases, read_frames
+from sweep.store.read import StoreError, read_frames, read_runs
 from sweep.store.write import Writer
-from tests.support.results.specimens import squeezed_cell, summary, tube
+from tests.support.results.specimens import Named, squeezed_cell, summary, tube
 
 
 def results():
     rows = summary({}, {"direction": "out_of_plane"}, {}, {"status": "stopped"}).to_dict("records")
     shapes = [squeezed_cell(), tube(), squeezed_cell(), {}]
     return [
-        Result(row["case_id"], Status(row["status"]), "", {**row}, {}, frames)
+        Result(Named(row["case_id"]), Status(row["status"]), "", {**row}, {}, frames)
         for row, frames in zip(rows, shapes, strict=True)
     ]
 
@@ -33,7 +32,7 @@ def stored(request, tmp_path):
 
 def test_shapes_of_both_kinds_are_read_as_they_were_written(stored):
     for result, case in zip(
-        results(), read_cases(stored, [r.case_id for r in results()]), strict=True
+        results(), read_runs(stored, [r.case_id for r in results()]), strict=True
     ):
         found = read_frames(stored, result.case_id)
         assert found.keys() == result.frames.keys() == case.frames.keys()
@@ -42,23 +41,7 @@ def test_shapes_of_both_kinds_are_read_as_they_were_written(stored):
             np.testing.assert_allclose(found[name], array, rtol=1e-6)
 
 
-def test_file_without_groups_of_plates_is_read(tmp_path):
-    path = tmp_path / "older.h5"
-    with Writer(path) as writer:
-        writer.append(results()[:1])
-        writer.fold()
-    with h5py.File(path, "r+") as file:
-        for group in OF_PLATES:
-            del file[group]
-    first = results()[0]
-    assert read_frames(path, first.case_id)["position_m"].shape == first.frames["position_m"].shape
-    with Writer(path) as writer:
-        writer.append(results()[1:2])
-        writer.fold()
-    assert read_frames(path, results()[1].case_id)["position_m"].shape == (3, 8, 3)
-
-
-def test_file_without_another_group_is_damaged(tmp_path):
+def test_file_without_a_group_is_damaged(tmp_path):
     path = tmp_path / "damaged.h5"
     with Writer(path) as writer:
         writer.append(results()[:1])

@@ -18,9 +18,9 @@ from sweep.store.read import (
     StoreError,
     finished_ids,
     read_attributes,
-    read_cases,
     read_frames,
     read_history,
+    read_runs,
     read_summary,
 )
 from sweep.store.write import Writer
@@ -68,7 +68,7 @@ def test_many_cases_are_read_in_the_order_in_which_they_are_asked_for(path, fold
     ids = [case.case_id for case in cases(9)]
     write(path, cases(9), fold)
     asked = [ids[8], ids[0], ids[5]]
-    found = list(read_cases(path, asked))
+    found = list(read_runs(path, asked))
     assert [case.case_id for case in found] == asked
     for case in found:
         pd.testing.assert_frame_equal(case.history, read_history(path, case.case_id))
@@ -77,7 +77,7 @@ def test_many_cases_are_read_in_the_order_in_which_they_are_asked_for(path, fold
         for name, array in case.frames.items():
             np.testing.assert_array_equal(array, alone[name])
     with pytest.raises(StoreError, match="holds no case zz"):
-        list(read_cases(path, ["zz"]))
+        list(read_runs(path, ["zz"]))
 
 
 def test_newest_curves_of_a_case_are_read(path):
@@ -85,7 +85,7 @@ def test_newest_curves_of_a_case_are_read(path):
     write(path, batch, True)
     with Writer(path) as writer:
         writer.append([failed_result(batch[0], Status.STOPPED, "late")])
-        (case,) = read_cases(path, [batch[0].case_id])
+        (case,) = read_runs(path, [batch[0].case_id])
     assert (len(case.history), case.frames) == (0, {})
 
 

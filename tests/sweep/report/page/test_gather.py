@@ -17,7 +17,14 @@ from sweep.report.page.thinning import work_until
 from sweep.result import Result, Status
 from sweep.store.write import Writer
 from tests.support.results.page_data import expected, sweep
-from tests.support.results.specimens import HEIGHT, squeezed_cell, summary, there_and_back, write
+from tests.support.results.specimens import (
+    HEIGHT,
+    Named,
+    squeezed_cell,
+    summary,
+    there_and_back,
+    write,
+)
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
 NODE = shutil.which("node")
@@ -256,7 +263,7 @@ def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
             "edges": edges,
             "edge_thickness_m": np.full(len(edges), 8e-4),
         }
-        results.append(Result(case_id, Status(status), message, row, history, frames))
+        results.append(Result(Named(case_id), Status(status), message, row, history, frames))
     path = tmp_path / "many.h5"
     with Writer(path) as writer:
         writer.append(results)

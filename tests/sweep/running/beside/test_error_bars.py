@@ -19,7 +19,7 @@ from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
 from sweep.store.read import Rerun, read_attributes, read_summary
 from tests.support.designs.structures import BEAM
-from tests.support.results.standin import forget_version, simulate
+from tests.support.results.standin import make_older, simulate
 
 ENERGY, BAR = "absorbed_energy_J", "error_absorbed_energy_J"
 PRESSED = dict(mode="displacement", strain=0.3)
@@ -276,7 +276,7 @@ def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsy
 def test_error_bars_are_never_of_two_models(out):
     run_sweep(config(), out, simulate=first_order)
     assert add_error_bars(config(), out, simulate=first_order) == 0
-    forget_version(file_beside(out, "companions"))
+    make_older(file_beside(out, "companions"))
     assert add_error_bars(config(), out, simulate=first_order) == 2
     assert read_summary(out)[BAR].isna().all()
     assert add_error_bars(config(), out, rerun=Rerun(older=True), simulate=first_order) == 0
@@ -285,7 +285,7 @@ def test_error_bars_are_never_of_two_models(out):
 
 def test_renewed_companions_are_no_older_rows_of_another_sweep(out):
     run_sweep(config(lattice__nodes_per_wall=(2, 5)), out, simulate=first_order)
-    forget_version(out)
+    make_older(out)
     sweep, renew = config(lattice__nodes_per_wall=(2,)), Rerun(older=True)
     run_sweep(sweep, out, rerun=renew, simulate=first_order)
     assert add_error_bars(sweep, out, rerun=renew, simulate=first_order) == 0

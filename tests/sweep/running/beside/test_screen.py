@@ -98,7 +98,7 @@ def crush(case, stop=None):
         "peak_strain": 0.3,
     }
     status = Status.STOPPED if kind == "brick" else Status.CONVERGED
-    return Result(case.case_id, status, "", measures, found.history, found.frames)
+    return Result(case, status, "", measures, found.history, found.frames)
 
 
 def test_estimates_are_those_of_the_whole_where_walls_are_alike(tmp_path):

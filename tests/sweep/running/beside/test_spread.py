@@ -13,7 +13,7 @@ from sweep.running.beside.spread import (
 )
 from sweep.store.read import read_summary
 from tests.support.materials.records import HEADER
-from tests.support.results.standin import cases, simulate
+from tests.support.results.standin import cases, simulate, write
 
 PRESSED = dict(mode="displacement", strain=0.3)
 FRICTIONS = [f"friction {value:g}" for value in FRICTION]
@@ -84,7 +84,7 @@ def test_only_missing_corners_of_the_best_run(tmp_path):
         return simulate(case)
 
     designs = cases(3)
-    found = corners_of(designs, [designs[1].case_id, "of another config"])
+    found = corners_of(designs, [designs[1].case_id], out)
     assert list(found) == [designs[1].case_id]
     ids = {corner.case_id for corner in found[designs[1].case_id]}
     for _ in range(2):
@@ -94,6 +94,15 @@ def test_only_missing_corners_of_the_best_run(tmp_path):
     assert file_beside(out, "spread").name == "trial.spread.h5"
     assert set(summary["case_id"]) == ids
     assert set(summary["contact.friction"].dropna()) == set(FRICTION)
+
+
+def test_a_design_of_another_config_is_read_and_one_of_this_keeps_its_time_limit(tmp_path):
+    out, (other, own) = tmp_path / "trial.h5", cases(2)
+    write(out, [other, own], fold=True)
+    patient = own.model_copy(update={"solver": own.solver.model_copy(update={"time_limit": 1e4})})
+    found = corners_of([patient], [other.case_id, own.case_id], out)
+    assert found[other.case_id] == corners(other)
+    assert {corner.case.solver.time_limit for corner in found[own.case_id]} == {1e4}
 
 
 def test_lattices_fold_along_their_cells_in_other_ways():

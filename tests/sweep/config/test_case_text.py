@@ -1,0 +1,114 @@
+"""A case as text: written and read without any file, and refused with a sentence if it is none."""
+
+import json
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.load import load_config
+from sweep.config.materials import material_file
+from sweep.config.reading.examples import examples
+from sweep.config.structures import structure_file
+
+# The cases of "search" are chosen by a search; to expand "extreme" takes three seconds.
+EXAMPLES = sorted({*examples()} - {"search", "extreme"})
+LOADINGS = {
+    "force": dict(force=3.0),
+    "crush": dict(strain=0.4, cycles=2, hold_time=1.0),
+    "impact": dict(drop_height=0.5, striker_mass=0.1),
+    "along": dict(direction="out_of_plane"),
+    "impact along": dict(direction="out_of_plane", energy=0.2),
+}
+LATTICES = {
+    "mass": dict(width=25e-3, mass=3e-3),
+    "share": dict(kind="hex", width=25e-3, height=20e-3, infill=0.15),
+    "graded": dict(kind="diamond", grading=1.5, perimeters=1),
+    "sliced": dict(slicer="orca", pattern="grid", infill=0.2, width=25e-3),
+    "sliced by mass": dict(slicer="prusa", pattern="triangles", mass=5e-3, width=25e-3),
+}
+LABELS = {"lattice.cells_x": 3, "lattice.width": 2.0, "lattice.kind": "hex", "material.loss": None}
+CUSTOM = load_config("custom").cases[0]
+
+
+def assert_kept(case):
+    text = case.to_json()
+    again = Case.from_json(text)
+    assert (again, again.case_id, again.axes) == (case, case.case_id, case.axes)
+    assert [*map(type, again.axes.values())] == [*map(type, case.axes.values())]
+    assert again.to_json() == text
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_cases_of_examples_are_kept(name):
+    cases = load_config(name).cases
+    for case in cases[:: max(1, len(cases) // 10)]:
+        assert_kept(case)
+
+
+@pytest.mark.parametrize("lattice", LATTICES.values(), ids=[*LATTICES])
+@pytest.mark.parametrize("loading", LOADINGS.values(), ids=[*LOADINGS])
+def test_every_lattice_is_kept_under_every_loading(lattice, loading):
+    if "slicer" in lattice and "direction" in loading:
+        lattice = dict(kind="kagome", cells_x=2, cells_y=2)  # no slicer lays it on end
+    assert_kept(Case.of(lattice=lattice, loading=loading, material=dict(loss=0.4), axes=LABELS))
+
+
+def test_periods_and_quarters_are_kept():
+    crush = dict(mode="displacement", strain=0.3)
+    assert_kept(Case.of(lattice=dict(boundary="periodic"), loading=crush))
+    assert_kept(Case.of(lattice=dict(symmetry="quarter"), loading=LOADINGS["along"]))
+
+
+def test_no_file_is_read(monkeypatch, tmp_path):
+    texts = [CUSTOM.to_json(), Case.of(material=dict(name="cheetah")).to_json()]
+    monkeypatch.setattr(material_file, "FOLDER", tmp_path)
+    monkeypatch.setattr(structure_file, "read_structure", None)
+    monkeypatch.chdir(tmp_path)
+    assert [Case.from_json(text).to_json() for text in texts] == texts
+
+
+def edited(case, table, **values):
+    tables = json.loads(case.to_json())
+    tables[table] |= values
+    return json.dumps({key: value for key, value in tables.items() if value is not None})
+
+
+def without(case, table, key):
+    tables = json.loads(case.to_json())
+    del tables[table][key]
+    return json.dumps(tables)
+
+
+FAR = json.loads(CUSTOM.to_json())["lattice"]["structure"] | {"probes": [99]}
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("", "EOF"),
+        ("[" * 10_000, "recursion limit"),
+        ("[]", "should be an object"),
+        ('{"lattice": 1, "material": {}}', "lattice.cells: Input should be an object"),
+        (
+            edited(Case.of(), "lattice", cells_x=0),
+            "cells_x: .*greater than or equal to 1",
+        ),
+        (edited(Case.of(), "lattice", cells=3), "lattice.cells.cells: "),
+        (edited(Case.of(), "lattice", mass="heavy"), "lattice.cells.mass: .*valid number"),
+        (edited(Case.of(), "lattice", mass=-1.0), "mass: .*greater than 0"),
+        (edited(Case.of(), "loading", force=float("nan")), "finite|expected value"),
+        (edited(Case.of(), "lattice", wall_thickness=3e-3), "narrowest cell"),
+        (edited(Case.of(), "lattice", nodes_per_wall=1000, cells_x=90), "at most 50,000"),
+        (edited(Case.of(), "loading", mode="displacement"), "loading.displacement"),
+        (edited(Case.of(), "lattice", kind="custom"), "path of a .json file"),
+        (edited(Case.of(), "lattice", structure=FAR), "lattice.custom"),
+        (edited(CUSTOM, "lattice", structure=FAR), r"probes\[0\] = 99: no such node"),
+        (edited(CUSTOM, "lattice", structure=None, file="custom.json"), "should be an object"),
+        (without(CUSTOM, "lattice", "structure"), "lattice.cells"),
+        (without(Case.of(), "material", "curve_strain"), "as no curve is given"),
+    ],
+)
+def test_other_texts_are_refused_with_a_line(text, line):
+    with pytest.raises(ValueError, match=line) as refused:
+        Case.from_json(text)
+    assert "\n" not in str(refused.value)

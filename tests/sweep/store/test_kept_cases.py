@@ -1,0 +1,122 @@
+"""The case of every row: kept in parts and in the folded file, read only when it is asked for."""
+
+import h5py
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.load import load_config
+from sweep.result import Status, failed_result
+from sweep.store import parts
+from sweep.store.batch import FORMAT
+from sweep.store.read import StoreError, read_case, read_runs, read_summary
+from sweep.store.write import Writer
+from tests.support.results.specimens import summary
+from tests.support.results.specimens import write as write_made_up
+from tests.support.results.standin import cases, parts_of, write
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "armor.h5"
+
+
+def every_kind():
+    """Cases of very different texts, some of which failed before they had curves."""
+    return [
+        load_config("custom").cases[0],
+        Case.of(lattice=dict(slicer="orca", pattern="grid", mass=5e-3, width=25e-3)),
+        Case.of(lattice=dict(boundary="periodic"), loading=dict(strain=0.3)),
+        Case.of(loading=dict(direction="out_of_plane")),
+        *cases(40),
+    ]
+
+
+def failed(batch):
+    return [failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch]
+
+
+@pytest.mark.parametrize("folded", [False, True])
+def test_cases_are_read_as_they_were(path, folded, monkeypatch):
+    monkeypatch.setattr(parts, "MERGE_AT", 4)
+    batch = every_kind()
+    with Writer(path) as writer:
+        for begin in range(0, len(batch), 5):
+            writer.append(failed(batch[begin : begin + 5]))
+        if folded:
+            writer.fold()
+    assert bool(parts_of(path)) is not folded
+    for case in batch:
+        assert read_case(path, case.case_id) == case
+        assert read_case(path, case.case_id).axes == case.axes
+
+
+def test_fold_after_fold_keeps_the_cases_of_all_runs(path):
+    """Also where rows of the file are computed again, and others come between them."""
+    write(path, cases(5), fold=True)
+    write(path, cases(5, first=3))
+    with Writer(path, {case.case_id: case.axes for case in reversed(cases(10))}) as writer:
+        writer.append(failed(cases(2, first=7)))
+        writer.fold(failed(cases(2, first=8)))
+    assert list(read_summary(path)["case_id"]) == [c.case_id for c in reversed(cases(10))]
+    for case in cases(10):
+        assert read_case(path, case.case_id) == case
+
+
+def test_texts_of_neighbours_cost_few_bytes(path):
+    write(path, cases(300), fold=True, size=300)
+    with h5py.File(path) as file:
+        data = file["cases/values/json"]
+        assert data.shape[0] == sum(len(case.to_json()) for case in cases(300))
+        assert data.id.get_storage_size() < 150 * 300
+
+
+def broken(path):
+    """Zeros in place of the first texts, which their checksum tells from others."""
+    with h5py.File(path) as file:
+        piece = file["cases/values/json"].id.get_chunk_info(0)
+    content = bytearray(path.read_bytes())
+    content[piece.byte_offset : piece.byte_offset + piece.size] = bytes(piece.size)
+    path.write_bytes(content)
+
+
+def test_only_who_asks_for_a_case_reads_it(path):
+    write(path, cases(5), fold=True)
+    broken(path)
+    ids = list(read_summary(path)["case_id"])
+    assert len(list(read_runs(path, ids))) == 5
+    with pytest.raises(StoreError, match="is damaged"):
+        read_case(path, ids[0])
+
+
+def test_text_that_is_no_case_is_refused_by_name(path):
+    write_made_up(path, summary({"case_id": "ab"}))
+    with pytest.raises(
+        StoreError, match=r"armor.h5 holds no usable case ab: lattice: Field required"
+    ):
+        read_case(path, "ab")
+    with pytest.raises(StoreError, match="holds no case zz"):
+        read_case(path, "zz")
+
+
+def test_case_of_another_id_is_refused(path):
+    with Writer(path) as writer:
+        writer.append(failed(cases(1)))
+        writer.fold()
+    with h5py.File(path, "r+") as file:
+        ids = file["summary/case_id"]
+        ids[:] = np.array(["0123456789abcdef"], dtype=object)
+    with pytest.raises(StoreError, match=f"0123456789abcdef: it is case {cases(1)[0].case_id}"):
+        read_case(path, "0123456789abcdef")
+
+
+@pytest.mark.parametrize("other", [FORMAT - 1, FORMAT + 1])
+def test_file_of_another_format_is_refused_with_advice(path, other):
+    write(path, cases(2), fold=True)
+    with h5py.File(path, "r+") as file:
+        file.attrs["format"] = other
+    wrong = f"of format {other}; this Crumple reads format {FORMAT}: move it away, and `crumple run"
+    for ask in (read_summary, lambda path: write(path, cases(1))):
+        with pytest.raises(StoreError, match=wrong) as refused:
+            ask(path)
+        assert "\n" not in str(refused.value)
