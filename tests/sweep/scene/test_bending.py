@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case, Lattice, Loading, Material, Solver
+from sweep.config.case import Case, Contact, Damping, Lattice, Loading, Material, Solver
 from sweep.result import Status
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
@@ -54,6 +54,24 @@ def test_walls_without_bending_have_neither_rotations_nor_arcs():
     assert not terms.bend.stiffness.any()
     assert not terms.stretch.arc.any()
     assert np.all(terms.layout.leader[terms.walls.dofs[:, [2, 5]]] == -1)
+
+
+@pytest.mark.parametrize("measure", ["angle", "tangent"])
+def test_walls_without_bending_fold(measure):
+    """Elements turn by more than the 90 degrees at which the measure "tangent" is infinite."""
+    case = Case(
+        material=MATERIAL.model_copy(update={"bend": "none"}),
+        loading=Loading(force=13.0, duration=0.03),
+        contact=Contact(model="none"),
+        damping=Damping(model="rayleigh", stiffness=1e-4),
+        solver=Solver(element="classical", bend_measure=measure),
+    )
+    result = simulate(case)
+    assert result.status == "converged", result.message
+    last, top = result.frames["position_m"][-1], result.history["top_displacement_m"][-1]
+    assert abs(result.summary["energy_residual_J"]) < 1e-6 * result.summary["absorbed_energy_J"]
+    assert top > 2.0 * case.lattice.height
+    assert last[:, 1].min() < -case.lattice.height
 
 
 @pytest.mark.parametrize("measure", ["angle", "tangent"])
