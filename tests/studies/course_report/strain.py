@@ -1,15 +1,13 @@
 """Vertical strain of the top row over time."""
 
-from pathlib import Path
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
+from tests.studies.panels import curves, legend, title
 
 BUCKLED = 0.05  # strain above which a lattice has buckled
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Fig. 7 of the report: buckling, first contact of rows, release."""
     barrier = varied(report(), contact={"model": "barrier"})
     cases = {"the report's model": report(), "with the barrier": barrier, "our model": ours()}

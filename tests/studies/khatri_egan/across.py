@@ -4,11 +4,9 @@
 of each kind of platens is a base case; every other case changes one key.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,13 +15,9 @@ from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.store.read import read_history, read_summary
-from sweep.studies.course_report.panels import dress, legend
+from tests.studies.panels import dress, legend
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from pandas import DataFrame, Series
-
-CONFIG = Path(__file__).parents[2] / "configs" / "khatri_egan_square.toml"
+CONFIG = Path(__file__).parents[3] / "configs" / "khatri_egan_square.toml"
 # N. R. Khatri and P. F. Egan 2024, mean and scatter of three specimens.
 MEASURED, SCATTER = 0.12, 0.018  # J
 MEASURED_PEAKS = 3
@@ -45,7 +39,7 @@ class Factor(NamedTuple):
     unit: str = ""
     scale: float = 1.0
 
-    def text(self, value: Any) -> str:
+    def text(self, value):
         """A value in words."""
         return value if isinstance(value, str) else f"{value / self.scale:g} {self.unit}".strip()
 
@@ -67,7 +61,7 @@ FACTORS = {
 }
 
 
-def predictions(path: Path) -> DataFrame:
+def predictions(path):
     """The summary of a results file, with the key and the value that each case changes.
 
     Added columns: `factor` and `value` in words, "" in a base case; `peaks`, number of load peaks.
@@ -82,7 +76,7 @@ def predictions(path: Path) -> DataFrame:
     )
 
 
-def _change(row: Series, base: Series) -> tuple[str, str]:
+def _change(row, base):
     """The name of the key that a case changes, and its value in words."""
     for key, factor in FACTORS.items():
         if row[key] == row[key] and row[key] != base[key]:
@@ -90,7 +84,7 @@ def _change(row: Series, base: Series) -> tuple[str, str]:
     return "", ""
 
 
-def load_peaks(force: np.ndarray) -> int:
+def load_peaks(force):
     """Number of peaks of a load (rows,): drops by `DROP` of the peak before a higher load."""
     from scipy.signal import find_peaks
 
@@ -98,7 +92,7 @@ def load_peaks(force: np.ndarray) -> int:
     return int(np.sum(found["prominences"] >= DROP * force[peaks]))
 
 
-def sheet(table: DataFrame) -> Sheet:
+def sheet(table):
     """A table of all cases, one row per case."""
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
@@ -117,11 +111,11 @@ def sheet(table: DataFrame) -> Sheet:
     return Sheet("", list(columns), rows, notes=(verdict(table),))
 
 
-def _digits(values: Series) -> list[str]:
+def _digits(values):
     return [three_digits(value) for value in values]
 
 
-def verdict(table: DataFrame) -> str:
+def verdict(table):
     """Sentences that compare the range of predictions with the measurement."""
     done = _converged(table)
     energy, base = done["absorbed_energy_J"], _bases(done)
@@ -142,26 +136,26 @@ def verdict(table: DataFrame) -> str:
     )
 
 
-def _stroke(table: DataFrame) -> str:
+def _stroke(table):
     return f"{1e3 * table['stroke_m'].iloc[0]:g} mm"
 
 
-def _converged(table: DataFrame) -> DataFrame:
+def _converged(table):
     return table[table["status"] == "converged"]
 
 
-def _bases(table: DataFrame) -> Series:
+def _bases(table):
     """Energy of the base case for each kind of platens."""
     return table[table["factor"] == ""].set_index("platen")["absorbed_energy_J"]
 
 
-def tornado(ax: Axes, table: DataFrame) -> None:
+def tornado(ax, table):
     """Range of absorbed energies of the cases that change a factor, one bar per kind of platens."""
     done = _converged(table)
     base, changed = _bases(done), done[done["factor"] != ""]
     off = (changed["absorbed_energy_J"] - changed["platen"].map(base)).abs()
     factors = off.groupby(changed["factor"]).max().sort_values().index
-    band: Any = {"color": case_plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
+    band = {"color": case_plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
     ax.axvspan(MEASURED - SCATTER, MEASURED + SCATTER, lw=0, **band)
     for row, (platen, (words, color)) in enumerate(PLATENS.items()):
         ax.axvline(base[platen], color=color, lw=1.2, zorder=1)
@@ -176,14 +170,14 @@ def tornado(ax: Axes, table: DataFrame) -> None:
     ax.set(xlim=(0.0, 1.12 * done["absorbed_energy_J"].max()), ylim=(-0.6, len(factors) - 0.4))
 
 
-def _base_value(table: DataFrame, name: str) -> str:
+def _base_value(table, name):
     """The value of a factor in the base case, if it has one."""
     key = next(key for key, factor in FACTORS.items() if factor.name == name)
     value = table[key].iloc[0]
     return f": {FACTORS[key].text(value)}" if value == value else ""
 
 
-def _bar(ax: Axes, y: float, energies: Series, base: float, color: str) -> None:
+def _bar(ax, y, energies, base, color):
     """A bar from the least to the greatest energy, base included, labelled with the values."""
     low, high = min(base, energies.min()), max(base, energies.max())
     ax.barh(y, high - low, left=low, height=0.25, color=color)
@@ -196,7 +190,7 @@ def _bar(ax: Axes, y: float, energies: Series, base: float, color: str) -> None:
                         va="center", fontsize="x-small")  # fmt: skip
 
 
-def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
+def curves(axes, path, table):
     """Load and absorbed energy over travel: the base cases, the extremes, and all others."""
     done = _converged(table)
     energy = done["absorbed_energy_J"]
@@ -215,20 +209,20 @@ def curves(axes: tuple[Axes, Axes], path: Path, table: DataFrame) -> None:
     for case_id in done["case_id"]:
         past = read_history(path, case_id)
         words, color = named.get(case_id, ("", case_plots.PLATEN))
-        look: Any = {"color": color, "lw": 2.0 if words else 0.7, "zorder": 3 if words else 2}
+        look = {"color": color, "lw": 2.0 if words else 0.7, "zorder": 3 if words else 2}
         travel = 1e3 * past["top_displacement_m"]
         axes[0].plot(travel, past["reaction_top_N"], label=words or None, **look)
         axes[1].plot(travel, past["work_in_J"], **look)
     _measured(axes, float(table["stroke_m"].iloc[0]))
 
 
-def _measured(axes: tuple[Axes, Axes], stroke: float) -> None:
+def _measured(axes, stroke):
     """The measured values, and the names of the axes."""
     load, work = axes
     mean = MEASURED / stroke
     load.axhline(mean, color="black", lw=1.0, ls=":", label=f"measured mean, {mean:.3g} N")
     whole = f"measured, {MEASURED:g} ± {SCATTER:g} J"
-    look: Any = {"fmt": "o", "color": "black", "capsize": 4, "zorder": 4, "label": whole}
+    look = {"fmt": "o", "color": "black", "capsize": 4, "zorder": 4, "label": whole}
     work.errorbar(1e3 * stroke, MEASURED, SCATTER, **look)
     dress(load, "travel of the platen, mm", "load, N")
     dress(work, "travel of the platen, mm", "absorbed energy, J")
@@ -236,7 +230,7 @@ def _measured(axes: tuple[Axes, Axes], stroke: float) -> None:
     work.set_ylim(bottom=0.0)
 
 
-def report(path: Path) -> str:
+def report(path):
     """Write the pictures and the table of a results file beside it; return the table."""
     table, folder = predictions(path), path.parent
     text = markdown([sheet(table)])
@@ -252,7 +246,7 @@ def report(path: Path) -> str:
     return text
 
 
-def main(folder: Path) -> None:
+def main(folder):
     """Simulate the cases that the results file in a folder lacks, and report."""
     from sweep.config.units import load_config
     from sweep.running.sweep import run_sweep

@@ -10,8 +10,8 @@ from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
-from sweep.studies.course_report.cases import varied
-from sweep.studies.khatri_egan import (
+from tests.studies.course_report.cases import varied
+from tests.studies.khatri_egan.across import (
     CONFIG,
     FACTORS,
     MEASURED,

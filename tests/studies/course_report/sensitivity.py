@@ -1,13 +1,10 @@
 """The effect of each value that the report does not state."""
 
-from pathlib import Path
-from typing import Any
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, coarse, history, run, share, varied
-from sweep.studies.course_report.panels import dress, title
+from tests.studies.course_report.cases import HELD, at, coarse, history, run, share, varied
+from tests.studies.panels import dress, title
 
-CHOICES: dict[str, dict[str, Any]] = {
+CHOICES = {
     "as chosen": {},
     "force 11 N": {"loading": {"force": 11.0}},
     "force 12 N": {"loading": {"force": 12.0}},
@@ -29,7 +26,7 @@ CHOICES: dict[str, dict[str, Any]] = {
 }
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Strain under the load, and bending / stretching energy, for each changed value."""
     cases = {name: varied(coarse(), **changes) for name, changes in CHOICES.items()}
     figure = case_plots.blank(9.0, 4.6)

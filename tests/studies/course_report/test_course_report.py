@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sweep.studies.course_report import __main__ as drawn
-from sweep.studies.course_report.cases import history, ours, report, run, share, varied
+from tests.studies.course_report import __main__ as drawn
+from tests.studies.course_report.cases import history, ours, report, run, share, varied
 
 PACKAGE = Path(drawn.__file__).parent
 PNG = b"\x89PNG"

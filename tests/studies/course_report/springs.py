@@ -1,14 +1,12 @@
 """The network of springs, without bending and contact."""
 
-from pathlib import Path
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import history, report, run, varied
+from tests.studies.course_report.cases import history, report, run, varied
 
 SHORT = {"duration": 0.03, "release_time": 0.03}
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Fig. 3 of the report: neither bending nor contact."""
     bent = varied(report(), contact={"model": "none"}, loading=SHORT)
     loose = varied(bent, material={"bend": "none"})

@@ -1,21 +1,18 @@
 """Barrier and contact by position: errors of the energy for each time step."""
 
-from pathlib import Path
-
 import numpy as np
 
-from sweep.config.case import Case
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import at, history, report, run, varied
-from sweep.studies.course_report.panels import curves, legend, ticks, title
-from sweep.studies.course_report.springs import SHORT
+from tests.studies.course_report.cases import at, history, report, run, varied
+from tests.studies.course_report.springs import SHORT
+from tests.studies.panels import curves, legend, ticks, title
 
 STEPS = (1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6)  # s
 MODELS = {"position_based": "by position", "barrier": "barrier"}
 HELD = SHORT["duration"]
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Energy error over the time step."""
     pasts = {words: [history(_case(model, dt)) for dt in STEPS] for model, words in MODELS.items()}
     work = at(pasts["barrier"][-1], "work_in_J", HELD)
@@ -68,7 +65,7 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _case(model: str, dt: float) -> Case:
+def _case(model, dt):
     frictionless = {} if model == "position_based" else {"friction": 0.0}
     return varied(report(), contact={"model": model, **frictionless}, loading=SHORT,
                   solver={"time_step": dt})  # fmt: skip

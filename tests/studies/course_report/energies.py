@@ -1,12 +1,8 @@
 """Energies over time, and the ratio of bending energy to stretching energy."""
 
-from pathlib import Path
-
-from pandas import DataFrame
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, history, ours, report, run, share, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import HELD, at, history, ours, report, run, share, varied
+from tests.studies.panels import curves, legend, title
 
 STANDING = 12.0  # N
 STEPS = (1e-4, 5e-5, 2e-5, 1e-5)  # s
@@ -18,7 +14,7 @@ SHOWN = {
 }
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Fig. 8 of the report."""
     pasts = {"the report's model": history(report()), "our model": history(ours())}
     figure = case_plots.blank(9.0, 6.0)
@@ -58,5 +54,5 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _both(past: DataFrame) -> str:
+def _both(past):
     return f"{1e3 * at(past, 'bend_J'):.0f} and {1e3 * at(past, 'stretch_J'):.0f} mJ"

@@ -6,9 +6,9 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.running.sweep import run_sweep
-from sweep.studies import khatri_egan as across
-from sweep.studies.course_report.cases import varied
-from sweep.studies.khatri_egan_along import (
+from tests.studies.course_report.cases import varied
+from tests.studies.khatri_egan import across
+from tests.studies.khatri_egan.along import (
     COMPARED,
     CONFIGS,
     MEASURED,
