@@ -25,6 +25,7 @@ from sweep.ranking.rank import rank
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_summary
 from tests.support import readme
+from tests.support.converged import converged, demand
 
 FRAME = {0.05: 11.62, 0.1: 12.04, 0.3: 13.93}
 SOLID = {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}
@@ -45,7 +46,7 @@ def pressed(pieces, strain, contact, **solver):
         contact=Contact(model=contact, friction=0.0),
         solver=Solver(load_steps=round(100 * strain), **{"joints": "points"} | solver),
     )
-    return simulate(case)
+    return converged(case)
 
 
 def loaded(force, contact="none", platen="none", **solver):
@@ -57,7 +58,7 @@ def loaded(force, contact="none", platen="none", **solver):
         damping=Damping(model="none"),
         solver=Solver(time_step=1e-3, joints="points", **solver),
     )
-    return simulate(case)
+    return converged(case)
 
 
 def beside(name, found, reference, digits):
@@ -125,6 +126,7 @@ def crush_rows(file):
     """Spread over the crushes of a sweep of what tells whether its energies mean something."""
     summary = read_summary(file)
     crushes = summary[summary["loading_mode"] == "displacement"]
+    demand(crushes.to_dict("records"))
     yield [f"the {len(crushes)} crushes of `make sweep`", "least", "median", "greatest"]
     returned = 100.0 * crushes["returned_energy_J"] / crushes["absorbed_energy_J"]
     squeezed = 1.0 + crushes["least_element_strain"]

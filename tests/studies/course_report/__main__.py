@@ -41,9 +41,10 @@ def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     for name, draw in FIGURES.items():
         started = time.monotonic()
+        sys.stdout.write(f"{folder / name}.md  ")
+        sys.stdout.flush()  # a case that does not converge ends the program
         caption(folder / f"{name}.md", draw(folder))
-        sys.stdout.write(f"{folder / name}.md  {time.monotonic() - started:.0f} s\n")
-        sys.stdout.flush()
+        sys.stdout.write(f"{time.monotonic() - started:.0f} s\n")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
 from sweep.config.units import load_config
 from sweep.simulation.simulate import simulate
+from tests.support.converged import demand
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
 HELD = 0.137  # s, just before the load is removed
@@ -46,29 +47,49 @@ def varied(case, **changes):
         tables["loading"], tables["solver"] = {}, {**tables["solver"]}
         for key in ("integrator", "time_step"):
             tables["solver"].pop(key)
+    axes = dict(case.axes)
     for name, change in changes.items():
         tables[name] |= change
-    return Case(**{name: TABLES[name](**table) for name, table in tables.items()})
+        axes |= {f"{name}.{key}": value for key, value in change.items()}
+    return Case(**{name: TABLES[name](**table) for name, table in tables.items()}, axes=axes)
 
 
 _results = {}
 
 
+def converges(case):
+    """Whether a case converges, for figures that say of which steps in time it does not."""
+    return _attempt(case).status == "converged"
+
+
 def run(case):
-    """Result of a case."""
+    """Result of a case, which has to converge."""
+    result = _attempt(case)
+    demand([{**result.summary, "axes": case.axes}])
+    return result
+
+
+def _attempt(case):
     if case.case_id not in _results:
         _results[case.case_id] = simulate(case)
     return _results[case.case_id]
 
 
 def history(case):
-    """Curves of a case."""
+    """Curves of a case, which has to converge."""
     return DataFrame(dict(run(case).history))
 
 
 def at(curves, column, time=HELD):
     """Value of a column at a time (s)."""
     return float(np.interp(time, curves["time_s"], curves[column]))
+
+
+def first(curves, reached):
+    """Time (s) of the first row at which something is ``reached`` (rows,), which happens."""
+    if not reached.any():
+        raise ValueError("what the caption tells the time of never happens")
+    return float(curves["time_s"][reached.idxmax()])
 
 
 def share(curves, time=HELD):

@@ -9,13 +9,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from scipy.signal import find_peaks
 
+from sweep.config.units import load_config
 from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
+from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
 from tests.studies.panels import dress, legend
+from tests.support.converged import demand
 
 CONFIG = Path(__file__).parents[3] / "configs" / "khatri_egan_square.toml"
 # N. R. Khatri and P. F. Egan 2024, mean and scatter of three specimens.
@@ -67,6 +71,7 @@ def predictions(path):
     Added columns: `factor` and `value` in words, "" in a base case; `peaks`, number of load peaks.
     """
     table = read_summary(path)
+    demand(table.to_dict("records"))
     changes = [_change(row, table.iloc[0]) for _, row in table.iterrows()]
     loads = [read_history(path, case_id)["reaction_top_N"] for case_id in table["case_id"]]
     return table.assign(
@@ -86,8 +91,6 @@ def _change(row, base):
 
 def load_peaks(force):
     """Number of peaks of a load (rows,): drops by `DROP` of the peak before a higher load."""
-    from scipy.signal import find_peaks
-
     peaks, found = find_peaks(force, prominence=0.0)
     return int(np.sum(found["prominences"] >= DROP * force[peaks]))
 
@@ -105,7 +108,6 @@ def sheet(table):
         "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
         "least element strain": [f"{strain:.2f}" for strain in table["least_element_strain"]],
         "kept area": [f"{share:.2f}" for share in table["kept_area"]],
-        "status": [row.message or row.status for row in table.itertuples()],
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
     return Sheet("", list(columns), rows, notes=(verdict(table),))
@@ -117,9 +119,8 @@ def _digits(values):
 
 def verdict(table):
     """Sentences that compare the range of predictions with the measurement."""
-    done = _converged(table)
-    energy, base = done["absorbed_energy_J"], _bases(done)
-    ranges = energy.groupby(done["platen"]).agg(["min", "max"])
+    energy, base = table["absorbed_energy_J"], _bases(table)
+    ranges = energy.groupby(table["platen"]).agg(["min", "max"])
     predicted = "; ".join(
         f"{PLATENS[name][0]}: {base[name]:.3f} J in the base case, {low:.3f} to {high:.3f} J in all"
         for name, (low, high) in zip(ranges.index, ranges.to_numpy(), strict=True)
@@ -127,21 +128,16 @@ def verdict(table):
     hits = int((abs(energy - MEASURED) <= SCATTER).sum())
     return (
         f"Energy absorbed up to {_stroke(table)}, platens {predicted}. Measured: {MEASURED:g} +/- "
-        f"{SCATTER:g} J; {hits} of {len(table)} cases are within this range, "
-        f"{len(table) - len(done)} did not converge. "
-        f"Load peaks: {done['peaks'].min()} to {done['peaks'].max()}; measured: {MEASURED_PEAKS}. "
-        f"The model is not validated for a crush by {100 * done['peak_strain'].max():.0f} %: the "
-        f"shortest element has {1 + done['least_element_strain'].min():.2f} of its rest length, "
-        f"and the walls cover at least {done['kept_area'].min():.2f} of the printed area."
+        f"{SCATTER:g} J; {hits} of {len(table)} cases are within this range. Load peaks: "
+        f"{table['peaks'].min()} to {table['peaks'].max()}; measured: {MEASURED_PEAKS}. "
+        f"The model is not validated for a crush by {100 * table['peak_strain'].max():.0f} %: the "
+        f"shortest element has {1 + table['least_element_strain'].min():.2f} of its rest length, "
+        f"and the walls cover at least {table['kept_area'].min():.2f} of the printed area."
     )
 
 
 def _stroke(table):
     return f"{1e3 * table['stroke_m'].iloc[0]:g} mm"
-
-
-def _converged(table):
-    return table[table["status"] == "converged"]
 
 
 def _bases(table):
@@ -151,8 +147,7 @@ def _bases(table):
 
 def tornado(ax, table):
     """Range of absorbed energies of the cases that change a factor, one bar per kind of platens."""
-    done = _converged(table)
-    base, changed = _bases(done), done[done["factor"] != ""]
+    base, changed = _bases(table), table[table["factor"] != ""]
     off = (changed["absorbed_energy_J"] - changed["platen"].map(base)).abs()
     factors = off.groupby(changed["factor"]).max().sort_values().index
     band = {"color": case_plots.PLATEN, "label": f"measured, {MEASURED:g} ± {SCATTER:g} J"}
@@ -167,7 +162,7 @@ def tornado(ax, table):
     dress(ax, f"energy absorbed up to {_stroke(table)}, J", "")
     ax.set_yticks(range(len(factors)), [f"{name}{_base_value(table, name)}" for name in factors])
     ax.grid(visible=False, axis="y")
-    ax.set(xlim=(0.0, 1.12 * done["absorbed_energy_J"].max()), ylim=(-0.6, len(factors) - 0.4))
+    ax.set(xlim=(0.0, 1.12 * table["absorbed_energy_J"].max()), ylim=(-0.6, len(factors) - 0.4))
 
 
 def _base_value(table, name):
@@ -192,9 +187,8 @@ def _bar(ax, y, energies, base, color):
 
 def curves(axes, path, table):
     """Load and absorbed energy over travel: the base cases, the extremes, and all others."""
-    done = _converged(table)
-    energy = done["absorbed_energy_J"]
-    bases = done[done["factor"] == ""]
+    energy = table["absorbed_energy_J"]
+    bases = table[table["factor"] == ""]
     named = {
         row.case_id: (f"platens {PLATENS[row.platen][0]}", PLATENS[row.platen][1])
         for row in bases.itertuples()
@@ -203,10 +197,10 @@ def curves(axes, path, table):
         (energy.idxmin(), case_plots.PURPLE),
         (energy.idxmax(), case_plots.VERMILION),
     ):
-        row = done.loc[place]
+        row = table.loc[place]
         words = f"{PLATENS[row['platen']][0]}, {row['factor']} {row['value']}"
         named.setdefault(row["case_id"], (words, color))
-    for case_id in done["case_id"]:
+    for case_id in table["case_id"]:
         past = read_history(path, case_id)
         words, color = named.get(case_id, ("", case_plots.PLATEN))
         look = {"color": color, "lw": 2.0 if words else 0.7, "zorder": 3 if words else 2}
@@ -248,9 +242,6 @@ def report(path):
 
 def main(folder):
     """Simulate the cases that the results file in a folder lacks, and report."""
-    from sweep.config.units import load_config
-    from sweep.running.sweep import run_sweep
-
     config = load_config(CONFIG)
     path = folder / f"{config.name}.h5"
     run_sweep(config, path)

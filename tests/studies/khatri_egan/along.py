@@ -10,13 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
+from sweep.config.grid import expand
+from sweep.config.units import load_config
 from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
+from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
 from tests.studies.khatri_egan import across
 from tests.studies.panels import dress, legend
+from tests.support.converged import demand
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 NAMES = {
@@ -50,6 +54,7 @@ def first_peak(force):
 def predictions(path):
     """The summary of a results file, with `to_half_J`, to 50 % strain, and `first_peak_N`."""
     table = read_summary(path)
+    demand(table.to_dict("records"))
     histories = [read_history(path, case_id) for case_id in table["case_id"]]
     return table.assign(
         to_half_J=[energy_at(history, HALF) for history in histories],
@@ -68,7 +73,6 @@ def sheet(cells, table, others):
         "absorbed, J": _digits(table["absorbed_energy_J"]),
         "iterations": [f"{count:,}" for count in table["newton_iterations"]],
         "CPU, s": _digits(table["cpu_s"]),
-        "status": [row.message or row.status for row in table.itertuples()],
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
     return Sheet(cells, list(columns), rows, notes=tuple(_notes(cells, table, others)))
@@ -80,15 +84,12 @@ def _digits(values):
 
 def _notes(cells, table, others):
     """Sentences on the range of predictions, and what is known beside it."""
-    done = table[table["status"] == "converged"]
-    energy, stroke = done["absorbed_energy_J"], 1e3 * table["stroke_m"].iloc[0]
+    energy, stroke = table["absorbed_energy_J"], 1e3 * table["stroke_m"].iloc[0]
     solid = table["solid_strain"].iloc[0]
-    lost = len(table) - len(done)
     yield (
-        f"Energy absorbed up to {stroke:g} mm: {_span(energy)} J"
-        f"{f'; {lost} of {len(table)} cases did not converge' if lost else ''}. Up to "
+        f"Energy absorbed up to {stroke:g} mm: {_span(energy)} J. Up to "
         f"{100 * solid:.0f} %, where the walls fill the pressed area: "
-        f"{_span(done['absorbed_energy_within_model_J'])} J."
+        f"{_span(table['absorbed_energy_within_model_J'])} J."
     )
     if cells not in MEASURED:
         yield "Not compared with any measurement."
@@ -96,7 +97,7 @@ def _notes(cells, table, others):
     mean, scatter = MEASURED[cells]
     hits = int((abs(energy - mean) <= scatter).sum())
     yield f"Measured: {mean:g} +/- {scatter:g} J; {hits} of {len(table)} cases are within it."
-    along = energy[done["contact.friction"] == COMPARED]
+    along = energy[table["contact.friction"] == COMPARED]
     results = "; ".join(
         f"{across.PLATENS[row.platen][0]}, {row.absorbed_energy_J:.3f} J: "
         f"{_span(along / row.absorbed_energy_J, 1)}"
@@ -113,10 +114,10 @@ def _span(values, digits=2):
 
 
 def curves(axes, path, cells, table):
-    """Load and absorbed energy over travel, of the cases that converged."""
+    """Load and absorbed energy over travel."""
     load, work = axes
     friction, greatest = sorted(set(table["contact.friction"])), 0.0
-    for row in table[table["status"] == "converged"].to_dict("records"):
+    for row in table.to_dict("records"):
         past = read_history(path, row["case_id"])
         words, color = PLATENS[row["platen"]]
         dashes = DASHES[friction.index(row["contact.friction"])]
@@ -155,15 +156,11 @@ def report(folder):
 def bases_across(folder):
     """The summary of the base cases across the cells that are in a folder."""
     table = across.predictions(folder / f"{across.CONFIG.stem}.h5")
-    return table[(table["factor"] == "") & (table["status"] == "converged")]
+    return table[table["factor"] == ""]
 
 
 def main(folder):
     """Simulate the cases that the results files in a folder lack, and report."""
-    from sweep.config.grid import expand
-    from sweep.config.units import load_config
-    from sweep.running.sweep import run_sweep
-
     folder.mkdir(parents=True, exist_ok=True)
     every = expand(load_config(across.CONFIG))
     bases = {case.loading.platen: case for case in reversed(every)}
