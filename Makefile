@@ -103,13 +103,13 @@ pictures: setup  ## draw the pictures of README.md again, from results/infills.h
 	@cp results/infills/patterns.png docs/pictures/patterns.png
 
 experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
-	@$(PYTHON) -m sweep.studies.khatri_egan results/experiment
+	@$(PYTHON) -m tests.studies.khatri_egan.across results/experiment
 
 along: setup  ## predict measured crushes along the cells; goes to results/experiment/ (half an hour)
-	@OMP_NUM_THREADS=1 $(PYTHON) -m sweep.studies.khatri_egan_along results/experiment
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.khatri_egan.along results/experiment
 
 figures: setup  ## draw the figures of the course report beside ours, with captions, into results/figures/
-	@$(PYTHON) -m sweep.studies.course_report results/figures
+	@$(PYTHON) -m tests.studies.course_report results/figures
 
 clean:  ## remove the environment and all caches, but no results
 	rm -rf .venv build *.egg-info .pytest_cache .mypy_cache .ruff_cache

@@ -46,7 +46,7 @@ PROGRESS = np.dtype(
             ("failed", np.int64),  # failed attempts since the last accepted share
             ("patience", np.int64),  # shares to accept after a failure before one is doubled
             ("wait", np.int64),  # shares still to accept before one is doubled
-            ("cause", np.int64),  # outcome of the last failed attempt that was not `UNRESOLVED`
+            ("cause", np.int64),  # of shares below 1: last failed outcome that was not `UNRESOLVED`
             ("row_iterations", np.int64),  # Newton iterations for the row
             ("share_iterations", np.int64),  # Newton iterations for the share
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
@@ -278,9 +278,11 @@ def _next_share(ratio, iterations, descent, progress):
     """
     easy = progress.share_iterations <= iterations and ratio < DOUBLING_ERROR
     progress.done, progress.failed = progress.done + progress.share, 0
-    progress.corrections, progress.cause = NOT_STARTED, CONVERGED
+    progress.corrections = NOT_STARTED
     if progress.share < 1.0:
         descent.since_factor = np.inf
+    else:
+        progress.cause = CONVERGED
     if progress.wait > 0:
         progress.wait -= 1
     elif easy and progress.done % (2.0 * progress.share) == 0.0:

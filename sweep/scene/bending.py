@@ -12,12 +12,16 @@ ALONG = {"cubic": np.sqrt(3.0), "classical": 1.0}  # s_1 over s_0, without shear
 
 
 def build_bend(mesh: Mesh, beams: Beams, case: Case) -> bend.Bend:
-    """The data of bending."""
+    """The data of bending.
+
+    Walls that do not bend turn freely: the measure "tangent" would stop them at its pole.
+    """
     material = case.material
+    limited = bends(case) and case.solver.bend_measure == "tangent"
     through = slice(None if material.through_fibres else 0)
     spread, volume, shear = (part[..., through] for part in _sections(mesh, beams, case))
     return bend.Bend(
-        measure=bend.TANGENT if case.solver.bend_measure == "tangent" else bend.ANGLE,
+        measure=bend.TANGENT if limited else bend.ANGLE,
         stiffness=beams.stiffness,
         side=np.where(mesh.edges < mesh.n_joints, 2.0, 1.0).T.copy(),
         section=law_of_section(material, plane_factors(material)[1], contraction(material)),

@@ -8,7 +8,8 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
-from tests.support.designs.structures import APART, CLAMPED, MM, finished, structure
+from tests.support.converged import converged
+from tests.support.designs.structures import APART, CLAMPED, MM, structure
 from tests.support.designs.tables import material_with
 
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
@@ -41,7 +42,7 @@ def tip(elements, fibres, share):
     """Deflection of the tip under a share of the yield force / deflection at the yield force."""
     force = {"node": 1, "force_N": [0.0, -share * YIELD_FORCE]}
     material = plastic(fibres=fibres)
-    result = finished(loaded(material, 10, supports=ROOT, loads=[force], subdivide=elements))
+    result = converged(loaded(material, 10, supports=ROOT, loads=[force], subdivide=elements))
     return -result.history["probe_1_y_m"][-1] / (MM * YIELD_TIP)
 
 
@@ -61,7 +62,7 @@ def test_a_stretched_wall_breaks_at_its_strain():
     strain, limit, hardening = 0.02, 20e6, 0.1 * MODULUS
     pull = [{"node": 1, "direction": "x", "displacement_mm": 2.0 * strain * LENGTH}]
     material = plastic(limit, hardening, fracture_strain=strain)
-    result = finished(loaded(material, supports=ROOT, prescribed=pull, subdivide=4))
+    result = converged(loaded(material, supports=ROOT, prescribed=pull, subdivide=4))
     tangent, volume = MODULUS * hardening / (MODULUS + hardening), LENGTH * THICKNESS * DEPTH
     beyond = strain - limit / MODULUS
     density = limit**2 / (2.0 * MODULUS) + beyond * (limit + 0.5 * tangent * beyond)
@@ -80,7 +81,7 @@ def test_a_bent_wall_breaks_at_the_strain_of_its_surface():
     ]
     held = [{"node": 0, "fix": ["x", "y"]}, {"node": 1, "fix": ["y"]}]
     material = plastic(20e6, 0.5 * MODULUS, fracture_strain=strain, fibres=15)
-    result = finished(loaded(material, 80, supports=held, prescribed=turned, subdivide=16))
+    result = converged(loaded(material, 80, supports=held, prescribed=turned, subdivide=16))
     history, work = result.history, result.summary["absorbed_energy_within_model_J"]
     assert np.interp(work, history["work_in_J"], history["load_factor"]) == pytest.approx(
         0.5, rel=5e-3

@@ -26,7 +26,7 @@ FLOORS = [
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.design", "sweep.config",
     "sweep.columns", "sweep.result", "sweep.scene", "sweep.coupon", "sweep.simulation",
     "sweep.store", "sweep.ranking", "sweep.report",
-    "sweep.export", "sweep.running", "sweep.studies", "sweep.cli", "sweep.__main__",
+    "sweep.export", "sweep.running", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",
@@ -105,7 +105,6 @@ TESTED_ELSEWHERE = {
     "sweep.store.hdf5": "sweep/store/test_read.py",
     "sweep.store.lock": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",
-    "sweep.studies.course_report": "sweep/studies/test_course_report.py",
     "sweep.version": "sweep/cli/test_verbs.py",
 }
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]

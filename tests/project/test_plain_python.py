@@ -9,19 +9,19 @@ import pytest
 PROGRAM = """
 from sweep import simulate
 from sweep.config.structures.structure import Load, Structure, Support
-from sweep.config.case import Case, Lattice, Loading, Solver
+from sweep.config.case import Case
 
-crush = Case(
-    lattice=Lattice(cells_x=1, cells_y=1, nodes_per_wall=1),
-    loading=Loading(mode="displacement", strain=0.005),
-    solver=Solver(load_steps=2),
+crush = Case.of(
+    lattice=dict(cells_x=1, cells_y=1, nodes_per_wall=1),
+    loading=dict(mode="displacement", strain=0.005),
+    solver=dict(load_steps=2),
 )
 clamp = Support(node=0, fix=("x", "y", "rotation"))
 tip = Load(node=1, force_N=(0.0, -1e-3))
 wall = Structure(nodes_mm=((0, 0), (10, 0)), walls=((0, 1),), supports=(clamp,), loads=(tip,))
-path = Case(
-    lattice=Lattice(kind="custom", structure=wall),
-    solver=Solver(integrator="arc_length", load_steps=3),
+path = Case.of(
+    lattice=dict(kind="custom", structure=wall),
+    solver=dict(integrator="arc_length", load_steps=3),
 )
 for case in (crush, path):
     result = simulate(case)

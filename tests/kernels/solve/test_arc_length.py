@@ -15,6 +15,7 @@ from sweep.scene.arc_length import arc_of
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_force
+from tests.support.converged import converged
 from tests.support.designs.scenes import unbalanced
 from tests.support.designs.structures import (
     AXIAL,
@@ -22,7 +23,6 @@ from tests.support.designs.structures import (
     CLAMPED,
     MATERIAL,
     MM,
-    finished,
     probe,
     structure,
 )
@@ -39,7 +39,7 @@ def case_of(parts, arcs=200, contact="none", **solver):
 
 
 def test_truss_follows_its_closed_form_through_both_limit_points():
-    result = finished(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
+    result = converged(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
     factor, height = result.history["load_factor"], probe(result, 1, "y_m")
     force = truss_force(height)
     np.testing.assert_allclose(4e-3 * AXIAL * factor, force, atol=1e-9 * AXIAL)
@@ -56,7 +56,7 @@ def test_truss_follows_its_closed_form_through_both_limit_points():
 
 def test_frame_of_lee_snaps_back():
     """Load and sinking each have a greatest value on the way, and the load a lowest."""
-    result = finished(case_of(lee(32)))
+    result = converged(case_of(lee(32)))
     factor = result.history["load_factor"]
     sunk = 0.12 - probe(result, 2, "y_m")
     first, lowest, farthest = np.argmax(factor[:100]), np.argmin(factor), np.argmax(sunk[:120])
@@ -95,7 +95,7 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
         "probes": list(range(11)),
     }
     case = case_of(parts)
-    result, scene = finished(case), build_structure(case)
+    result, scene = converged(case), build_structure(case)
     factor = result.history["load_factor"]
     free = free_of(scene)
     assert factor.min() < -0.2
@@ -127,7 +127,7 @@ def test_loads_grow_by_a_twentieth_at_most():
     """However far an arc would go along a path as stiff as this."""
     pulled = {"nodes_mm": [[0, 0], [100, 0]], "walls": [[0, 1]], "probes": [1]}
     pulled |= {"supports": [{"node": 0, "fix": CLAMPED}]}
-    result = finished(case_of(pulled | {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}))
+    result = converged(case_of(pulled | {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}))
     np.testing.assert_allclose(result.history["load_factor"], np.linspace(0.0, 1.0, 21), atol=1e-5)
 
 
@@ -154,7 +154,7 @@ def test_walls_that_meet_on_the_way_touch():
         ],
         "probes": [2, 3],
     }
-    result = finished(case_of(clamp, 60, "barrier"))
+    result = converged(case_of(clamp, 60, "barrier"))
     assert result.history["load_factor"][-1] == 1.0
     assert result.history["contact_J"][-1] > 0.0
     assert 0.5 * MM < result.history["min_gap_m"][-1] < MM

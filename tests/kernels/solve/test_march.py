@@ -315,20 +315,55 @@ def test_buckling_is_seen_however_small_the_steps(steps):
     assert before < 1e-12 * bent
 
 
+class Shares:
+    """Shares of a step from a ``share`` on, rejected and accepted at will, in plain Python."""
+
+    def __init__(self, share):
+        self.progress = np.zeros(1, march.PROGRESS)[0]
+        self.progress.share = share
+        self.descent = np.zeros(1, newton.DESCENT)[0]
+
+    def reject(self, outcome):
+        """Reject a share for its outcome."""
+        problem = SimpleNamespace(roll_back=lambda step: None)
+        state = SimpleNamespace(x=np.zeros(1))
+        workspace = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
+        reject = getattr(march._reject, "__wrapped__", march._reject)
+        reject(outcome, problem, None, state, workspace, self.descent, self.progress)
+
+    def accept(self):
+        """Accept a share, which is easy."""
+        accept = getattr(march._next_share, "__wrapped__", march._next_share)
+        accept(0.0, 100, self.descent, self.progress)
+
+    @property
+    def reported(self):
+        """How a march ends here, of shares that are too short."""
+        reported = getattr(march._reported, "__wrapped__", march._reported)
+        return reported(outcomes.UNRESOLVED, self.progress)
+
+
 def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
     """1, then 3; easy steps bring it back."""
-    progress, descent = np.zeros(1, march.PROGRESS)[0], np.zeros(1, newton.DESCENT)[0]
-    still, state = SimpleNamespace(roll_back=lambda step: None), SimpleNamespace(x=np.zeros(1))
-    workspace = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
-    reject, next_share = (
-        getattr(kernel, "__wrapped__", kernel) for kernel in (march._reject, march._next_share)
-    )
-    progress.share, shares = 2.0**-4, []
+    shares, lengths = Shares(2.0**-4), []
     for fails in (True, False, True, False, False, False, False, False, False, False):
         if fails:
-            reject(outcomes.ITERATIONS, still, None, state, workspace, descent, progress)
-            progress.done = 0.0
+            shares.reject(outcomes.ITERATIONS)
+            shares.progress.done = 0.0
         else:
-            next_share(0.0, 100, descent, progress)
-        shares.append(int(-np.log2(progress.share)))
-    assert shares == [5, 5, 6, 6, 6, 6, 5, 5, 4, 4]
+            shares.accept()
+        lengths.append(int(-np.log2(shares.progress.share)))
+    assert lengths == [5, 5, 6, 6, 6, 6, 5, 5, 4, 4]
+
+
+def test_shares_too_short_for_round_off_are_reported_by_what_shortened_them():
+    """Also if some of them were accepted; a whole step is not short."""
+    shares = Shares(1.0)
+    assert shares.reported == outcomes.UNRESOLVED
+    shares.reject(outcomes.NOT_FINITE)
+    shares.accept()
+    shares.reject(outcomes.UNRESOLVED)
+    assert shares.reported == outcomes.NOT_FINITE
+    shares.progress.share = 1.0
+    shares.accept()
+    assert shares.reported == outcomes.UNRESOLVED

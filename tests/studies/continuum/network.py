@@ -6,8 +6,8 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.scene.beams import plane_factors
-from sweep.simulation.simulate import simulate
 from tests.studies.continuum.rubber import Rubber
+from tests.support.converged import converged
 from tests.support.designs.tables import material_with
 
 MM = 1e-3
@@ -73,10 +73,7 @@ class Network:
 
     def crush(self, strain, steps=STEPS):
         """Strain, force in N and energy in mJ of every step."""
-        result = simulate(self.case(strain, steps))
-        if result.status != "converged":
-            raise RuntimeError(result.message)
-        history = result.history
+        history = converged(self.case(strain, steps)).history
         return history["strain"], history["reaction_top_N"], 1e3 * history["work_in_J"]
 
     def at(self, strains, steps=STEPS):

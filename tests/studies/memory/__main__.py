@@ -9,12 +9,10 @@ import sys
 from pathlib import Path
 
 from sweep.report.tables.markdown import markdown
-from sweep.running.sweep import run_sweep
-from sweep.store.read import read_summary
 from tests.studies.memory.costs import costs
 from tests.studies.memory.cycles import cycles, losses, rated, rates
-from tests.studies.memory.laws import prices
 from tests.studies.memory.orders import by_loss, table, variants
+from tests.support.converged import swept
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 
@@ -29,8 +27,7 @@ def main(folder):
         *at_rates.values(),
         *(c for group in orders.values() for c in group),
     ]
-    run_sweep(list({case.case_id: case for case in cases}.values()), file)
-    rows = read_summary(file).set_index("case_id", drop=False)
+    rows = swept(cases, file).set_index("case_id", drop=False)
     summaries = {key: rows.loc[[c.case_id for c in group]] for key, group in orders.items()}
     sheets = [
         losses({key: rows.loc[case.case_id] for key, case in crushes.items()}),
@@ -38,7 +35,6 @@ def main(folder):
         table(summaries),
         by_loss(summaries, "loss 40 %"),
         costs(),
-        prices(),
     ]
     text = markdown(sheets)
     (folder / "memory.md").write_text(text, "utf-8")

@@ -52,7 +52,7 @@ def losses(rows):
         table.append([pattern, LOOSE[platen], f"{friction:g}", *shares])
     notes = (
         "Share of the work of a crush to 2 and 60 % that is not given back, in %. Heads: loss of",
-        "the material, that of a strip which is stretched and released evenly. –: stopped.",
+        "the material, that of a strip which is stretched and released evenly.",
     )
     return Sheet("Loss of a lattice and of its material", heads, table, notes=notes)
 

@@ -6,6 +6,7 @@ import pandas as pd
 from sweep.running.beside.error_bars import companions, error_bars
 from tests.studies.mesh.crushes import usual, work
 from tests.studies.rankings.bars import beside_finer, coverage
+from tests.support.converged import demand
 
 
 def covered(cases, rows):
@@ -19,6 +20,8 @@ def covered(cases, rows):
     finest = max(n for _, n in cases)
     barred = rows.loc[list(bars)].join(pd.DataFrame(bars).T)
     truth = rows.loc[[cases[design, finest].case_id for design in designs]]
+    for table in (barred, truth):
+        demand(table.assign(case_id=table.index).to_dict("records"))
     both = [[each.case for each in companions(case)] for case in designs.values()]
     spent = sum(work(case, rows) for pair in both for case in pair)
     alone = sum(work(case, rows) for case in designs.values())

@@ -1,7 +1,8 @@
 """Put a wrong sign into the kernels, many times, and look which test turns red: `make mutants`.
 
-python -m tests.studies.mutants FOLDER: the table is printed and written there. The exit status is
-1 if a mutant survives: a test is missing then.
+python -m tests.studies.mutants FOLDER [EACH]: so many mutants of every file, by default one. The
+table is printed and written into the folder. The exit status is 1 if a mutant survives: a test is
+missing then, or the sign is of no consequence.
 """
 
 import os
@@ -16,15 +17,14 @@ from rich.progress import track
 
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
-from tests.studies.mutants.changes import MUTANTS
-from tests.studies.mutants.trial import Copy, StudyError, check
+from tests.studies.mutants.flips import sample
+from tests.studies.mutants.trial import Copy, StudyError
 
-HEADS = ["wrong", "file", "first red test", "s", "as"]
+HEADS = ["file", "line", "in", "wrong", "first red test", "s", "as"]
 
 
 def tried(mutants):
     """The verdicts on ``mutants``, as many at a time as there are processors."""
-    check(mutants)
     workers, copies = os.cpu_count(), queue.SimpleQueue()
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(workers) as pool:
         for worker in range(workers):
@@ -46,16 +46,17 @@ def sheet(verdicts):
     rows = []
     for mutant, red, seconds, compiled in sorted(verdicts, key=lambda verdict: verdict.red or ""):
         how = "machine code" if compiled else "plain Python"
-        rows.append([mutant.name, mutant.path, red or "none: it survives", f"{seconds:.1f}", how])
+        told = [red or "none: it survives", f"{seconds:.1f}", how]
+        rows.append([mutant.path, str(mutant.line), mutant.function, mutant.change, *told])
     killed = sum(verdict.red is not None for verdict in verdicts)
-    told = f"{killed} of {len(verdicts)} turn a test red."
-    return Sheet("Mutants", HEADS, rows, notes=(told,))
+    note = f"{killed} of {len(verdicts)} turn a test red."
+    return Sheet("Mutants", HEADS, rows, notes=(note,))
 
 
-def main(folder):
+def main(folder, each=1):
     """Print and write the table; return whether a mutant survives."""
     try:
-        verdicts = tried(MUTANTS)
+        verdicts = tried(list(sample(each)))
     except StudyError as error:
         sys.exit(str(error))
     text = markdown([sheet(verdicts)])
@@ -66,4 +67,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), *map(int, sys.argv[2:])))

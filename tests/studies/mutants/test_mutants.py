@@ -1,57 +1,100 @@
-"""The study of mutants: it tells who notices, and does not rot."""
+"""The study of mutants: what it mutates, and that it tells who notices."""
+
+import ast
+from pathlib import Path
 
 import pytest
 
 from tests.studies.mutants.__main__ import main, sheet
-from tests.studies.mutants.changes import MUTANTS
-from tests.studies.mutants.trial import ROOT, Copy, StudyError, Verdict, check, mutated
+from tests.studies.mutants.flips import FLIPPED, ROOT, mutants, mutated, sample
+from tests.studies.mutants.trial import ENDLESS, Copy, StudyError, Verdict
 
-ENERGY = next(mutant for mutant in MUTANTS if mutant.name == "inertia: energy")
+TERMS = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "kernels/terms").glob("*.py"))
+INERTIA, SPRING = "kernels/terms/inertia.py", "kernels/terms/spring.py"
+
+
+def named(path, change):
+    """The first mutant of a file that changes this."""
+    return next(mutant for mutant in mutants(path) if mutant.change.startswith(change))
+
+
+ENERGY = named(INERTIA, "total += ")
 KILLED = Verdict(ENERGY, "tests/test_it.py::test_it", 1.25, False)
 SURVIVES = Verdict(ENERGY, None, 60.0, True)
+HANGS = Verdict(ENERGY, ENDLESS, 900.0, True)
 
 
-def test_every_snippet_is_found_exactly_once():
-    check(MUTANTS)
-    assert len({mutant.name for mutant in MUTANTS}) == len(MUTANTS)
+def operators(text):
+    return [type(node) for node in ast.walk(ast.parse(text))]
 
 
-@pytest.mark.parametrize(("source", "found"), [("", 0), ("total += force, total += force", 2)])
-def test_a_snippet_that_is_gone_or_not_alone_is_told(source, found):
-    with pytest.raises(StudyError, match=rf"{ENERGY.path} has {found} x .*; it must be there once"):
-        mutated(source, ENERGY)
+def test_mutants_of_terms_differ_in_one_sign():
+    found = [mutant for path in TERMS for mutant in mutants(path)]
+    without = {f"kernels/terms/{name}.py" for name in ("__init__", "rayleigh")}
+    assert {mutant.path for mutant in found} == set(TERMS) - without
+    for mutant in found[::5]:
+        source = (ROOT / mutant.path).read_text("utf-8")
+        pairs = zip(operators(source), operators(mutated(source, mutant)), strict=True)
+        ((before, after),) = [pair for pair in pairs if pair[0] is not pair[1]]
+        assert FLIPPED[before] is after
 
 
-def test_a_mutant_turns_a_test_red_in_a_copy(tmp_path):
-    source = (ROOT / ENERGY.path).read_text("utf-8")
-    copy = Copy(tmp_path / "copy")
-    verdict = copy.tried(ENERGY)
-    assert verdict.red.startswith("tests/kernels/terms/test_inertia.py::test_derivatives[")
+def test_indices_and_counts_keep_their_signs(monkeypatch, tmp_path):
+    monkeypatch.setattr("tests.studies.mutants.flips.ROOT", tmp_path)
+    (tmp_path / "some.py").write_text(
+        "def f(x, n):\n    k = n - 1\n    k += 2\n    return x[k - n] - 2.0 * -x[-1], -1\n"
+    )
+    found = list(mutants("some.py"))
+    assert [(mutant.function, mutant.line, mutant.change) for mutant in found] == [
+        ("f", 4, "x[k - n] - 2.0 * -x[-1] -> x[k - n] + 2.0 * -x[-1]"),
+        ("f", 4, "-x[-1] -> +x[-1]"),
+    ]
+
+
+def test_a_sample_is_the_same_each_time_and_has_its_tests():
+    found = list(sample(2))
+    assert found == list(sample(2))
+    assert {mutant.path for mutant in found} >= {INERTIA, SPRING, "kernels/arrays.py"}
+    assert not any(mutant.path.startswith("kernels/compile") for mutant in found)
+    assert all((ROOT / mutant.tests).is_file() for mutant in found)
+    assert ENERGY.tests == "tests/kernels/terms/test_inertia.py"
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    return Copy(tmp_path_factory.mktemp("mutants") / "copy")
+
+
+@pytest.mark.parametrize("mutant", [ENERGY, named(SPRING, "d - ")], ids=["inertia", "spring"])
+def test_a_mutant_turns_a_test_red_in_a_copy(mutant, copy):
+    source = (ROOT / mutant.path).read_text("utf-8")
+    verdict = copy.tried(mutant)
+    assert verdict.red.startswith(f"{mutant.tests}::test_")
     assert not verdict.compiled
-    assert (copy.folder / ENERGY.path).read_text("utf-8") == source
-    assert (ROOT / ENERGY.path).read_text("utf-8") == source
+    assert (copy.folder / mutant.path).read_text("utf-8") == source
+    assert (ROOT / mutant.path).read_text("utf-8") == source
 
 
-def test_a_test_that_is_red_anyway_kills_nothing(tmp_path):
-    copy = Copy(tmp_path / "copy")
-    path = copy.folder / ENERGY.path
-    path.write_text(mutated(path.read_text("utf-8"), ENERGY), "utf-8")
-    gradient = ENERGY._replace(snippet="g[i] += force", wrong="g[i] -= force")
+def test_a_test_that_is_red_anyway_kills_nothing(copy, monkeypatch):
+    source = (copy.folder / SPRING).read_text("utf-8")
+    (copy.folder / SPRING).write_text(mutated(source, named(SPRING, "d - ")), "utf-8")
+    other = named(SPRING, "total +=")
     with pytest.raises(StudyError, match="is red without a mutant too"):
-        copy.tried(gradient)
+        copy.tried(other)
+    (copy.folder / SPRING).write_text(source, "utf-8")
 
 
 def test_the_table_has_survivors_first():
-    table = sheet([KILLED, SURVIVES])
-    assert table.columns[2] == ["none: it survives", "tests/test_it.py::test_it"]
-    assert table.columns[3] == ["60.0", "1.2"]
-    assert table.notes == ("1 of 2 turn a test red.",)
+    table = sheet([KILLED, SURVIVES, HANGS])
+    assert table.columns[4] == ["none: it survives", ENDLESS, "tests/test_it.py::test_it"]
+    assert table.columns[5] == ["60.0", "900.0", "1.2"]
+    assert table.notes == ("2 of 3 turn a test red.",)
 
 
 @pytest.mark.parametrize(("verdict", "failed"), [(KILLED, False), (SURVIVES, True)])
 def test_a_survivor_is_a_failure(verdict, failed, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("tests.studies.mutants.__main__.tried", lambda mutants: [verdict])
-    assert main(tmp_path / "mutants") == failed
+    assert main(Path(tmp_path / "mutants")) == failed
     told = capsys.readouterr().out
-    assert ENERGY.name in told
+    assert ENERGY.function in told
     assert (tmp_path / "mutants" / "mutants.md").read_text("utf-8") == told

@@ -13,9 +13,9 @@ from functools import cache
 import numpy as np
 
 from sweep.config.case import Case
-from sweep.simulation.simulate import simulate
 from tests.studies.plates.tied import Platen
 from tests.studies.plates.tube import CLAMPED, HINGED, SolidTube
+from tests.support.converged import converged
 
 MM = 1e-3
 BUCKLING = 4.0 * np.pi**2 / 9.0
@@ -110,10 +110,7 @@ def plates(thickness, ends, last, n):
         contact=dict(model="none", friction=0.0),
         solver=dict(integrator="static", load_steps=round(20 * last)),
     )
-    result = simulate(case)
-    if result.status != "converged":
-        raise RuntimeError(result.message)
-    history = result.history
+    history = converged(case).history
     stored = 1e3 * (history["stretch_J"] + history["bend_J"])
     return Curve(history["strain"] / strain(thickness), history["reaction_top_N"], stored)
 

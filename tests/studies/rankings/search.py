@@ -27,8 +27,7 @@ from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import Search, Settings
-from sweep.running.sweep import run_sweep
-from sweep.store.read import read_summary
+from tests.support.converged import swept
 
 CONFIG = Path(__file__).parents[3] / "configs" / "search.toml"
 ENERGY = "absorbed_energy_at_50N_J"
@@ -98,8 +97,7 @@ def best_beside(question, folder, simulate=None):
     """The best value (J) of each group of designs beside a search, and the design."""
     every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
-    run_sweep(every, out, simulate=simulate)
-    values = assess(read_summary(out), QUESTION).by_id
+    values = assess(swept(every, out, simulate), QUESTION).by_id
     return {
         name: max(
             ((values[case.case_id], case) for case in cases if case.case_id in values),

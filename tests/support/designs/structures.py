@@ -9,7 +9,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.structures.structure import Structure
-from sweep.simulation.simulate import simulate
+from tests.support.converged import converged
 from tests.support.designs.tables import material_with
 
 MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
@@ -52,7 +52,7 @@ def pushed(parts, steps=10, contact=APART, integrator="static", **solver):
         contact=contact,
         solver=dict(integrator=integrator, load_steps=steps, **solver),
     )
-    return finished(case)
+    return converged(case)
 
 
 def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material=MATERIAL):
@@ -65,7 +65,7 @@ def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material
         damping=damping,
         solver=dict(time_step=time_step),
     )
-    return finished(case)
+    return converged(case)
 
 
 def set_off(walls, amplitude, thickness=THICKNESS):
@@ -92,13 +92,6 @@ def set_off(walls, amplitude, thickness=THICKNESS):
 def swing(inertia):
     """Period (s) of the pendulum whose moment of inertia is ``inertia`` m L^2."""
     return 2.0 * np.pi * np.sqrt(2.0 * inertia * LENGTH / GRAVITY) * (1.0 + TILT**2 / 16.0)
-
-
-def finished(case):
-    """Result of a case that converges."""
-    result = simulate(case)
-    assert result.status == "converged", result.message
-    return result
 
 
 def probe(result, node, what):

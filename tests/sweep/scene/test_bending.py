@@ -58,6 +58,24 @@ def test_walls_without_bending_have_neither_rotations_nor_arcs():
 
 
 @pytest.mark.parametrize("measure", ["angle", "tangent"])
+def test_walls_without_bending_fold(measure):
+    """Elements turn by more than the 90 degrees at which the measure "tangent" is infinite."""
+    case = Case.of(
+        material=MATERIAL.model_copy(update={"bend": "none"}),
+        loading=dict(force=13.0, duration=0.03),
+        contact=dict(model="none"),
+        damping=dict(model="rayleigh", stiffness=1e-4),
+        solver=dict(element="classical", bend_measure=measure),
+    )
+    result = simulate(case)
+    assert result.status == "converged", result.message
+    last, top = result.frames["position_m"][-1], result.history["top_displacement_m"][-1]
+    assert abs(result.summary["energy_residual_J"]) < 1e-6 * result.summary["absorbed_energy_J"]
+    assert top > 2.0 * case.lattice.height
+    assert last[:, 1].min() < -case.lattice.height
+
+
+@pytest.mark.parametrize("measure", ["angle", "tangent"])
 @pytest.mark.parametrize("imperfection", [0.0, 0.5])
 def test_elements_are_free_of_stress_at_rest(imperfection, measure):
     scene = scene_of(

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from sweep.config.case import given
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.terms import time_step
 from tests.studies.bench.measuring.clock import seconds
@@ -50,7 +49,7 @@ def model(ops, case, scene):
 
 def load(ops, case, scene):
     """The dead load, until it is taken off."""
-    last = given(case.loading.release_time) + 0.5 * time_step(case)
+    last = case.loading.release_time + 0.5 * time_step(case)
     ops.timeSeries("Rectangular", 1, 0.0, last)
     ops.pattern("Plain", 1, 1)
     for c in scene.terms.coordinates.load.nonzero()[0].tolist():

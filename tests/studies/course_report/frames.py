@@ -1,14 +1,11 @@
 """The undeformed grid and its collapse, with walls of their true thickness."""
 
-from pathlib import Path
-
-from sweep.config.case import Case
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import ours, report, run, varied
-from sweep.studies.course_report.springs import SHORT
+from tests.studies.course_report.cases import ours, report, run, varied
+from tests.studies.course_report.springs import SHORT
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Figs. 5 and 6 of the report."""
     frames = run(report()).frames
     rest = {key: values[:1] for key, values in frames.items() if not key.startswith("edge")}
@@ -44,6 +41,6 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _gap(case: Case) -> float:
+def _gap(case):
     """Least distance of centre lines, mm."""
     return 1e3 * float(run(case).summary["min_gap_m"])

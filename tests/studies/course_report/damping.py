@@ -1,16 +1,11 @@
 """Kelvin-Voigt against Rayleigh damping on the same crush."""
 
-from pathlib import Path
-
 import numpy as np
-from pandas import DataFrame
 
-from sweep.config.case import Case
-from sweep.config.kinds.material import Material
 from sweep.report.figures import case_plots
 from sweep.scene.material import stress_law
-from sweep.studies.course_report.cases import history, ours, varied
-from sweep.studies.course_report.panels import curves, dress, legend, ticks, title
+from tests.studies.course_report.cases import history, ours, varied
+from tests.studies.panels import curves, dress, legend, ticks, title
 
 TIME = 5e-3  # s: beta of Rayleigh, and relaxation time of Kelvin-Voigt
 SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s
@@ -21,7 +16,7 @@ MODELS = {
 }
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Loop area and rate dependence."""
     pasts = {name: [history(_crush(name, v)) for v in SPEEDS] for name in MODELS}
     figure = case_plots.blank(10.0, 3.6)
@@ -63,40 +58,40 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _both(values: dict[str, list[float]], i: int) -> str:
+def _both(values, i):
     return " and ".join(f"{1e3 * v[i]:.1f}" for v in values.values()) + " mJ"
 
 
-def _first(past: DataFrame) -> float:
+def _first(past):
     """Force on the platen in the first step, N."""
     return float(past["reaction_top_N"].iloc[1])
 
 
-def _slope(material: Material) -> float:
+def _slope(material):
     """Slope of the curve at rest, Pa."""
     law = stress_law(material)
     return float(law.coefficients[np.searchsorted(law.knots, 0.0, "right") - 1, 1])
 
 
-def _undamped() -> Case:
+def _undamped():
     loading = {"mode": "displacement", "strain": 0.4, "platen": "glued"}
     return varied(ours(), loading=loading, contact={"friction": 0.0})
 
 
-def _crush(model: str, speed: float) -> Case:
+def _crush(model, speed):
     loading = {"mode": "displacement", "strain": 0.4, "platen": "glued", "speed": speed}
     return varied(ours(), loading=loading, damping=MODELS[model], contact={"friction": 0.0},
                   solver={"load_steps": 400})  # fmt: skip
 
 
-def _loop(past: DataFrame) -> tuple[DataFrame, DataFrame]:
+def _loop(past):
     return 100.0 * past["strain"], past["reaction_top_N"]
 
 
-def _area(past: DataFrame) -> float:
+def _area(past):
     """Work that the platen does not get back, J."""
     return float(past["work_in_J"].iloc[-1])
 
 
-def _lost(past: DataFrame) -> float:
+def _lost(past):
     return float(past["dissipated_material_J"].iloc[-1])

@@ -1,19 +1,14 @@
 """Force over displacement in cycles of growing amplitude: absorbed and returned energy."""
 
-from pathlib import Path
-
-from pandas import DataFrame
-
-from sweep.config.case import Case
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import history, ours, run, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import history, ours, run, varied
+from tests.studies.panels import curves, legend, title
 
 STRAINS = (0.6, 0.45, 0.3, 0.15)
 PLATENS = {"glued": "glued platens", "contact": "loose platens"}
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Loops between glued platens and between loose platens."""
     figure = case_plots.blank(10.0, 3.8)
     axes, measured = figure.subplots(1, 2, sharey=True), []
@@ -39,21 +34,21 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _crush(platen: str, strain: float) -> Case:
+def _crush(platen, strain):
     loading = {"mode": "displacement", "strain": strain, "platen": platen}
     return varied(ours(), loading=loading, solver={"load_steps": round(400 * strain)})
 
 
-def _loop(past: DataFrame) -> tuple[DataFrame, DataFrame]:
+def _loop(past):
     return 1e3 * past["top_displacement_m"], past["reaction_top_N"]
 
 
-def _energies(case: Case) -> str:
+def _energies(case):
     work = 1e3 * history(case)["work_in_J"]
     return f"{work.max():.1f} and {work.max() - work.iloc[-1]:.1f}"
 
 
-def _losses(case: Case) -> str:
+def _losses(case):
     last = 1e3 * history(case).iloc[-1]
     return (
         f"in the largest loop friction dissipates {last['dissipated_friction_J']:.1f} and snaps "
@@ -61,5 +56,5 @@ def _losses(case: Case) -> str:
     )
 
 
-def _residual(case: Case) -> float:
+def _residual(case):
     return abs(float(run(case).summary["residual_strain"]))

@@ -1,12 +1,17 @@
 """Energies over time, and the ratio of bending energy to stretching energy."""
 
-from pathlib import Path
-
-from pandas import DataFrame
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, history, ours, report, run, share, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import (
+    HELD,
+    at,
+    converges,
+    history,
+    ours,
+    report,
+    share,
+    varied,
+)
+from tests.studies.panels import curves, legend, title
 
 STANDING = 12.0  # N
 STEPS = (1e-4, 5e-5, 2e-5, 1e-5)  # s
@@ -18,7 +23,7 @@ SHOWN = {
 }
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Fig. 8 of the report."""
     pasts = {"the report's model": history(report()), "our model": history(ours())}
     figure = case_plots.blank(9.0, 6.0)
@@ -35,14 +40,7 @@ def draw(folder: Path) -> tuple[str, ...]:
         title(ax, name)
         legend(ax)
     case_plots.save(figure, folder / "fig08_energies.png")
-    ratios = {}
-    for step in STEPS:
-        case = varied(report(), solver={"time_step": step})
-        ratios[step] = share(history(case)) if run(case).status == "converged" else float("nan")
-    by_step = ", ".join(
-        f"{ratio:.1f} at {1e6 * step:g} µs" if ratio == ratio else f"stopped at {1e6 * step:g} µs"
-        for step, ratio in ratios.items()
-    )
+    by_step = ", ".join(f"{_ratio(step)} at {1e6 * step:g} µs" for step in STEPS)
     standing = varied(ours(), loading={"force": STANDING})
     mine, theirs = pasts["our model"], pasts["the report's model"]
     return (
@@ -58,5 +56,10 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _both(past: DataFrame) -> str:
+def _ratio(step):
+    case = varied(report(), solver={"time_step": step})
+    return f"{share(history(case)):.1f}" if converges(case) else "stopped"
+
+
+def _both(past):
     return f"{1e3 * at(past, 'bend_J'):.0f} and {1e3 * at(past, 'stretch_J'):.0f} mJ"

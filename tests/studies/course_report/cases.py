@@ -1,9 +1,7 @@
 """The cases of the figures: the report's, ours, and variants of them; each runs once."""
 
-from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from pandas import DataFrame
@@ -11,8 +9,8 @@ from pandas import DataFrame
 from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.result import Result
 from sweep.simulation.simulate import simulate
+from tests.support.converged import demand
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
 HELD = 0.137  # s, just before the load is removed
@@ -20,27 +18,27 @@ RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress", "unce
 
 
 @cache
-def _shipped() -> list[Case]:
+def _shipped():
     return expand(load_config(CONFIG))
 
 
-def report() -> Case:
+def report():
     """The report's model: the first row of configs/seed.toml."""
     return _shipped()[0]
 
 
-def ours() -> Case:
+def ours():
     """Our model of the same specimen: the last row of configs/seed.toml with the same curve."""
     same = [case for case in _shipped() if case.material.stretch == report().material.stretch]
     return same[-1]
 
 
-def coarse() -> Case:
+def coarse():
     """Our model in steps of 0.1 ms, five times as long; the loaded state at rest is the same."""
     return varied(ours(), solver={"time_step": 1e-4})
 
 
-def varied(case: Case, **changes: Mapping[str, Any]) -> Case:
+def varied(case, **changes):
     """A case with changed keys: table -> key -> value in SI. A new mode resets the loading."""
     tables = {name: getattr(case, name).model_dump(exclude_none=True) for name in TABLES}
     for key in RECORD:
@@ -49,31 +47,51 @@ def varied(case: Case, **changes: Mapping[str, Any]) -> Case:
         tables["loading"], tables["solver"] = {}, {**tables["solver"]}
         for key in ("integrator", "time_step"):
             tables["solver"].pop(key)
+    axes = dict(case.axes)
     for name, change in changes.items():
         tables[name] |= change
-    return Case.of(**{name: TABLES[name](**table) for name, table in tables.items()})
+        axes |= {f"{name}.{key}": value for key, value in change.items()}
+    return Case.of(**{name: TABLES[name](**table) for name, table in tables.items()}, axes=axes)
 
 
-_results: dict[str, Result] = {}
+_results = {}
 
 
-def run(case: Case) -> Result:
-    """Result of a case."""
+def converges(case):
+    """Whether a case converges, for figures that say of which steps in time it does not."""
+    return _attempt(case).status == "converged"
+
+
+def run(case):
+    """Result of a case, which has to converge."""
+    result = _attempt(case)
+    demand([{**result.summary, "axes": case.axes}])
+    return result
+
+
+def _attempt(case):
     if case.case_id not in _results:
         _results[case.case_id] = simulate(case)
     return _results[case.case_id]
 
 
-def history(case: Case) -> DataFrame:
-    """Curves of a case."""
+def history(case):
+    """Curves of a case, which has to converge."""
     return DataFrame(dict(run(case).history))
 
 
-def at(curves: DataFrame, column: str, time: float = HELD) -> float:
+def at(curves, column, time=HELD):
     """Value of a column at a time (s)."""
     return float(np.interp(time, curves["time_s"], curves[column]))
 
 
-def share(curves: DataFrame, time: float = HELD) -> float:
+def first(curves, reached):
+    """Time (s) of the first row at which something is ``reached`` (rows,), which happens."""
+    if not reached.any():
+        raise ValueError("what the caption tells the time of never happens")
+    return float(curves["time_s"][reached.idxmax()])
+
+
+def share(curves, time=HELD):
     """Bending energy / stretching energy at a time (s)."""
     return at(curves, "bend_J", time) / at(curves, "stretch_J", time)

@@ -5,29 +5,24 @@
 base cases of `configs/khatri_egan_square.toml`, pressed across their cells, to compare with.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.config.grid import expand
+from sweep.config.load import load_config
 from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
+from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
-from sweep.studies import khatri_egan as across
-from sweep.studies.course_report.panels import dress, legend
+from tests.studies.khatri_egan import across
+from tests.studies.panels import dress, legend
+from tests.support.converged import demand
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from matplotlib.axes import Axes
-    from pandas import DataFrame, Series
-
-CONFIGS = Path(__file__).parents[2] / "configs"
+CONFIGS = Path(__file__).parents[3] / "configs"
 NAMES = {
     "square": "khatri_egan_square_out_of_plane",
     "hexagon": "khatri_egan_hexagon_out_of_plane",
@@ -45,20 +40,21 @@ SHOWN = 2.5  # greatest load that is drawn / greatest load up to half
 COMPARED = 0.5  # friction of the cases that are compared with those across the cells
 
 
-def energy_at(history: DataFrame, strain: float) -> float:
+def energy_at(history, strain):
     """Energy in J absorbed up to ``strain``."""
     return float(np.interp(strain, history["strain"], history["work_in_J"]))
 
 
-def first_peak(force: np.ndarray) -> float:
+def first_peak(force):
     """The first load in N, of rows (r,), that is followed by a drop; NaN if it never drops."""
     falls = np.flatnonzero(np.diff(force) < 0.0)
     return float(force[falls[0]]) if falls.size else np.nan
 
 
-def predictions(path: Path) -> DataFrame:
+def predictions(path):
     """The summary of a results file, with `to_half_J`, to 50 % strain, and `first_peak_N`."""
     table = read_summary(path)
+    demand(table.to_dict("records"))
     histories = [read_history(path, case_id) for case_id in table["case_id"]]
     return table.assign(
         to_half_J=[energy_at(history, HALF) for history in histories],
@@ -66,7 +62,7 @@ def predictions(path: Path) -> DataFrame:
     )
 
 
-def sheet(cells: str, table: DataFrame, others: DataFrame) -> Sheet:
+def sheet(cells, table, others):
     """A table of the cases of one shape of ``cells``, a row each. others: `bases_across`."""
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
@@ -77,27 +73,23 @@ def sheet(cells: str, table: DataFrame, others: DataFrame) -> Sheet:
         "absorbed, J": _digits(table["absorbed_energy_J"]),
         "iterations": [f"{count:,}" for count in table["newton_iterations"]],
         "CPU, s": _digits(table["cpu_s"]),
-        "status": [row.message or row.status for row in table.itertuples()],
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
     return Sheet(cells, list(columns), rows, notes=tuple(_notes(cells, table, others)))
 
 
-def _digits(values: Iterable[float]) -> list[str]:
+def _digits(values):
     return [three_digits(value) for value in values]
 
 
-def _notes(cells: str, table: DataFrame, others: DataFrame) -> Iterable[str]:
+def _notes(cells, table, others):
     """Sentences on the range of predictions, and what is known beside it."""
-    done = table[table["status"] == "converged"]
-    energy, stroke = done["absorbed_energy_J"], 1e3 * table["stroke_m"].iloc[0]
+    energy, stroke = table["absorbed_energy_J"], 1e3 * table["stroke_m"].iloc[0]
     solid = table["solid_strain"].iloc[0]
-    lost = len(table) - len(done)
     yield (
-        f"Energy absorbed up to {stroke:g} mm: {_span(energy)} J"
-        f"{f'; {lost} of {len(table)} cases did not converge' if lost else ''}. Up to "
+        f"Energy absorbed up to {stroke:g} mm: {_span(energy)} J. Up to "
         f"{100 * solid:.0f} %, where the walls fill the pressed area: "
-        f"{_span(done['absorbed_energy_within_model_J'])} J."
+        f"{_span(table['absorbed_energy_within_model_J'])} J."
     )
     if cells not in MEASURED:
         yield "Not compared with any measurement."
@@ -105,7 +97,7 @@ def _notes(cells: str, table: DataFrame, others: DataFrame) -> Iterable[str]:
     mean, scatter = MEASURED[cells]
     hits = int((abs(energy - mean) <= scatter).sum())
     yield f"Measured: {mean:g} +/- {scatter:g} J; {hits} of {len(table)} cases are within it."
-    along = energy[done["contact.friction"] == COMPARED]
+    along = energy[table["contact.friction"] == COMPARED]
     results = "; ".join(
         f"{across.PLATENS[row.platen][0]}, {row.absorbed_energy_J:.3f} J: "
         f"{_span(along / row.absorbed_energy_J, 1)}"
@@ -117,19 +109,19 @@ def _notes(cells: str, table: DataFrame, others: DataFrame) -> Iterable[str]:
     )
 
 
-def _span(values: Series, digits: int = 2) -> str:
+def _span(values, digits=2):
     return f"{values.min():.{digits}f} to {values.max():.{digits}f}"
 
 
-def curves(axes: Sequence[Axes], path: Path, cells: str, table: DataFrame) -> None:
-    """Load and absorbed energy over travel, of the cases that converged."""
+def curves(axes, path, cells, table):
+    """Load and absorbed energy over travel."""
     load, work = axes
     friction, greatest = sorted(set(table["contact.friction"])), 0.0
-    for row in table[table["status"] == "converged"].to_dict("records"):
+    for row in table.to_dict("records"):
         past = read_history(path, row["case_id"])
         words, color = PLATENS[row["platen"]]
         dashes = DASHES[friction.index(row["contact.friction"])]
-        look: Any = {"color": color, "ls": dashes, "lw": 1.2,
+        look = {"color": color, "ls": dashes, "lw": 1.2,
                      "label": f"{words}, friction {row['contact.friction']:g}"}  # fmt: skip
         greatest = max(greatest, past["reaction_top_N"][past["strain"] <= HALF].max())
         travel = 1e3 * past["top_displacement_m"]
@@ -137,7 +129,7 @@ def curves(axes: Sequence[Axes], path: Path, cells: str, table: DataFrame) -> No
         work.plot(travel, past["work_in_J"], **look)
     if cells in MEASURED:
         mean, scatter = MEASURED[cells]
-        dot: Any = {"fmt": "o", "color": "black", "capsize": 4, "zorder": 4}
+        dot = {"fmt": "o", "color": "black", "capsize": 4, "zorder": 4}
         work.errorbar(1e3 * table["stroke_m"].iloc[0], mean, scatter, **dot)
     dress(load, "travel of the platen, mm", f"load, N: {cells}s")
     dress(work, "travel of the platen, mm", "absorbed energy, J")
@@ -145,7 +137,7 @@ def curves(axes: Sequence[Axes], path: Path, cells: str, table: DataFrame) -> No
     work.set_ylim(bottom=0.0)
 
 
-def report(folder: Path) -> str:
+def report(folder):
     """Write the table and the picture of the results in a folder; return the table."""
     paths = {cells: folder / f"{name}.h5" for cells, name in NAMES.items()}
     tables = {cells: predictions(path) for cells, path in paths.items() if path.exists()}
@@ -161,18 +153,14 @@ def report(folder: Path) -> str:
     return text
 
 
-def bases_across(folder: Path) -> DataFrame:
+def bases_across(folder):
     """The summary of the base cases across the cells that are in a folder."""
     table = across.predictions(folder / f"{across.CONFIG.stem}.h5")
-    return table[(table["factor"] == "") & (table["status"] == "converged")]
+    return table[table["factor"] == ""]
 
 
-def main(folder: Path) -> None:
+def main(folder):
     """Simulate the cases that the results files in a folder lack, and report."""
-    from sweep.config.grid import expand
-    from sweep.config.load import load_config
-    from sweep.running.sweep import run_sweep
-
     folder.mkdir(parents=True, exist_ok=True)
     every = expand(load_config(across.CONFIG))
     bases = {case.loading.platen: case for case in reversed(every)}

@@ -1,20 +1,16 @@
 """Linear against nonlinear stretching, under force and under displacement."""
 
-from pathlib import Path
-
 import numpy as np
-from pandas import DataFrame
 
-from sweep.config.case import Case
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, history, ours, report, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import HELD, at, history, ours, report, varied
+from tests.studies.panels import curves, legend, title
 
 LAWS = ("nonlinear", "linear")
 PRESSED = {"mode": "displacement", "strain": 0.6, "unload": False, "platen": "glued"}
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Figs. 9 and 10 of the report."""
     forced, pressed = _pair(report()), _pair(varied(ours(), loading=PRESSED))
     steady = _pair(ours())
@@ -61,33 +57,33 @@ def draw(folder: Path) -> tuple[str, ...]:
     )
 
 
-def _pair(case: Case) -> dict[str, DataFrame]:
+def _pair(case):
     return {law: history(varied(case, material={"stretch": law})) for law in LAWS}
 
 
-def _strain(past: DataFrame) -> tuple[DataFrame, DataFrame]:
+def _strain(past):
     return 1e3 * past["time_s"], 100.0 * past["strain"]
 
 
-def _greatest(pasts: dict[str, DataFrame], column: str, x: str) -> float:
+def _greatest(pasts, column, x):
     """Greatest difference of a column between the laws, % of its greatest value."""
     one, other = (pasts[law] for law in LAWS)
     gap = np.abs(one[column] - np.interp(one[x], other[x], other[column]))
     return 100.0 * float(gap.max() / one[column].max())
 
 
-def _at_rest(pasts: dict[str, DataFrame], column: str) -> float:
+def _at_rest(pasts, column):
     """Difference of a column between the laws at rest under the load, %."""
     one, other = (at(pasts[law], column) for law in LAWS)
     return 100.0 * abs(one / other - 1.0)
 
 
-def _words(pasts: dict[str, DataFrame], x: str) -> str:
+def _words(pasts, x):
     strain = "" if x == "strain" else f"strain {_greatest(pasts, 'strain', x):.1f} %, "
     bend, stretch = (_greatest(pasts, name, x) for name in ("bend_J", "stretch_J"))
     return f"{strain}bending {bend:.1f} %, stretching {stretch:.1f} %"
 
 
-def _answer(driven: float, at_rest: float) -> str:
+def _answer(driven, at_rest):
     """Whether the laws differ more with a prescribed displacement than at rest under a force."""
     return "no" if driven < max(1.0, at_rest) else "yes"

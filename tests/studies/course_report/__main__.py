@@ -1,11 +1,10 @@
-"""Draw all figures into a folder: `python -m sweep.studies.course_report results/figures`."""
+"""Draw all figures into a folder: `python -m tests.studies.course_report results/figures`."""
 
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
-from sweep.studies.course_report import (
+from tests.studies.course_report import (
     cycles,
     damping,
     energies,
@@ -18,7 +17,7 @@ from sweep.studies.course_report import (
 )
 
 HEADS = ("The report", "Here", "Where they differ, and why")
-FIGURES: dict[str, Callable[[Path], tuple[str, ...]]] = {
+FIGURES = {
     "fig03_springs": springs.draw,
     "fig05_fig06_frames": frames.draw,
     "fig07_strain": strain.draw,
@@ -31,20 +30,21 @@ FIGURES: dict[str, Callable[[Path], tuple[str, ...]]] = {
 }
 
 
-def caption(path: Path, parts: tuple[str, ...]) -> None:
+def caption(path, parts):
     """Write a caption."""
     text = "\n\n".join(f"**{head}.** {part}" for head, part in zip(HEADS, parts, strict=True))
     path.write_text(f"{text}\n", encoding="utf-8")
 
 
-def main(folder: Path) -> None:
+def main(folder):
     """Draw every figure and write its caption."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, draw in FIGURES.items():
         started = time.monotonic()
+        sys.stdout.write(f"{folder / name}.md  ")
+        sys.stdout.flush()  # a case that does not converge ends the program
         caption(folder / f"{name}.md", draw(folder))
-        sys.stdout.write(f"{folder / name}.md  {time.monotonic() - started:.0f} s\n")
-        sys.stdout.flush()
+        sys.stdout.write(f"{time.monotonic() - started:.0f} s\n")
 
 
 if __name__ == "__main__":

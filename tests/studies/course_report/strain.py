@@ -1,15 +1,23 @@
 """Vertical strain of the top row over time."""
 
-from pathlib import Path
-
 from sweep.report.figures import case_plots
-from sweep.studies.course_report.cases import HELD, at, coarse, history, ours, report, run, varied
-from sweep.studies.course_report.panels import curves, legend, title
+from tests.studies.course_report.cases import (
+    HELD,
+    at,
+    coarse,
+    first,
+    history,
+    ours,
+    report,
+    run,
+    varied,
+)
+from tests.studies.panels import curves, legend, title
 
 BUCKLED = 0.05  # strain above which a lattice has buckled
 
 
-def draw(folder: Path) -> tuple[str, ...]:
+def draw(folder):
     """Fig. 7 of the report: buckling, first contact of rows, release."""
     barrier = varied(report(), contact={"model": "barrier"})
     cases = {"the report's model": report(), "with the barrier": barrier, "our model": ours()}
@@ -28,8 +36,8 @@ def draw(folder: Path) -> tuple[str, ...]:
     title(whole, f"{report().loading.force:g} N on the top row, applied at once")
     title(start, "the first 20 ms")
     past = pasts["the report's model"]
-    buckled = past["time_s"][(past["strain"] > BUCKLED).idxmax()]
-    landed = past["time_s"][(past["injected_by_projection_J"] != 0.0).idxmax()]
+    buckled = first(past, past["strain"] > BUCKLED)
+    landed = first(past, past["injected_by_projection_J"] != 0.0)
     case_plots.mark(start, 1e3 * buckled, "buckles")
     case_plots.mark(start, 1e3 * landed, "walls\nmeet")
     legend(whole)
