@@ -5,10 +5,7 @@ from __future__ import annotations
 import numpy as np
 from pandas import DataFrame, Series
 
-from sweep.columns import (
-    correction_column,
-    error_column,
-)
+from sweep.columns import correction_column
 
 
 def pareto(mass: Series, energy: Series) -> Series:
@@ -21,29 +18,24 @@ def pareto(mass: Series, energy: Series) -> Series:
 
 def places_by(rows: DataFrame, by: str) -> Series:
     """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
-    return shared_places(rows[by], rows.get(error_column(by)), rows.get(correction_column(by)))
+    return shared_places(rows[by], rows.get(correction_column(by)))
 
 
-def shared_places(
-    values: Series, errors: Series | None = None, corrections: Series | None = None
-) -> Series:
+def shared_places(values: Series, corrections: Series | None = None) -> Series:
     """Places of sorted values, the best first.
 
     A value shares a place if it differs from the first value of the place by no more than their
-    corrections differ. An error that is common to both thus does not count. Without corrections,
-    which older results do not have, it shares a place if the intervals, value ± error, overlap or
-    touch. A missing correction or error is 0. Otherwise the value starts a new place, whose number
-    is 1 + the number of values before it.
+    corrections differ. An error that is common to both thus does not count. A missing correction
+    is 0. Otherwise the value starts a new place, whose number is 1 + the number of values before
+    it.
     """
-    known = errors if corrections is None else corrections
-    widths = np.zeros(len(values)) if known is None else known.fillna(0.0)
+    known = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
     found: list[int] = []
     best = first = np.nan
-    for value, width in zip(values, widths, strict=True):
-        slack = width + first if corrections is None else abs(width - first)
-        if abs(value - best) <= slack:
+    for value, correction in zip(values, known, strict=True):
+        if abs(value - best) <= abs(correction - first):
             found.append(found[-1])
         else:
-            best, first = value, width
+            best, first = value, correction
             found.append(len(found) + 1)
     return Series(found, index=values.index, dtype=int)

@@ -70,7 +70,7 @@ MEASURES = {
         none="None stops the striker with less than {}; the least is {}",
         example="80 g0",
         about="required, of the striker, filtered",
-        unknown="rows are too far apart for loading.filter_class, or older than the filter",
+        unknown="rows are too far apart for loading.filter_class",
     ),
     "max_mass": Measure(
         *("kg", "g", 1e3, "MASS"),

@@ -117,7 +117,7 @@ def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
         case = Case.from_json(text.decode())
         if case.case_id != case_id:
             raise ValueError(f"it is case {case.case_id}")
-    except ValueError as error:
+    except (ValueError, ArithmeticError) as error:
         raise StoreError(f"{path} holds no usable case {case_id}: {error}.") from error
     return case
 

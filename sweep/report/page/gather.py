@@ -193,22 +193,15 @@ def _scene(rows: DataFrame) -> dict[str, Any]:
         "label": scene_label(rows),
         "mode": mode,
         "least": least,
-        "bar": _bar(rows, least) if least else None,
+        "bar": least is not None and error_column(least) in rows,
         "heads": list(_measures(rows)),
         "meanings": meanings(rows, mode),
     }
 
 
 def _energy(counted: Counted) -> dict[str, Any]:
-    bar = _bar(counted.rows, counted.names.energy)
+    bar = error_column(counted.names.energy) in counted.rows
     return {"force": counted.force, "until": counted.names.until, "bar": bar}
-
-
-def _bar(rows: DataFrame, name: str) -> str | None:
-    """What ties are found by: corrections, in older files errors, or nothing."""
-    if correction_column(name) in rows:
-        return "correction"
-    return "error" if error_column(name) in rows else None
 
 
 def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Question) -> list[str]:

@@ -160,15 +160,14 @@ function markFront(rows, merit) {
 }
 
 // Places of sorted rows: a value shares the place of the first value of that place if it differs
-// from it by no more than their corrections differ, or, without corrections, their errors add up to.
-function markPlaces(rows, bar) {
+// from it by no more than their corrections differ; a missing one is 0.
+function markPlaces(rows) {
   let best = NaN;
   let first = NaN;
   rows.forEach((row, i) => {
-    const width = bar ? (row[bar] ?? 0) : 0;
-    const slack = bar === "correction" ? Math.abs(width - first) : width + first;
-    if (Math.abs(row.value - best) <= slack) row.place = rows[i - 1].place;
-    else [best, first, row.place] = [row.value, width, i + 1];
+    const correction = row.correction ?? 0;
+    if (Math.abs(row.value - best) <= Math.abs(correction - first)) row.place = rows[i - 1].place;
+    else [best, first, row.place] = [row.value, correction, i + 1];
   });
   const sharing = new Map();
   for (const row of rows) sharing.set(row.place, (sharing.get(row.place) ?? 0) + 1);
@@ -197,8 +196,8 @@ function ranked(data, question) {
   const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || a.mass - b.mass || byId(a, b));
   const known = storedEnergy(data, question);
-  const bar = scene.least ? scene.bar : known >= 0 ? data.energies[known].bar : null;
-  markPlaces(placed, bar);
+  const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
+  markPlaces(placed);
   const nearest = placed.length ? undefined : missing.find((row) => row.worst < Infinity);
   return { rows, placed, missing, nearest, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
 }

@@ -11,7 +11,7 @@ BARS += ("peak_strain", "peak_force_N")
 BARS += tuple(f"absorbed_energy_at_{force:g}N_J" for force in FORCES)
 
 
-def sweep(count=24, seed=1, bars=("error", "correction"), more=None):
+def sweep(count=24, seed=1, bars=True, more=None):
     """Designs of random mass and energy: crushed, below a dead load, struck by a striker.
 
     Some have equal values, some no value, some walls that cross.
@@ -45,7 +45,7 @@ def sweep(count=24, seed=1, bars=("error", "correction"), more=None):
         row["peak_strain"] = float(rng.uniform(0.01, 1.1)) if k % 4 else 0.3
     blow = {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.5}
     table = summary(*rows, *load, *[row | blow | {"impact_energy_J": 0.056} for row in rows[1::2]])
-    for kind in bars:
+    for kind in ("error", "correction") if bars else ():
         for name in BARS:
             table[f"{kind}_{name}"] = table[name] * rng.choice([0.001, 0.05, 0.2], len(table))
             table.loc[rng.random(len(table)) < 0.1, f"{kind}_{name}"] = np.nan

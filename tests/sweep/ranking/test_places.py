@@ -3,6 +3,7 @@
 import io
 import json
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -17,48 +18,48 @@ NAN = float("nan")
 
 
 def with_bars(energies, errors, **common):
-    """Designs of 1 g with these energies (mJ) and error bars."""
+    """Designs of 1 g with these energies (mJ) and error bars; their corrections (mJ) differ by the
+    sum of the errors of neighbours.
+    """
     rows = designs([1.0] * len(energies), [1e-3 * energy for energy in energies], **common)
-    for row, error in zip(rows, errors, strict=True):
+    corrections = np.cumsum([0.0, *np.add(errors[1:], errors[:-1])])
+    for row, error, correction in zip(rows, errors, corrections, strict=True):
         for name in ("absorbed_energy_J", "absorbed_energy_until_packed_J"):
-            row[f"error_{name}"] = 1e-3 * error
-        row["error_peak_force_until_packed_N"] = row["error_peak_force_N"] = 0.5
+            row |= {f"error_{name}": 1e-3 * error, f"correction_{name}": 1e-3 * correction}
+        for name in ("peak_force_until_packed_N", "peak_force_N"):
+            row |= {f"error_{name}": 0.5, f"correction_{name}": 0.0}
     return rows
 
 
 @pytest.mark.parametrize(
-    ("values", "errors", "places"),
+    ("values", "corrections", "places"),
     [
         ([10.0, 9.0, 8.0], None, [1, 2, 3]),
+        ([10.0, 10.0, 8.0], None, [1, 1, 3]),
         ([10.0, 10.0, 8.0], [0.0, 0.0, 0.0], [1, 1, 3]),
-        ([10.0, 9.0, 8.0], [0.5, 0.5, 0.4], [1, 1, 3]),  # touching is overlapping
-        ([10.0, 9.5, 9.0], [0.3, 0.3, 0.3], [1, 1, 3]),  # the third overlaps the second only
-        ([10.0, 9.0, 8.0, 1.0], [0.1, 0.1, 2.0, 0.1], [1, 2, 2, 4]),  # not the first above all
-        ([1.0, 1.2, 2.0], [0.2, NAN, 0.1], [1, 1, 3]),  # least is best; a missing error is none
+        ([10.0, 9.0, 8.0], [-0.5, 0.5, 0.4], [1, 1, 3]),  # the limits of both may be equal
+        ([10.0, 9.5, 9.0], [-0.3, 0.3, -0.3], [1, 1, 3]),  # the third ties with the second only
+        ([10.0, 9.0, 8.0, 1.0], [0.1, -0.1, 2.0, 0.1], [1, 2, 2, 4]),  # not the first above all
+        ([1.0, 1.2, 2.0], [0.2, NAN, 0.1], [1, 1, 3]),  # least is best; a missing one is 0
+        ([5.0, 4.5, 4.4], [NAN, 0.3, -0.6], [1, 2, 2]),
         ([1.0, 1.2, 2.0], [NAN, NAN, NAN], [1, 2, 3]),
     ],
 )
-def test_values_share_the_place_of_the_first_that_they_overlap(values, errors, places):
-    errors = None if errors is None else pd.Series(errors)
-    assert list(shared_places(pd.Series(values), errors)) == places
+def test_values_share_the_place_of_the_first_that_their_corrections_reach(
+    values, corrections, places
+):
+    corrections = None if corrections is None else pd.Series(corrections)
+    assert list(shared_places(pd.Series(values), corrections)) == places
 
 
 def test_errors_that_all_designs_share_make_no_ties():
     """Two designs tie if their values differ by no more than their corrections do."""
     table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.9] * 4))
-    table["correction_peak_force_until_packed_N"] = 0.0
-    assert list(ranked(table).table["place"]) == [1, 1, 3, 3]
     table["correction_absorbed_energy_until_packed_J"] = [1e-3] * 4
     assert list(ranked(table).table["place"]) == [1, 2, 3, 4]
     table["correction_absorbed_energy_until_packed_J"] = [1e-3, 1e-3, -1e-3, -0.8e-3]
     assert list(ranked(table, panel=(0.1, 0.05)).table["place"]) == [1, 2, 2, 2]
     assert list(ranked(table).table["tied"]) == [False, True, True, True]
-
-
-def test_missing_correction_is_none():
-    values, errors = pd.Series([5.0, 4.5, 4.4]), pd.Series([1.0, 1.0, 1.0])
-    corrections = pd.Series([NAN, 0.3, -0.6])
-    assert list(shared_places(values, errors, corrections)) == [1, 2, 2]
 
 
 def test_ties_are_marked_also_where_the_other_is_not_shown():

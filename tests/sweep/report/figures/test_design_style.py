@@ -129,7 +129,8 @@ def test_without_a_budget_the_first_in_the_table_wins(ranking):
     assert words == "best: cells 2 x 2, wall 0.8 mm, 1.60 J, 0.400 J/g, walls cross"
     assert point == [4.0, 1.6]
     sparing = ranked(summary(*designs([1.0, 3.0, 2.0], [0.3, 0.6, 0.5])), top=None)
-    per_gram = changed(sparing, **{f"error_{sparing.per_gram}": 0.03})
+    bars = {"error": 0.03, "correction": [0.0, 0.06, 0.06]}
+    per_gram = changed(sparing, **{f"{kind}_{sparing.per_gram}": bars[kind] for kind in bars})
     ((words, *point),) = winners(per_gram)  # the least J
     assert words == "best: ninjaflex, 300 mJ, 0.300 J/g ± 10 %, a tie of 2"
     assert point == [1.0, 0.3]
@@ -157,7 +158,8 @@ def test_under_a_dead_load_the_least_sink_wins():
 
 
 def test_winners_say_how_sure_they_are_and_whom_they_tie_with(ranking):
-    sure = changed(ranking, **{f"error_{ranking.energy}": [0.01, 0.06, 0.05, np.nan]})
+    bars = {"error": [0.01, 0.06, 0.05, np.nan], "correction": [0.0, 0.06, -0.05, np.nan]}
+    sure = changed(ranking, **{f"{kind}_{ranking.energy}": bars[kind] for kind in bars})
     assert [words for words, *_ in winners(replace(sure, budgets_g=(1.5, 3.0, 9.0)))] == [
         "up to 1.5 g: cells 10 x 10, wall 0.8 mm, 100 mJ ± 10 %",
         "up to 3 g: cells 2 x 2, wall 0.4 mm, 400 mJ ± 15 %, a tie of 2",

@@ -129,8 +129,7 @@ def test_what_a_longer_crush_may_fulfil_is_told():
 def test_what_has_no_filtered_deceleration_is_said():
     told = notes(STRUCK, require={"max_deceleration": "40 g0"})
     assert told[3:] == (
-        "1 without a value for max_deceleration: rows are too far apart for loading.filter_class,"
-        " or older than the filter.",
+        "1 without a value for max_deceleration: rows are too far apart for loading.filter_class.",
         f"Nearest: {CASE}0, ninjaflex: deceleration 50.99 g0, 27 % too much.",
     )
 
