@@ -53,9 +53,9 @@ class Outcome:
         in a longer crush, as theirs ended before the energy was counted to its end.
     best: the value nearest to fulfilling each requirement.
     left_out: requirements that this kind of loading is not asked for.
-    nearest: where no design fulfils all, but for doubtful ones: the row of the nearest one, that of
-        a doubtful one only if there is no other; no row if nothing is known. missed: what it
-        misses, with its values. misses: by what share of the limit.
+    nearest: where no design fulfils all, but for doubtful ones: the row of the nearest one that
+        does not, a doubtful one only if there is no other; no row if nothing is known. missed: what
+        it misses, with its values. misses: by what share of the limit.
     lightest: the row of the lightest design to be trusted that fulfils all, of any mass; or no row.
     energy, force, stroke: energy that must be absorbed, the force that is allowed meanwhile, and
         the least stroke in which it does that; NaN if one of both is not given.
@@ -265,7 +265,7 @@ def _open(part: Judged, energy: float, force: float) -> int:
 def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
     """The row of the nearest design, and its misses; no row if nothing is known or asked."""
     worst = nearest_first(part.rows, part.mass, part.shares)
-    index = worst[np.isfinite(worst)].index[: 1 if part.asked else 0]
+    index = worst[np.isfinite(worst) & (worst > 0.0)].index[:1]
     shares = {name: float(part.shares.loc[i, name]) for i in index for name in part.asked}
     return part.rows.loc[index], {name: share for name, share in shares.items() if share > 0.0}
 

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, error_column
-from sweep.design.panel import BEHIND
+from sweep.design.panel import BEHIND, BESIDE
 from sweep.numbers import counted, short
+from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import LEAST, Compared, merits, through_solid
+from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, merits, through_solid
 from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -94,6 +95,9 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
             "per": question.per,
         },
         "measures": _requirements(),
+        "round_off": ROUND_OFF,
+        "round_off_of_curves": SEVEN_DIGITS,
+        "beside": BESIDE,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
         "cases": list(cases.values()),

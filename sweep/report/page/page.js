@@ -37,7 +37,7 @@ function massRange() {
 
 // Of a specimen or of the panel.
 function forceRange() {
-  const count = (design) => (ofPanel(asked) ? panelOf(asked.panel, design.outer, design.gap).specimens : 1);
+  const count = (design) => (ofPanel(asked) ? panelOf(asked.panel, design, data.beside).specimens : 1);
   const peaks = data.cases.filter((design) => design.scene === asked.scene).map((design) => count(design) * design.peak);
   return { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) };
 }
@@ -171,8 +171,7 @@ function requiredText() {
   const words = limits.map(([name, limit]) => data.measures[name].limit.replace("{}", limitText(name, limit)));
   const counts = limits.map(([name]) => [name, now.missing.filter((row) => row.misses[name] > 0).length]);
   const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
-  const most = asked.budget === null ? Infinity : asked.budget * (1 + ROUND_OFF);
-  const designs = now.rows.filter((row) => row.mass <= most).length;
+  const designs = now.rows.filter((row) => row.mass <= greatestMass(data, asked)).length;
   const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
   return `Required of a ${asked.per}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
@@ -195,8 +194,7 @@ function missText(row) {
 
 // The lightest design that fulfils what is required, above the budget; else the stroke that it takes.
 function* instead() {
-  const whole = now.rows.filter((row) => row.worst === 0 && !doubtful(row));
-  const [lightest] = whole.sort((a, b) => a.mass - b.mass);
+  const lightest = now.lightestMeeting;
   const needed = rectangle(data, now.rows, asked);
   if (lightest) yield `The lightest design that fulfils this weighs ${inUnit(lightest.mass, 3)}: ${lightest.design.label}.`;
   else if (needed)
@@ -273,7 +271,7 @@ function showAnswer() {
   $("picture").replaceChildren();
   $("command").replaceChildren();
   if (!best) {
-    const none = asked.budget !== null && Number.isFinite(now.lightest) && asked.budget < now.lightest;
+    const none = asked.budget !== null && Number.isFinite(now.lightest) && greatestMass(data, asked) < now.lightest;
     $("sentence").textContent = none
       ? `No design weighs ${inUnit(asked.budget)} or less; the lightest weighs ${inUnit(now.lightest)}.`
       : "No design has a value to rank by.";
@@ -316,7 +314,7 @@ function* words(best) {
 }
 
 function detail(best) {
-  return [...words(best), requiredText()].filter(Boolean);
+  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : [])].filter(Boolean);
 }
 
 // The command that prints the same ranking, if there is one.
@@ -561,7 +559,8 @@ function showCard(plot, row, x, y) {
 // ---- chosen designs ----
 
 function chosen() {
-  return view.chosen ?? (now.nearest ? [now.nearest] : now.placed.slice(0, FIRST)).map((row) => row.design.id);
+  const first = now.placed.length ? now.placed.slice(0, FIRST) : [now.nearest ?? []].flat();
+  return view.chosen ?? first.map((row) => row.design.id);
 }
 
 function current() {

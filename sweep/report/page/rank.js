@@ -1,8 +1,16 @@
 // Ranks designs as sweep/ranking/rank.py does: the same sums in the same order, so the same ties.
-// Other files of that folder are repeated too: budget.py (ROUND_OFF), places.py (markFront,
+// Other files of that folder are repeated too: merit.py (measured), places.py (markFront,
 // markPlaces) and requirements.py (which limits a scene has, and by how much a design misses them).
+// An unknown value is null, which JavaScript takes for 0: `times`, `least` and `exceeds` do not.
 
-const ROUND_OFF = 1e-9;
+const times = (value, by) => (value === null ? null : by * value);
+const least = (value, most) => (value === null ? null : Math.min(value, most));
+const exceeds = (value, limit) => value !== null && limit !== null && value > limit;
+
+// The greatest mass (g) within the budget of a question.
+function greatestMass(data, question) {
+  return question.budget === null ? Infinity : question.budget * (1 + data.round_off);
+}
 
 // Work (J) done until the force first exceeds a limit (N), from stairs [forces, works].
 function workUntil(limit, [forces, works]) {
@@ -22,7 +30,8 @@ function ofPanel(question) {
 // the force of a specimen must which has its share of that of a panel.
 function storedEnergy(data, question) {
   if (question.force !== null && ofPanel(question)) return -1;
-  return data.energies.findIndex((energy) => energy.force === question.force);
+  const name = (force) => (force === null ? null : Number(force.toPrecision(10))); // of its column
+  return data.energies.findIndex((energy) => energy.force === name(question.force));
 }
 
 // Energy (J) until a specimen bears a force (N), its error and its correction.
@@ -65,7 +74,7 @@ function required(data, row, question) {
   };
   const together = ofPanel(question) ? count : 1;
   for (const [name, { shared }] of Object.entries(data.measures))
-    if (shared && of[name] !== null) of[name] *= together;
+    if (shared) of[name] = times(of[name], together);
   return of;
 }
 
@@ -78,7 +87,7 @@ function missesOf(data, row, question) {
     const value = found[name] ?? null;
     if (value === null) return [name, Infinity];
     const share = data.measures[name].least ? 1 - value / limit : value / limit - 1;
-    return [name, share <= ROUND_OFF ? 0 : share];
+    return [name, share <= data.round_off ? 0 : share];
   });
   return Object.fromEntries(shares);
 }
@@ -96,15 +105,13 @@ function rectangle(data, rows, question) {
   return { energy, force, stroke: energy / force, height: Math.max(...rows.map((row) => row.design.height)) };
 }
 
-const BESIDE = 0.4e-3; // m, between two specimens
-
 // Numbers of specimens of an outer width x depth (m) side by side and one behind the other, with a
-// gap (m) there, of the panel nearest to two lengths (m), at least one each, and its true lengths:
-// sweep/design/panel.py.
-function panelOf([first, second], [width, depth], gap) {
-  const across = Math.max(1, Math.floor((first + BESIDE) / (width + BESIDE) + 0.5));
+// gap (m) there and `beside` between the former, of the panel nearest to two lengths (m), at least
+// one each, and its true lengths: sweep/design/panel.py.
+function panelOf([first, second], { outer: [width, depth], gap }, beside) {
+  const across = Math.max(1, Math.floor((first + beside) / (width + beside) + 0.5));
   const behind = Math.max(1, Math.floor((second + gap) / (depth + gap) + 0.5));
-  const lengths = [across * (width + BESIDE) - BESIDE, behind * (depth + gap) - gap];
+  const lengths = [across * (width + beside) - beside, behind * (depth + gap) - gap];
   return { specimens: across * behind, lengths };
 }
 
@@ -112,22 +119,22 @@ function panelOf([first, second], [width, depth], gap) {
 // force (N) or null, require {name: limit}, and per: force and limits are of a "specimen" or "panel".
 function measured(data, design, question) {
   const scene = data.scenes[question.scene];
-  const panel = question.panel ? panelOf(question.panel, design.outer, design.gap) : null;
+  const panel = question.panel ? panelOf(question.panel, design, data.beside) : null;
   const factor = panel ? panel.specimens : 1;
   const force = question.force === null ? null : question.force / (ofPanel(question) ? factor : 1);
   const [energy, error, correction] = countedEnergy(data, design, question, force);
-  const times = (value, by) => (value === null ? null : by * value);
+  const slack = storedEnergy(data, question) < 0 ? data.round_off_of_curves : data.round_off;
   const row = {
     design,
     panel,
     mass: factor * design.mass,
     energy: times(energy, factor),
     perGram: energy === null ? null : energy / design.mass,
-    passed: force === null ? design.passed : Math.min(design.peak, force),
-    beyond: design.solid || (energy !== null && energy > design.within * (1 + ROUND_OFF)),
+    passed: force === null ? design.passed : least(design.peak, force),
+    beyond: design.solid || exceeds(energy, times(design.within, 1 + slack)),
   };
   row.stroke = countedStroke(data, design, question, force);
-  row.early = scene.mode === "displacement" && force !== null && design.peak <= row.passed;
+  row.early = scene.mode === "displacement" && force !== null && design.peak !== null && design.peak <= row.passed;
   row.open = force === null ? design.open : row.early;
   let bars;
   if (scene.least) bars = design.least;
@@ -141,10 +148,17 @@ function measured(data, design, question) {
   return row;
 }
 
+// The nearest whole number, the even one of two, as numpy rounds.
+function halfToEven(value) {
+  const below = Math.floor(value);
+  if (value - below !== 0.5) return Math.round(value);
+  return below % 2 ? below + 1 : below;
+}
+
 // Marks rows such that none lighter is as good and none as light is better.
 function markFront(rows, merit) {
   const best = new Map();
-  const key = (row) => Math.round(row.mass * 1e9);
+  const key = (row) => halfToEven(row.mass * 1e9);
   for (const row of rows) {
     const value = merit(row);
     if (value !== null && value > (best.get(key(row)) ?? -Infinity)) best.set(key(row), value);
@@ -178,26 +192,32 @@ function doubtful(row) {
   return Number(row.beyond || row.design.crossed);
 }
 
-// All designs of a scene as `rows`, and those with a place, best first, as `placed`; those within
-// the budget that miss what is required, the nearest first, as `missing`; `nearest`: the first of
-// them whose values are known, where none has a place.
+// All designs of a scene of known mass as `rows`; those with a place, best first, as `placed`; those
+// within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
+// design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
+// lightest one to be trusted that fulfils it, of any mass.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
-  const designs = data.cases.filter((design) => design.scene === question.scene);
-  const rows = designs.map((design) => measured(data, design, question));
+  const weighed = (design) => design.scene === question.scene && design.mass !== null;
+  const rows = data.cases.filter(weighed).map((design) => measured(data, design, question));
   const sign = scene.least ? 1 : -1;
   const meeting = rows.filter((row) => row.worst === 0);
   markFront(meeting, scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
-  const most = question.budget === null ? Infinity : question.budget * (1 + ROUND_OFF);
-  const placed = meeting.filter((row) => row.mass <= most && row.value !== null);
+  const most = greatestMass(data, question);
+  const within = meeting.filter((row) => row.mass <= most);
+  const placed = within.filter((row) => row.value !== null);
   const byId = (a, b) => (a.design.id < b.design.id ? -1 : 1);
-  placed.sort((a, b) => sign * (a.value - b.value) || a.mass - b.mass || byId(a, b));
+  const byMass = (a, b) => a.mass - b.mass || byId(a, b);
+  placed.sort((a, b) => sign * (a.value - b.value) || byMass(a, b));
   const missing = rows.filter((row) => row.worst > 0 && row.mass <= most);
   const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
-  missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || a.mass - b.mass || byId(a, b));
+  missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
   markPlaces(placed);
-  const nearest = placed.length ? undefined : missing.find((row) => row.worst < Infinity);
-  return { rows, placed, missing, nearest, bar, lightest: Math.min(...rows.map((row) => row.mass)) };
+  const sound = (row) => !doubtful(row);
+  const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
+  const [lightestMeeting] = meeting.filter(sound).sort(byMass);
+  const lightest = Math.min(...rows.map((row) => row.mass));
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting };
 }

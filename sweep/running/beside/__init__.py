@@ -2,5 +2,5 @@
 
 `error_bars` simulates every design again with a coarser mesh and with longer steps, `spread` the
 best ones with other numbers of their materials, and `screen` simulates one cell of each design
-first. `run_beside` is what the three have in common.
+first. `run_beside` is what the three have in common; `refinement` makes a case finer or coarser.
 """

@@ -26,13 +26,9 @@ from typing import Any, NamedTuple
 from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
 from sweep.config.grid import Config, sweep_of
-from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
-from sweep.config.kinds.lattice import Lattice
-from sweep.config.kinds.solver import Solver
-from sweep.config.network import network_of
-from sweep.design.upright_plan import most_layers
 from sweep.result import Status
+from sweep.running.beside.refinement import pieces, refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import announce
@@ -89,12 +85,17 @@ class Companion(NamedTuple):
 
 
 def companions(design: Case) -> list[Companion]:
-    """The design on another mesh, and with longer steps."""
-    lattice, mesh = _remeshed(design.lattice)
-    solver, steps = _longer_steps(design.solver)
+    """The design with half the elements per wall, and with half the steps; with twice as many where
+    there is a single one.
+    """
+    before, count = pieces(design.lattice), design.solver.load_steps
+    meshed = refined(design, elements=0.5 if min(before) > 1 else 2.0)
+    mesh = min(n / other for n, other in zip(before, pieces(meshed.lattice), strict=True))
+    longer = refined(design, steps=0.5 if count is None or count > 1 else 2.0)
+    steps = 2.0 if count is None else count / (longer.solver.load_steps or 1)
     return [
-        Companion(_labelled(design.model_copy(update={"lattice": lattice})), mesh, order=2),
-        Companion(_labelled(design.model_copy(update={"solver": solver})), steps, order=1),
+        Companion(_labelled(meshed), mesh, order=2),
+        Companion(_labelled(longer), steps, order=1),
     ]
 
 
@@ -106,46 +107,6 @@ def _labelled(case: Case) -> Case:
         f"solver.{step}": getattr(case.solver, step),
     }
     return case.model_copy(update={"axes": numerics})
-
-
-def _remeshed(lattice: Lattice) -> tuple[Lattice, float]:
-    """Half the elements per wall, or twice as many if a wall has only one; the ratio of sizes."""
-    pieces = (
-        lattice.structure.pieces
-        if isinstance(lattice, CustomStructure)
-        else (lattice.nodes_per_wall + 1,)
-    )
-    others = tuple(n // 2 if min(pieces) > 1 else 2 * n for n in pieces)
-    ratio = min(n / other for n, other in zip(pieces, others, strict=True))
-    changes: dict[str, Any] = {"nodes_per_wall": others[0] - 1}
-    if isinstance(lattice, CustomStructure):
-        changes = {"structure": lattice.structure.model_copy(update={"subdivide": others})}
-    return lattice.model_copy(update=changes | _layers(lattice, ratio)), ratio
-
-
-def _layers(lattice: Lattice, ratio: float) -> dict[str, int]:
-    """The layers of quads that are higher by a ratio, of plates; none is lower than it may be."""
-    if lattice.layers is None:
-        return {}
-    most = most_layers(network_of(lattice).wall_thickness, lattice.depth)
-    return {"layers": max(min(round(lattice.layers / ratio), most), 1)}
-
-
-def _longer_steps(solver: Solver) -> tuple[Solver, float]:
-    """Half as many steps, or two instead of a single one; the ratio of their lengths.
-
-    The error of one step grows with its length to the power order + 1 of the integrator.
-    """
-    count = other = solver.load_steps
-    ratio = 2.0
-    if count is not None:
-        other = count // 2 if count > 1 else 2
-        ratio = count / other
-    order = 1 if solver.integrator == "backward_euler" else 2
-    scales = {"time_step": ratio, "arc_length": ratio, "step_error": ratio ** (order + 1)}
-    values = {key: getattr(solver, key, None) for key in scales}
-    scaled = {key: scales[key] * value for key, value in values.items() if value is not None}
-    return solver.model_copy(update=scaled | {"load_steps": other}), ratio
 
 
 def companions_beside(

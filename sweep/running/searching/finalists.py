@@ -15,9 +15,8 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.table import RefusedError
-from sweep.config.network import network_of
-from sweep.design.upright_plan import most_layers
 from sweep.ranking.spread import FINE
+from sweep.running.beside.refinement import layers, mesh
 from sweep.running.beside.spread import Corner
 
 WALLS = {"walls -5 %": 0.95, "walls +5 %": 1.05}
@@ -57,10 +56,10 @@ def perturbed(design: Case) -> list[Corner]:
     base = fine or _with(design, _elements(design.lattice, 1)) or design
     found = {FINE: fine}
     if not isinstance(base.lattice, CustomStructure):
-        layers = 2 * (design.lattice.layers or 0) if fine else design.lattice.layers
+        wished = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
-            change = _walls(base.lattice, by) | _layers(base.lattice, layers, by)
-            found[name] = _with(base, change)
+            height = layers(base.lattice, wished, by) if wished else {}
+            found[name] = _with(base, _walls(base.lattice, by) | height)
         amount = base.lattice.imperfection
         bows = BOWS if amount else {}
         found |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
@@ -79,22 +78,12 @@ def _walls(lattice: Cells | Sliced, by: float) -> dict[str, Any]:
 
 def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     """`ratio` times the elements in every wall, whose thickness no longer follows from a mass or a
-    share, and as many times the layers of plates, whose quads stay as high as walls are thick.
+    share.
     """
-    change: dict[str, Any] = _layers(lattice, ratio * (lattice.layers or 0), 1.0)
+    change = mesh(lattice, ratio)
     if isinstance(lattice, CustomStructure):
-        pieces = tuple(ratio * n for n in lattice.structure.pieces)
-        return change | {"structure": lattice.structure.model_copy(update={"subdivide": pieces})}
-    change |= {"nodes_per_wall": ratio * (lattice.nodes_per_wall + 1) - 1, "mass": None}
-    return change | ({"infill": None} if isinstance(lattice, Cells) else {"infill": lattice.infill})
-
-
-def _layers(lattice: Lattice, wished: int | None, by: float) -> dict[str, int]:
-    """Layers of plates whose walls are `by` times as thick; none across the cells."""
-    if not wished:
-        return {}
-    most = most_layers(by * network_of(lattice).wall_thickness, lattice.depth)
-    return {"layers": max(min(wished, most), 1)}
+        return change
+    return change | {"mass": None, "infill": None if isinstance(lattice, Cells) else lattice.infill}
 
 
 def _with(design: Case, change: dict[str, Any]) -> Case | None:

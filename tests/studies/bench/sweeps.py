@@ -13,6 +13,7 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.load import load_config
+from sweep.running.beside.refinement import refined
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 from tests.studies.bench.measuring.clock import seconds
@@ -98,16 +99,11 @@ def overhead(designs, count):
     return found
 
 
-def refined(case, elements):
-    """A case with `FINER` times its load steps and so many times its elements."""
-    per_wall, steps = case.lattice.nodes_per_wall + 1, FINER * case.solver.load_steps
-    mesh = {"nodes_per_wall": elements * per_wall - 1}
-    return changed(case, lattice=mesh, solver={"load_steps": steps})
-
-
 def errors(sample, elements=1):
-    """Share by which the absorbed energy of each design changes if it is `refined`."""
-    fine = [refined(case, elements) for case in sample]
+    """Share by which the absorbed energy of each design changes with `FINER` times its load steps
+    and so many times its elements.
+    """
+    fine = [refined(case, elements, FINER) for case in sample]
     energies = [
         [converged(case).summary["absorbed_energy_J"] for case in cases] for cases in (sample, fine)
     ]

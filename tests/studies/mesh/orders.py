@@ -2,6 +2,7 @@
 
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.sheet import Sheet
+from sweep.running.beside.refinement import pieces, refined
 from tests.studies.rankings.orders import compared, merits
 
 FINE = 12  # elements of a wall, at least
@@ -11,10 +12,9 @@ PATIENCE = 600.0  # s for a case
 
 def finer(case):
     """The same case with more elements."""
-    elements = max(FINE, TIMES * (case.lattice.nodes_per_wall + 1))
-    lattice = case.lattice.model_copy(update={"nodes_per_wall": elements - 1})
-    solver = case.solver.model_copy(update={"time_limit": PATIENCE})
-    return case.model_copy(update={"lattice": lattice, "solver": solver})
+    finest = refined(case, elements=max(FINE / min(pieces(case.lattice)), TIMES))
+    solver = finest.solver.model_copy(update={"time_limit": PATIENCE})
+    return finest.model_copy(update={"solver": solver})
 
 
 def by_order(usual, fine):

@@ -17,6 +17,7 @@ from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 from sweep.running.beside.error_bars import add_error_bars
+from sweep.running.beside.refinement import pieces, refined
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 
@@ -31,16 +32,9 @@ NAMES = {"displacement": "crushed", "force": "dead load", "impact": "struck"}
 
 def finer(case):
     """The case with many elements a wall and short steps."""
-    solver = {"time_limit": PATIENCE}
-    if case.solver.load_steps is None:
-        solver["time_step"] = case.solver.time_step / STEPS
-    else:
-        solver["load_steps"] = STEPS * case.solver.load_steps
-    tables = {
-        "lattice": case.lattice.model_copy(update={"nodes_per_wall": ELEMENTS - 1}),
-        "solver": case.solver.model_copy(update=solver),
-    }
-    return case.model_copy(update=tables | {"axes": {}})
+    fine = refined(case, elements=ELEMENTS / min(pieces(case.lattice)), steps=STEPS)
+    solver = fine.solver.model_copy(update={"time_limit": PATIENCE})
+    return fine.model_copy(update={"solver": solver, "axes": {}})
 
 
 def beside_finer(designs, references):

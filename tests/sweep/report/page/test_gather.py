@@ -1,22 +1,17 @@
 """The data of a page: what ranks designs, thin curves, shapes while there is room."""
 
 import json
-import shutil
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
-from sweep.report.page import gather
 from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.thinning import work_until
 from sweep.result import Result, Status
 from sweep.store.write import Writer
-from tests.support.results.page_data import expected, sweep
+from tests.support.results.page_data import sweep
 from tests.support.results.specimens import (
     HEIGHT,
     Named,
@@ -26,148 +21,9 @@ from tests.support.results.specimens import (
     write,
 )
 
-SCRIPT = Path(gather.__file__).with_name("rank.js")
-NODE = shutil.which("node")
-QUESTIONS = [
-    {"budget": budget, "panel": panel, "force": force}
-    for budget in (None, 1.0, 1.5, 40.0)
-    for panel in (None, (0.1, 0.05))
-    for force in (None, 20.0, 50.0)
-]
-ASK = """
-{script}
-const {{ data, questions }} = JSON.parse(require("fs").readFileSync(0, "utf8"));
-const told = questions.map((question) => data.scenes.map((_, scene) =>
-  ranked(data, {{ ...question, scene }}).placed.map((row) => ({{
-    case_id: row.design.id, place: row.place, tied: row.sharing > 1, pareto: row.pareto,
-    beyond_model: row.beyond, crossed: row.design.crossed, value: row.value, mass: row.mass,
-  }}))));
-process.stdout.write(JSON.stringify(told));
-"""
-
 
 def gathered(path, table, **question):
     return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, Question(**question))
-
-
-def told_by_the_script(data, questions):
-    """Rankings by `rank.js`: for each question a list of scenes."""
-    asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-    program = ASK.format(script=SCRIPT.read_text("utf-8"))
-    done = subprocess.run(
-        [NODE, "-e", program], input=asked, capture_output=True, text=True, check=False
-    )
-    assert done.stderr == ""
-    return json.loads(done.stdout)
-
-
-@pytest.mark.skipif(NODE is None, reason="needs node")
-@pytest.mark.parametrize("bars", [True, False])
-def test_script_ranks_as_rank_does(tmp_path, bars):
-    table = sweep(bars=bars)
-    data = gathered(tmp_path, table)
-    labels = [scene["label"] for scene in data["scenes"]]
-    assert len(labels) == 3
-    compared = ties = 0
-    for question, told in zip(QUESTIONS, told_by_the_script(data, QUESTIONS), strict=True):
-        wanted = expected(table, **question)
-        for label, found in zip(labels, told, strict=True):
-            if not bars:
-                found = [row | {"tied": False} for row in found]
-            assert found == wanted.get(label, []), (question, label)
-            compared += len(found)
-            ties += sum(row["tied"] for row in found)
-    assert compared > 300
-    assert (ties > 50) == bool(bars)
-
-
-LIMITS = {
-    "max_force": (30.0, 900.0),
-    "min_absorbed": (0.5, 20.0),
-    "max_mass": (1.5e-3, 0.05),
-    "max_stroke": (5e-3, 5e-3),
-    "max_deceleration": (350.0, 350.0),
-}
-"""Limits (SI) of a specimen and of a panel."""
-WISHES = [*([name] for name in LIMITS), ["max_force", "min_absorbed"], [*LIMITS]]
-
-
-ASKED = [question for question in QUESTIONS if question["budget"] in (None, 1.5)]
-
-
-@pytest.fixture(scope="module")
-def free(tmp_path_factory):
-    """The data of a page, its table with strokes up to each force, and the number of ranked designs
-    of each scene for each of ``ASKED`` where nothing is required.
-    """
-    folder, table = tmp_path_factory.mktemp("required"), sweep()
-    data = gathered(folder, table)
-    tables = {
-        force: with_allowed(folder / "trial.h5", table, Question(allowed_force=force))
-        for force in (None, 20.0, 50.0)
-    }
-    counts = [
-        {scene: len(rows) for scene, rows in expected(table, **question).items()}
-        for question in ASKED
-    ]
-    return data, tables, counts
-
-
-@pytest.mark.skipif(NODE is None, reason="needs node")
-@pytest.mark.parametrize("names", WISHES, ids="+".join)
-def test_script_requires_what_rank_requires(free, names):
-    """The designs that miss a limit have no place, of a specimen or of a panel, as in `rank`."""
-    data, tables, counts = free
-    questions, ranked_before = [], []
-    for question, count in zip(ASKED, counts, strict=True):
-        for of_panel, per in enumerate(("specimen", "panel")):
-            if per == "specimen" or (question["panel"] and question["force"] is None):
-                require = {name: LIMITS[name][of_panel] for name in names}
-                questions.append({**question, "require": require, "per": per})
-                ranked_before.append(count)
-    dropped = kept = 0
-    told_by = told_by_the_script(data, questions)
-    for question, before, told in zip(questions, ranked_before, told_by, strict=True):
-        wanted = expected(tables[question["force"]], **question)
-        for scene, found in zip(data["scenes"], told, strict=True):
-            if question["force"] is None or scene["mode"] == "displacement":
-                assert found == wanted.get(scene["label"], []), (question, scene["label"])
-            kept += len(found)
-            dropped += before.get(scene["label"], 0) - len(found)
-    assert kept > 0
-    assert dropped > 25
-
-
-@pytest.mark.skipif(NODE is None, reason="needs node")
-def test_energies_between_the_stored_forces_are_read_from_curves(tmp_path):
-    table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})
-    data = gathered(tmp_path, table)
-    ((found,),), ((stored,),) = told_by_the_script(
-        data, [{"budget": 5.0, "panel": None, "force": force} for force in (20.3, 20.0)]
-    )
-    history = there_and_back()
-    expected_work = np.interp(20.3, history["reaction_top_N"][:21], history["work_in_J"][:21])
-    assert found["value"] == pytest.approx(expected_work, rel=1e-3)
-    assert stored["value"] == 1.0
-
-
-@pytest.mark.skipif(NODE is None, reason="needs node")
-def test_an_allowed_force_may_be_that_of_the_panel(tmp_path):
-    """A specimen has its share of it, which is read from curves even where a column has it."""
-    known = {"absorbed_energy_at_24N_J": 9.0}
-    table = summary(*[known | {"outer_width_m": width} for width in (0.012, 0.013, 0.0165)])
-    data, panel = gathered(tmp_path, table), (0.1, 0.05)
-    question = Question(panel=panel, allowed_force=840.0, per="panel")
-    at_force = with_allowed(tmp_path / "trial.h5", table, question)
-    (wanted,) = expected(at_force, panel=panel, force=840.0, per="panel").values()
-    asked = {"budget": None, "panel": panel, "force": 840.0, "per": "panel"}
-    no_panel = asked | {"panel": None, "force": 24.0}
-    (found,), ((alone, *_),) = told_by_the_script(data, [asked, no_panel])
-    assert [row["case_id"] for row in found] == [row["case_id"] for row in wanted]
-    values = [row["value"] for row in found]
-    assert values == pytest.approx([row["value"] for row in wanted], rel=1e-3)
-    assert 3.5 > values[0] > 1.1 * values[1] > 1.2 * values[2]  # 30, 35 and 40 specimens
-    assert alone["value"] == pytest.approx(9.0 / alone["mass"])
 
 
 def test_page_has_every_finished_case_once_and_every_failure(tmp_path):

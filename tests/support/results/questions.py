@@ -1,0 +1,155 @@
+"""Random sweeps and random questions, with values at the borders of limits and within round-off."""
+
+import numpy as np
+import pandas as pd
+
+from sweep.columns import HISTORY_COLUMNS, absorbed_energy_column
+from sweep.ranking.requirement_table import MEASURES
+from sweep.ranking.requirements import limits
+from sweep.result import Result, Status
+from sweep.store.write import Writer
+from tests.support.results.specimens import HEIGHT, Named, squeezed_cell, summary
+
+FORCES = (20.0, 33.3333333333, 50.0)
+PANELS = (None, None, (0.1, 0.05), (0.066, 0.012), (0.0333, 0.03))
+BARS = ("absorbed_energy_until_packed_J", "peak_force_until_packed_N")
+BARS += ("peak_strain", "peak_force_N", *map(absorbed_energy_column, FORCES))
+FAR = (0.5, 0.9, 1.1, 1.5)
+BORDER = (*FAR, *(1.0 + k * 1e-9 for k in (-3, -1.0001, -0.999, 0, 0.999, 1.0001, 3)))
+"""Limits are values of designs times one of these: `ROUND_OFF` is 1e-9. What the page reads from
+curves has fewer digits, and is never at the border.
+"""
+OTHERS = (
+    {"platen": "contact"},
+    {"loading_mode": "force", "force_N": 5.0},
+    {"loading_mode": "impact", "striker_mass_g": 50.0, "striker_speed_m_per_s": 1.5},
+    {"loading_mode": "custom"},
+)
+
+
+def curve(factor):
+    """A crush by 4 mm and up again, in which the force (N) rises from 10 to 90 times ``factor``, in
+    two humps.
+    """
+    travel = 4e-3 * np.concatenate([np.linspace(0, 1, 15), np.linspace(1, 0, 15)[1:]])
+    force = factor * (10.0 + 2e4 * travel + 30.0 * np.sin(travel / 4e-3 * 2.0 * np.pi))
+    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
+    history = pd.DataFrame(0.0, index=range(len(travel)), columns=list(HISTORY_COLUMNS))
+    history["top_displacement_m"], history["strain"] = travel, travel / HEIGHT
+    history["reaction_top_N"] = history["reaction_bottom_N"] = force
+    history["work_in_J"], history["time_s"] = work, np.arange(len(travel)) * 1e-3
+    return history
+
+
+def random_sweep(rng, other, count=16):
+    """Designs in two scenes, a crush and one of `OTHERS`, and the factors of their curves.
+
+    Values are equal, equal but for round-off, at the border of the model, or missing; some failed.
+    """
+    rows, factors = [], []
+    masses, energies = rng.uniform(0.5, 4.0, 5), np.round(rng.uniform(0.01, 0.3, 5), 3)
+    for scene in ({}, other):
+        for _ in range(count):
+            factor = float(rng.choice([1.0, rng.uniform(0.5, 1.5)]))
+            rows.append(_row(rng, float(rng.choice(masses)), float(rng.choice(energies)), factor))
+            rows[-1] |= scene
+            factors.append(factor)
+            if scene.get("loading_mode") == "impact":
+                rows[-1]["impact_energy_J"] = 0.056
+    table = summary(*rows)
+    for kind in _bars(rng):
+        for name in BARS:
+            bar = table[name] * rng.choice([1e-3, 0.05, 0.2], len(table))
+            table[f"{kind}_{name}"] = bar.mask(rng.random(len(table)) < 0.1)
+    return table, factors
+
+
+def _bars(rng):
+    """Which error bars a table has."""
+    return (("error", "correction"), ("error",), ())[rng.integers(3)]
+
+
+def _row(rng, mass, energy, factor):
+    """One design; its curve and its columns do not agree, which nothing here needs."""
+
+    def near(value):
+        return float(value * (1.0 + rng.choice([0.0, 0.0, 1e-10, -1e-10, 5e-10, 3e-9])))
+
+    whole = float(curve(factor)["work_in_J"].max())
+    row = {
+        "mass_g": round(mass, 9) + float(rng.choice([0.0, 5e-10, 1e-10, 0.3])),
+        "height_m": HEIGHT,
+        "outer_width_m": float(rng.choice([0.013, 0.02])),
+        "direction": "in_plane",
+        "absorbed_energy_J": near(energy),
+        "absorbed_energy_within_model_J": float(rng.choice([near(energy), whole, 0.5 * energy])),
+        "peak_force_N": float(rng.choice([20.0, near(33.3333333333), rng.uniform(15.0, 80.0)])),
+        "peak_force_until_packed_N": float(rng.choice([15.0, rng.uniform(10.0, 60.0)])),
+        "peak_strain": float(rng.choice([0.5, near(0.5), rng.uniform(0.2, 1.1)])),
+        "packing_strain": float(rng.choice([0.3, 0.4, np.nan])),
+        "densification_strain": float(rng.choice([0.5, np.nan])),
+        "peak_deceleration_filtered_m_per_s2": float(rng.choice([300.0, near(500.0), np.nan])),
+        "stroke_left_m": float(rng.choice([1e-3, 0.0, -1e-10, -1e-8])),
+        "returned_energy_J": 0.9 * energy,
+        "max_crossings": int(rng.random() < 0.1),
+        "status": "stopped" if rng.random() < 0.1 else "converged",
+    }
+    for force in FORCES:
+        share = float(rng.choice([1.0, rng.uniform(0.2, 1.0), np.nan], p=[0.3, 0.6, 0.1]))
+        row[absorbed_energy_column(force)] = share * row["absorbed_energy_J"]
+    gaps = ("mass_g", "peak_force_N", "absorbed_energy_within_model_J", "absorbed_energy_J")
+    return row | {name: np.nan for name in gaps if rng.random() < 0.03}
+
+
+def write_curves(path, table, factors):
+    """A results file with a row and a curve for each design."""
+    results = []
+    for row, factor in zip(table.to_dict("records"), factors, strict=True):
+        case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
+        history = {name: column.to_numpy() for name, column in curve(factor).items()}
+        ran = (history, squeezed_cell()) if status == "converged" else ({}, {})
+        results.append(Result(Named(case_id), Status(status), message, row, *ran))
+    with Writer(path, attributes={"config": "{}"}) as writer:
+        writer.append(results)
+        writer.fold()
+    return str(path)
+
+
+def random_question(rng, table):
+    """A budget (kg), a panel, an allowed force (N), requirements in SI, and what they are of."""
+    panel = PANELS[rng.integers(len(PANELS))]
+    per = "panel" if panel and rng.random() < 0.4 else "specimen"
+    count = 1.0 if panel is None else float(rng.choice([1.0, 5.0, 28.0, 35.0]))
+    force = [None, None, *FORCES, 27.0, 41.5][rng.integers(7)]
+    force = None if force is None else force * (count if per == "panel" else 1.0)
+    modes = {*table["loading_mode"]}
+    known = [name for name, measure in MEASURES.items() if modes.intersection(measure.asked_of)]
+    names = [name for name in known if rng.random() < 0.25]
+    shared = count if per == "panel" else 1.0
+    steps = FAR if read_from_curves({"force": force, "per": per}) else BORDER
+    require = {
+        name: _limit(rng, table, name, steps) * (shared if MEASURES[name].shared else 1.0)
+        for name in names
+    }
+    budget = _limit(rng, table, "max_mass") * count if rng.random() < 0.6 else None
+    return {"budget": budget, "panel": panel, "force": force, "per": per, "require": require}
+
+
+def _limit(rng, table, name, steps=BORDER):
+    """A limit (SI) at or near the value of a design."""
+    strokes = table["packing_strain"] * table["height_m"]
+    values = {
+        "max_force": table["peak_force_N"],
+        "max_deceleration": table["peak_deceleration_filtered_m_per_s2"],
+        "max_mass": 1e-3 * table["mass_g"],
+        "min_absorbed": table["absorbed_energy_J"],
+        "max_stroke": strokes,
+    }[name].dropna()
+    value = float(rng.choice(values)) * float(rng.choice(steps))
+    return limits({name: value})[name]
+
+
+def read_from_curves(question):
+    """Whether the page reads energies from curves, as no column has them."""
+    force = question["force"]
+    return force is not None and (question["per"] == "panel" or force not in FORCES)

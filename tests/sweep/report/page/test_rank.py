@@ -1,0 +1,179 @@
+"""The ranking of the page, `rank.js`, against that of Python, on random sweeps and questions."""
+
+import json
+from math import isclose
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from py_mini_racer import MiniRacer
+
+from sweep.ranking.curves import with_allowed
+from sweep.ranking.question import Question
+from sweep.ranking.rank import ranked
+from sweep.report.page import gather
+from sweep.report.page.gather import page_data
+from tests.support.results.questions import (
+    OTHERS,
+    random_question,
+    random_sweep,
+    read_from_curves,
+    write_curves,
+)
+from tests.support.results.specimens import summary, there_and_back, write
+
+SCRIPT = Path(gather.__file__).with_name("rank.js")
+SWEEPS, QUESTIONS = 8, 64
+DIGITS = 1e-3  # relative: of what the page reads from curves of four digits
+NEEDED = ("energy", "force", "stroke")
+ASK = """
+function told({ data, questions }) {
+  return questions.map((question) => data.scenes.map((_, scene) => {
+    const asked = { ...question, scene };
+    const found = ranked(data, asked);
+    return {
+      placed: found.placed.map((row) => ({
+        case_id: row.design.id, place: row.place, tied: Boolean(found.bar) && row.sharing > 1,
+        pareto: row.pareto, beyond_model: row.beyond, crossed: row.design.crossed,
+        value: row.value, mass: row.mass, early: row.early || row.open,
+      })),
+      missing: found.missing.length,
+      nearest: found.nearest ? found.nearest.design.id : null,
+      lightest: found.lightestMeeting ? found.lightestMeeting.design.id : null,
+      misses: found.nearest ? found.nearest.misses : {},
+      needed: rectangle(data, found.rows, asked),
+    };
+  }));
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def told():
+    """Rankings by the script of the page: for each question a list of scenes."""
+    with MiniRacer() as engine:
+        engine.eval(SCRIPT.read_text("utf-8") + ASK)
+
+        def ask(data, questions):
+            asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
+            return json.loads(engine.eval(f"JSON.stringify(told({asked}))"))
+
+        yield ask
+
+
+def on_the_page(question):
+    """A question as the page asks it: the budget in g."""
+    budget = question["budget"]
+    return question | {"budget": None if budget is None else 1e3 * budget}
+
+
+def expected(table, question):
+    """For each scene, what `rank` says."""
+    asked = {name: question[name] for name in ("budget", "panel", "require", "per")}
+    ranking = ranked(table, **asked, top=None, allowed_force=question["force"])
+    frame = ranking.table
+    tied = frame.get("tied", pd.Series(False, frame.index)).eq(True)  # NaN: without error bars
+    frame = frame.assign(
+        value=[row[row["ranked_by"]] for _, row in frame.iterrows()],
+        mass=frame[ranking.mass],
+        tied=tied,
+        early=frame["ends_early"],
+    )
+    names = ["case_id", "place", "tied", "pareto", "beyond_model", "crossed"]
+    names += ["value", "mass", "early"]
+    scenes = {}
+    for label in ranking.lightest_g:
+        placed = frame[frame["scene"] == label][names].to_dict("records")
+        outcome = ranking.outcomes[label][0] if question["require"] else None
+        scenes[label] = {"placed": placed} | _of_requirements(outcome)
+    return scenes
+
+
+def _of_requirements(outcome):
+    if outcome is None:
+        return {}
+    ids = {name: list(getattr(outcome, name)["case_id"]) for name in ("nearest", "lightest")}
+    known = np.isfinite(outcome.stroke)
+    return {
+        "missing": outcome.designs - outcome.fulfil,
+        "nearest": next(iter(ids["nearest"]), None),
+        "lightest": next(iter(ids["lightest"]), None),
+        "misses": dict(outcome.misses),
+        "needed": {name: getattr(outcome, name) for name in NEEDED} if known else None,
+    }
+
+
+def of_the_page(scene, names):
+    """What the page says of one scene, in the form of `expected`."""
+    misses = {name: share for name, share in scene["misses"].items() if share}
+    needed = scene["needed"] and {name: scene["needed"][name] for name in NEEDED}
+    return {name: (scene | {"misses": misses, "needed": needed})[name] for name in names}
+
+
+def blurred(scene):
+    """A scene but for which of two designs that miss alike is the nearest, which is round-off."""
+    if "misses" not in scene:
+        return scene
+    worst = max(scene["misses"].values(), default=0.0)
+    return scene | {"misses": worst, "nearest": bool(scene["nearest"])}
+
+
+def alike(one, other, tolerance):
+    """Whether two values, lists or tables are equal, their fractions within a tolerance."""
+    if isinstance(one, float) or isinstance(other, float):
+        return one is not None and other is not None and isclose(one, other, rel_tol=tolerance)
+    if isinstance(one, list) and isinstance(other, list):
+        same = len(one) == len(other)
+        return same and all(alike(a, b, tolerance) for a, b in zip(one, other, strict=True))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(alike(one[k], other[k], tolerance) for k in one)
+    return one == other
+
+
+def asked_of_both(told, path, seed):
+    """Random questions of a random sweep, and for each scene what the page and Python say."""
+    rng = np.random.default_rng(seed)
+    table, factors = random_sweep(rng, OTHERS[seed % len(OTHERS)])
+    file = write_curves(path / "random.h5", table, factors)
+    data, known = page_data(file, table, Question()), {}
+    questions = [random_question(rng, table) for _ in range(QUESTIONS)]
+    answers = told(data, [on_the_page(question) for question in questions])
+    for question, scenes in zip(questions, answers, strict=True):
+        asked = Question(None, question["panel"], None, None, question["force"])
+        asked = asked._replace(per=question["per"])
+        wanted = expected(with_allowed(file, table, asked, known), question)
+        for scene, found in zip(data["scenes"], scenes, strict=True):
+            if question["force"] is None or scene["mode"] == "displacement":
+                yield question, found, wanted[scene["label"]]
+
+
+@pytest.mark.parametrize("seed", range(SWEEPS))
+def test_page_and_python_rank_alike(told, tmp_path, seed):
+    """What the page reads from curves has four digits."""
+    rows, missing, nearest, border = [], 0, 0, 0
+    for question, found, wanted in asked_of_both(told, tmp_path, seed):
+        one, other = of_the_page(found, wanted), wanted
+        if read_from_curves(question):
+            assert alike(blurred(one), blurred(other), DIGITS), question
+        else:
+            assert one == other, question
+        rows += found["placed"]
+        missing += found["missing"]
+        nearest += bool(found["nearest"])
+        most = 1e3 * (question["budget"] or np.inf)
+        border += sum(0.0 < abs(most / row["mass"] - 1.0) < 5e-9 for row in found["placed"])
+    counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
+    assert min(*counts, missing) > 5
+    assert min(nearest, border) > 0
+
+
+def test_energies_between_the_stored_forces_are_read_from_curves(told, tmp_path):
+    table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})
+    data = page_data(write(tmp_path / "trial.h5", table, {"config": "{}"}), table, Question())
+    asked = {"budget": 5.0, "panel": None, "per": "specimen"}
+    (between,), (stored,) = told(data, [asked | {"force": force} for force in (20.3, 20.0)])
+    history = there_and_back()
+    work = np.interp(20.3, history["reaction_top_N"][:21], history["work_in_J"][:21])
+    assert between["placed"][0]["value"] == pytest.approx(work, rel=1e-3)
+    assert stored["placed"][0]["value"] == 1.0
