@@ -33,7 +33,7 @@ NOT_APPLIED = {
 }
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
-    "stroke mm": "stroke: over which the counted energy is absorbed; without crush, the greatest.",
+    "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
