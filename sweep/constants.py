@@ -1,4 +1,4 @@
-"""Factors between units, and standard gravity."""
+"""Factors of units in files, and standard gravity."""
 
 MM = 1e-3  # m
 TO_MM, TO_MM3 = 1e3, 1e9  # from m, m^3

@@ -1,12 +1,20 @@
-"""Numbers as text, with few digits."""
+"""Quantities as people read them: in mm, ms, g, mJ, kPa and percent, with few digits.
+
+Results and the code are in SI. Tables, pictures, the page and messages convert them here alone
+(`in_unit`), but for files whose format has a unit, such as the millimetres of an STL.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from sweep.constants import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from pandas import Series
+
+Values = TypeVar("Values")
 
 NOTHING = "–"
 SCALES = {
@@ -23,7 +31,33 @@ SCALES = {
 
 A table or a sentence takes the first one in which its greatest value is at least 1.
 """
-SHOWN = frozenset(name for scales in SCALES.values() for _, name in scales) | {"N", "1/s"}
+FACTORS = {name: factor for scales in SCALES.values() for factor, name in scales} | {
+    "N": 1.0,
+    "1/s": 1.0,
+    "kJ/m^3": 1e-3,
+    "MB": 1e-6,
+    "g0": 1.0 / STANDARD_GRAVITY,
+}
+"""Value in a unit that people read / value in SI, by that unit."""
+
+
+def in_unit(values: Values, unit: str) -> Values:
+    """A number, an array or a column in SI in a unit that people read: (0.012, "mm") -> 12.0."""
+    quantities: Any = values
+    shown: Values = FACTORS[unit] * quantities
+    return shown
+
+
+def to_si(values: Values, unit: str) -> Values:
+    """The inverse of `in_unit`: (12.0, "mm") -> 0.012."""
+    quantities: Any = values
+    shown: Values = quantities / FACTORS[unit]
+    return shown
+
+
+def text_in(value: float, unit: str, digits: int = 4) -> str:
+    """A quantity in SI as text with its unit: (0.0123456, "mm") -> "12.35 mm"."""
+    return f"{in_unit(value, unit):.{digits}g} {unit}"
 
 
 def short(value: float | str | None) -> str:
@@ -63,19 +97,25 @@ def three_digits(value: float) -> str:
 
 def percent(value: float) -> str:
     """A strain in percent, rounded to a whole number."""
-    return f"{100 * value:.0f}" if math.isfinite(value) else NOTHING
+    return f"{in_unit(value, '%'):.0f}" if math.isfinite(value) else NOTHING
 
 
 def tenths(share: float) -> str:
     """A share in percent, with one decimal below 10 %."""
     if not math.isfinite(share):
         return NOTHING
-    return f"{100 * share:.1f}" if share < 0.0995 else percent(share)
+    return f"{in_unit(share, '%'):.1f}" if share < 0.0995 else percent(share)
 
 
 def energy_text(joules: float) -> str:
     """An energy with its unit."""
-    return f"{three_digits(joules)} J" if joules >= 1.0 else f"{three_digits(1e3 * joules)} mJ"
+    unit = energy_unit(joules)
+    return f"{three_digits(in_unit(joules, unit))} {unit}"
+
+
+def energy_unit(joules: float) -> str:
+    """The unit in which energies up to this one are shown."""
+    return "J" if joules >= 1.0 else "mJ"
 
 
 def counted(count: int, noun: str) -> str:

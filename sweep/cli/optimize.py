@@ -8,6 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.numbers import text_in
 from sweep.ranking.question import Question, in_si
 
 if TYPE_CHECKING:
@@ -199,7 +200,7 @@ def _to_print(search: Search) -> Iterator[str]:
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
     panel = search.question.panel or ()
     if panel:
-        words += ["--panel", *(p if isinstance(p, str) else f"{1e3 * p:g} mm" for p in panel)]
+        words += ["--panel", *(p if isinstance(p, str) else text_in(p, "mm", 6) for p in panel)]
     which = "first" if found and found.by_id else "nearest"
     yield f"to print the {which}: {shlex.join(words)}"
 

@@ -9,6 +9,8 @@ from shlex import quote
 from textwrap import wrap
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from sweep.numbers import NOTHING, text_in
+
 if TYPE_CHECKING:
     from pandas import DataFrame
     from rich.table import Table
@@ -117,16 +119,16 @@ def _heading(question: Question, ranking: Ranking) -> str:
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if len(question.budgets) == 1:
-        lines.insert(0, f"At most {_written(question.budgets[0], 1e3, 'g')}.")
+        lines.insert(0, f"At most {_written(question.budgets[0], 'g')}.")
     if panel := question.panel:
-        sides = " x ".join(_written(side, 1e3, "mm") for side in panel)
+        sides = " x ".join(_written(side, "mm") for side in panel)
         lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
     return " ".join(lines)
 
 
-def _written(value: float | str, scale: float, unit: str) -> str:
-    """A quantity as the user writes it, or an SI number in the unit of a maker."""
-    return value if isinstance(value, str) else f"{scale * value:.4g} {unit}"
+def _written(value: float | str, unit: str) -> str:
+    """A quantity as the user writes it, or an SI number in a unit."""
+    return value if isinstance(value, str) else text_in(value, unit)
 
 
 def print_sheets(sheets: Iterable[Sheet]) -> None:
@@ -220,7 +222,6 @@ def _folded(table: Fitted, limit: int) -> Fitted:
 
 
 def _is_number(texts: list[str]) -> bool:
-    from sweep.numbers import NOTHING
 
     return all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
 

@@ -19,6 +19,7 @@ from sweep.cli.terminal import (
     say_all,
     warnings,
 )
+from sweep.numbers import counted, text_in
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -179,7 +180,7 @@ def report(arguments: Namespace) -> int:
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
     with writing(out.parent, out):
         page = write_page(arguments.file, summary, question, out)
-    say(f"{page} ({page.stat().st_size / 1e6:.2g} MB)")
+    say(f"{page} ({text_in(page.stat().st_size, 'MB', 2)})")
     return _exit_status(summary)
 
 
@@ -218,7 +219,6 @@ VERBS = {verb.__name__: verb for verb in ALL}
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
     from sweep.config.load import load_config
-    from sweep.numbers import counted
 
     config = load_config(name)
     if config.path != Path(name):

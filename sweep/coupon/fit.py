@@ -14,6 +14,7 @@ import numpy as np
 from sweep.coupon import legs
 from sweep.coupon.curve import Loading
 from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.numbers import text_in
 
 BETA = 0.1  # assumed where the record does not show it
 LARGER = 1.2  # of the first peak: a second one that determines beta
@@ -100,9 +101,9 @@ def _check_unloading(coupon: Coupon, rows: list[int]) -> None:
     )
     if more > ABOVE * all_taken:
         raise CouponError(
-            f"{coupon.name}: the unloading lies above the loading, by {100 * more / all_taken:.2g} "
-            "% of its work, but no material returns more than it absorbs; are the rows in the "
-            "order in which they were measured, and of one test?"
+            f"{coupon.name}: the unloading lies above the loading, by "
+            f"{text_in(more / all_taken, '%', 2)} of its work, but no material returns more than "
+            "it absorbs; are the rows in the order in which they were measured, and of one test?"
         )
 
 

@@ -6,6 +6,7 @@ from textwrap import wrap
 from sweep.config.materials.material_file import Record
 from sweep.coupon.fit import Fit
 from sweep.coupon.legs import leg_name
+from sweep.numbers import text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
 USUAL_RATES = 2e-4, 1.0  # 1/s, of tests of coupons
@@ -65,17 +66,17 @@ def fit_sentence(fit: Fit) -> str:
     apart, row = fit.worst
     where = f"{leg_name(fit.rows, row)} at a strain of {fit.coupon.strain[row]:.3g}"
     return (
-        f"The law follows the record within {100 * fit.misfit:.2g} % of the greatest stress (root "
-        f"mean square), and at worst within {100 * apart:.2g} %, in {where}."
+        f"The law follows the record within {text_in(fit.misfit, '%', 2)} of the greatest stress "
+        f"(root mean square), and at worst within {text_in(apart, '%', 2)}, in {where}."
     )
 
 
 def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
     """What was found, a line each; record: the file that was written, read again."""
-    yield f"modulus         {record.modulus / 1e6:.4g} MPa, secant from 1 to 4 % strain"
+    yield f"modulus         {text_in(record.modulus, 'MPa')}, secant from 1 to 4 % strain"
     yield f"reference time  {fit.reference_time:.3g} s"
     shares = [share for share in fit.shares if share is not None]
-    cycles = " and ".join(f"{100 * share:.3g} %" for share in shares)
+    cycles = " and ".join(text_in(share, "%", 3) for share in shares)
     of = "first cycle" if len(shares) == 1 else "first and second cycle"
     if shares:
         yield f"lost work       {cycles} of the {of} of the record"
@@ -97,13 +98,13 @@ def doubts(fit: Fit, record: Record) -> Iterator[str]:
         )
     if record.modulus < SOFT:
         yield (
-            f"Warning: printed TPU usually has a modulus above {SOFT / 1e6:g} MPa: is the strain "
-            "in percent (needed: 0.1 for 10 %), or the gauge length or the area wrong?"
+            f"Warning: printed TPU usually has a modulus above {text_in(SOFT, 'MPa')}: is the "
+            "strain in percent (needed: 0.1 for 10 %), or the gauge length or the area wrong?"
         )
     if fit.misfit > POOR:
         yield (
-            f"Warning: that is more than {100 * POOR:g} %. Look at the picture: did the strip slip "
-            "or go slack, or did the test pause at a turn?"
+            f"Warning: that is more than {text_in(POOR, '%')}. Look at the picture: did the strip "
+            "slip or go slack, or did the test pause at a turn?"
         )
 
 
@@ -121,6 +122,6 @@ def _told_memory(fit: Fit) -> Iterator[str]:
     elif "softening_r" not in memory:
         yield "softening       none: the law follows the record as well without"
     else:
-        numbers = f"r {memory['softening_r']:.3g}, m {memory['softening_m'] / 1e6:.3g} MPa"
+        numbers = f"r {memory['softening_r']:.3g}, m {text_in(memory['softening_m'], 'MPa', 3)}"
         known = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
         yield f"softening       {numbers}, beta {memory['softening_beta']:.3g}{known}"

@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from sweep.numbers import text_in
+
 BESIDE = 0.4e-3  # m: gap between two specimens; closer ones would be printed as one
 
 BEHIND = {"in_plane": 0.0, "out_of_plane": BESIDE}
@@ -43,6 +45,15 @@ def panel_of(sides: tuple[float, float], width: Any, depth: Any, gap: Any = 0.0)
     behind = _nearest((sides[1] + gap) / (depth + gap))
     lengths = across * (width + BESIDE) - BESIDE, behind * (depth + gap) - gap
     return Panel(across, behind, *lengths)
+
+
+def too_small(side: float, specimen: float) -> str:
+    """Why a panel is refused in whose length ``side`` (m) not even half a specimen (m) fits."""
+    return (
+        f"a panel of {text_in(side, 'mm', 6)} is smaller than half of a specimen of "
+        f"{text_in(specimen, 'mm')}; allowed: a larger one, first its length along the width, then "
+        "along the depth"
+    )
 
 
 def _nearest(count: Any) -> Any:

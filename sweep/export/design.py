@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.network import network_of
 from sweep.export.errors import ExportError
+from sweep.numbers import in_unit
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -67,4 +68,4 @@ def design_of(case: Case) -> Design:
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)
     along = case.loading.direction == ALONG
-    return Design(case.case_id, case.lattice, network, 1e3 * kilograms, along)
+    return Design(case.case_id, case.lattice, network, in_unit(kilograms, "g"), along)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.constants import TO_MM, TO_MM3
 from sweep.export.errors import ExportError
+from sweep.numbers import in_unit, text_in
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -319,10 +320,10 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
         )
     if wish.panel is None:
         return [size]
-    asked = " x ".join(f"{TO_MM * side:g}" for side in wish.panel)
+    asked = " x ".join(f"{in_unit(side, 'mm'):g}" for side in wish.panel)
     nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
-    deep = f"each {layout.behind} specimens of {TO_MM * source.design.footprint[1]:.4g} mm deep"
+    deep = f"each {layout.behind} specimens of {text_in(source.design.footprint[1], 'mm')} deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
         f"these {layout.specimens} specimens, which are not joined, are what rank counts "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sweep.constants import TO_MM
-from sweep.design.panel import BEHIND, BESIDE, Panel, panel_of
+from sweep.design.panel import BEHIND, BESIDE, Panel, panel_of, too_small
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
@@ -80,11 +80,7 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     filled, (width, depth) = filled_panel(design, sides), design.footprint
     for asked, count, one in zip(sides, filled[:2], (width, depth), strict=True):
         if count < 1:
-            raise ExportError(
-                f"a panel of {TO_MM * asked:g} mm is smaller than half of a specimen of "
-                f"{TO_MM * one:.4g} mm; allowed: a larger one, first its length along the width, "
-                "then along the depth"
-            )
+            raise ExportError(too_small(asked, one))
     across, behind = int(filled.across), int(filled.behind)
     right, up = max(shape.bounds[2], TO_MM * width), max(shape.bounds[3], TO_MM * depth)
     gap, rows = TO_MM * BESIDE, behind if design.along else 1

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from sweep.export.errors import ExportError
 from sweep.export.outline import rings
+from sweep.numbers import text_in
 
 if TYPE_CHECKING:
     from sweep.export.outline import Layout
@@ -48,7 +49,7 @@ def solid(layout: Layout, volume: float) -> Body:
     if not abs(body.volume - volume) <= CLOSE * volume:
         raise ExportError(
             f"the mesh of case {layout.name} has {body.volume:.5g} mm^3, but its mass / density is "
-            f"{volume:.5g} mm^3; allowed: a difference of {100 * CLOSE:g} %"
+            f"{volume:.5g} mm^3; allowed: a difference of {text_in(CLOSE, '%')}"
         )
     if not body.is_closed:
         raise ExportError(

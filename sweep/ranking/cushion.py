@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.constants import STANDARD_GRAVITY
+from sweep.numbers import to_si
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -101,7 +102,7 @@ def drops(impacts: DataFrame) -> DataFrame:
     area = impacts["outer_width_m"] * impacts["depth_m"]
     return impacts.assign(
         drop_height_m=impacts["striker_speed_m_per_s"] ** 2 / (2.0 * STANDARD_GRAVITY),
-        static_stress_Pa=1e-3 * impacts["striker_mass_g"] * STANDARD_GRAVITY / area,
+        static_stress_Pa=to_si(impacts["striker_mass_g"], "g") * STANDARD_GRAVITY / area,
         peak_G=impacts["peak_deceleration_filtered_m_per_s2"] / STANDARD_GRAVITY,
     )
 

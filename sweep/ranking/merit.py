@@ -20,7 +20,7 @@ from sweep.columns import (
     correction_column,
     error_column,
 )
-from sweep.design.panel import BEHIND, Panel, panel_of
+from sweep.design.panel import BEHIND, Panel, panel_of, too_small
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import RankError, in_si
 
@@ -143,11 +143,7 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
     found = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
     for asked, count, one in zip(sides, found[:2], ("outer_width_m", "depth_m"), strict=True):
         if (count < 1).any():
-            widest = 1e3 * frame[one].max()
-            raise RankError(
-                f"a panel of {1e3 * asked:g} mm is smaller than half of a specimen of {widest:.4g} "
-                "mm; allowed: a larger one, first its length along the width, then along the depth"
-            )
+            raise RankError(too_small(asked, frame[one].max()))
     return found._replace(across=found.across.astype(int), behind=found.behind.astype(int))
 
 

@@ -16,6 +16,7 @@ import pandas as pd
 from pandas import DataFrame
 
 from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
+from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import LEAST, Compared, merits
@@ -157,7 +158,9 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     check(compared, required)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
     by = by and _column(compared, by)
-    masses = [*dict.fromkeys(in_si(mass, "kg") * 1e3 for mass in question.budgets)] or [np.inf]
+    masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
+        np.inf
+    ]
     found = {scene_label(rows): rows for rows in by_scene(compared)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {

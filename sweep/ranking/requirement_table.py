@@ -6,8 +6,6 @@ Rankings, sentences, options of the command line and the page take them from her
 
 from typing import Any, NamedTuple
 
-from sweep.constants import STANDARD_GRAVITY
-
 MODES = ("displacement", "impact", "force", "custom")
 NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
 """Loadings that a requirement may need, in words."""
@@ -16,17 +14,15 @@ NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead loa
 class Measure(NamedTuple):
     """What a requirement limits.
 
-    unit: in SI. shown, scale: the unit of a maker, and a value in it / the value in SI. kind: of
-    quantity, in the help of an option. shared: whether specimens of a panel add up. asked_of: kinds
-    of loading in which the design, not the loading, sets the value. least: the limit is a least
-    value; else it is a greatest one.
+    unit: in SI. shown: the unit that people read. kind: of quantity, in the help of an option.
+    shared: whether specimens of a panel add up. asked_of: kinds of loading in which the design, not
+    the loading, sets the value. least: the limit is a least value; else it is a greatest one.
     noun: the value in words. none: why nothing fulfils it. unknown: why a value is unknown.
     example: a limit. about: what the option means, before the example.
     """
 
     unit: str
     shown: str
-    scale: float
     kind: str
     shared: bool
     asked_of: tuple[str, ...]
@@ -35,7 +31,7 @@ class Measure(NamedTuple):
     example: str
     about: str = "required"
     least: bool = False
-    unknown: str = "it has not been measured"
+    unknown: str = "not measured"
 
     @property
     def limit(self) -> str:
@@ -54,7 +50,7 @@ class Measure(NamedTuple):
 
 MEASURES = {
     "max_force": Measure(
-        *("N", "N", 1.0, "FORCE"),
+        *("N", "N", "FORCE"),
         shared=True,
         asked_of=("displacement", "impact"),
         noun="force",
@@ -63,7 +59,7 @@ MEASURES = {
         about="required, while the counted energy is absorbed",
     ),
     "max_deceleration": Measure(
-        *("m/s^2", "g0", 1.0 / STANDARD_GRAVITY, "ACCELERATION"),
+        *("m/s^2", "g0", "ACCELERATION"),
         shared=False,
         asked_of=("impact",),
         noun="deceleration",
@@ -73,7 +69,7 @@ MEASURES = {
         unknown="rows are too far apart for loading.filter_class",
     ),
     "max_mass": Measure(
-        *("kg", "g", 1e3, "MASS"),
+        *("kg", "g", "MASS"),
         shared=True,
         asked_of=MODES,
         noun="mass",
@@ -81,7 +77,7 @@ MEASURES = {
         example="2 g",
     ),
     "min_absorbed": Measure(
-        *("J", "J", 1.0, "ENERGY"),
+        *("J", "J", "ENERGY"),
         shared=True,
         asked_of=("displacement",),
         noun="absorbed energy",
@@ -90,7 +86,7 @@ MEASURES = {
         least=True,
     ),
     "max_stroke": Measure(
-        *("m", "mm", 1e3, "LENGTH"),
+        *("m", "mm", "LENGTH"),
         shared=False,
         asked_of=("displacement", "impact", "force"),
         noun="stroke",

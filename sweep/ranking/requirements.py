@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
+from sweep.numbers import to_si
 from sweep.ranking.budget import ROUND_OFF, greatest_mass
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import RankError, in_si
@@ -203,7 +204,7 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     of_specimen = {
         "max_force": rows["passed_on_N"].where(crushed, rows["peak_force_N"]),
         "max_deceleration": rows["peak_deceleration_filtered_m_per_s2"],
-        "max_mass": 1e-3 * rows[names.mass] / together,
+        "max_mass": to_si(rows[names.mass], "g") / together,
         "min_absorbed": (rows[names.energy] / together).where(crushed, rows["absorbed_energy_J"]),
         "max_stroke": rows["counted_stroke_m"],
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pandas import DataFrame
 
 from sweep.columns import describe_column
-from sweep.numbers import NOTHING, energy_text, short, with_unit
+from sweep.numbers import NOTHING, energy_text, short, text_in, with_unit
 
 SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
 HELD_BY_SCENE = tuple(
@@ -65,7 +65,7 @@ def scene_label(rows: DataFrame) -> str:
         energy = energy_text(float(first["impact_energy_J"]))
         words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
-        words = [f"crushed to {100 * strains[0]:g} %"]
+        words = [f"crushed to {text_in(strains[0], '%', 6)}"]
         shown |= {"loading.strain", "loading.stroke"}
     else:
         words = ["crushed"]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pandas import concat
 
+from sweep.numbers import in_unit
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.question import Question, RankError
@@ -156,7 +157,7 @@ def _cushion_figures(
     for height in drop_heights:
         figure = case_plots.blank(*_size(best))
         cushion_plots.cushion_diagram(figure, best, crushes, height, falls)
-        yield f"cushion_{1e3 * height:g}mm", figure
+        yield f"cushion_{in_unit(height, 'mm'):g}mm", figure
 
 
 def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:

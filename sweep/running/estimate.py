@@ -20,7 +20,7 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.specimen import Laid
 from sweep.config.kinds.steps import count_of
-from sweep.numbers import counted
+from sweep.numbers import counted, text_in
 from sweep.result import Result, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.beside.error_bars import companions_beside
@@ -88,7 +88,7 @@ def dry_run(
         f"({found.seconds:.1f} s); it may be off by a factor of two:",
         f"  processor time  {duration(found.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",
-        f"  disk            {found.disk / 1e6:.2g} MB",
+        f"  disk            {text_in(found.disk, 'MB', 2)}",
         "nothing was written",
     ]
     if found.stopped:

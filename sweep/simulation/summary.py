@@ -12,6 +12,7 @@ from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.table import given_or
 from sweep.design.network import mass, relative_density
 from sweep.design.slicer.network import extruded_area
+from sweep.numbers import in_unit
 from sweep.result import design_columns
 from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
@@ -118,7 +119,7 @@ def summarise(
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
-    drawn = 1e3 * mass(scene.network, case.lattice.depth, case.material.density)
+    drawn = in_unit(mass(scene.network, case.lattice.depth, case.material.density), "g")
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
@@ -167,7 +168,8 @@ def printed_mass(case: Case) -> float:
     lattice = case.lattice
     if not isinstance(lattice, Sliced):
         return np.nan
-    return 1e3 * case.material.density * lattice.depth * extruded_area(lattice.geometry)
+    volume = lattice.depth * extruded_area(lattice.geometry)
+    return in_unit(case.material.density * volume, "g")
 
 
 def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:

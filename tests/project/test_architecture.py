@@ -97,6 +97,7 @@ TESTED_ELSEWHERE = {
     "sweep.cli.run": "sweep/cli/test_verbs.py",
     "sweep.cli.status": "sweep/cli/test_verbs.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
+    "sweep.report.tables.legend": "sweep/test_messages.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
@@ -107,6 +108,11 @@ TESTED_ELSEWHERE = {
     "sweep.store.parts": "sweep/store/test_read.py",
     "sweep.version": "sweep/cli/test_verbs.py",
 }
+# Quantities are converted for people in `sweep.numbers`: elsewhere nothing is multiplied by these.
+FACTORS = {1e-9, 1e-6, 1e-3, 1e2, 1e3, 1e6, 1e9}
+SHOWING = ("sweep.ranking", "sweep.report", "sweep.running", "sweep.cli", "sweep.export")
+SHOWING += ("sweep.coupon", "sweep.simulation", "sweep.result", "sweep.store")
+NO_UNIT = {"sweep.running.searching.search": "seeds", "sweep.export.slicer": "a key of a 3MF"}
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
 
 
@@ -354,3 +360,16 @@ def test_what_is_imported_of_our_own_is_there():
         if alias.name not in defined(node.module) and f"{node.module}.{alias.name}" not in SOURCES
     ]
     assert missing == []
+
+
+def test_quantities_are_converted_for_people_in_one_place():
+    found = {
+        f"{module}:{node.lineno}"
+        for module in PROGRAM
+        if module.startswith(SHOWING) and module not in NO_UNIT
+        for node in nodes(module)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div)
+        for side in (node.left, node.right)
+        if isinstance(side, ast.Constant) and side.value in FACTORS
+    }
+    assert not found, "use in_unit, to_si or text_in of sweep.numbers"

@@ -1,8 +1,41 @@
-"""Numbers as text."""
+"""Quantities in the units of people, and numbers as text."""
 
-from sweep.numbers import NOTHING, percent, short, tenths, three_digits, with_unit
+import numpy as np
+import pytest
+
+from sweep.config.units import quantity
+from sweep.numbers import (
+    FACTORS,
+    NOTHING,
+    SCALES,
+    in_unit,
+    percent,
+    short,
+    tenths,
+    text_in,
+    three_digits,
+    to_si,
+    with_unit,
+)
 
 NAN = float("nan")
+
+
+@pytest.mark.parametrize("si", SCALES)
+def test_factors_are_those_of_the_units_that_configs_read(si):
+    """`config.units` reads what is shown: 1 mm is 0.001 m."""
+    for _, unit in SCALES[si]:
+        written = f"1 {unit.replace('m3', 'm^3')}"
+        assert to_si(1.0, unit) == pytest.approx(quantity(written, si))
+
+
+def test_quantities_are_shown_in_a_unit_and_read_back():
+    lengths = np.array([0.0123456, -2.0])
+    assert in_unit(lengths, "mm") == pytest.approx([12.3456, -2000.0])
+    assert to_si(in_unit(lengths, "mm"), "mm") == pytest.approx(lengths)
+    assert text_in(0.0123456, "mm") == "12.35 mm"
+    assert text_in(0.125, "%", 6) == "12.5 %"
+    assert in_unit(9.80665, "g0") == pytest.approx(FACTORS["N"])
 
 
 def test_numbers_show_three_digits():

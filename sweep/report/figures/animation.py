@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.numbers import in_unit
 from sweep.report.figures import case_plots
 from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.storyboard import FLOWN, headline
@@ -80,7 +81,7 @@ def _rendered(figure: Figure) -> BytesIO:
 
 def _force(ax: Axes, history: DataFrame, last: int) -> None:
     """The whole curve in grey, what has happened in blue, and a dot at the shape that is shown."""
-    strain, force = 100.0 * history["strain"], history["reaction_top_N"]
+    strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     ax.plot(strain, force, color=case_plots.GRID, lw=2.0)
     ax.plot(strain[: last + 1], force[: last + 1], color=case_plots.BLUE, lw=2.0)
     ax.plot(strain[last], force[last], "o", color=case_plots.VERMILION)
@@ -92,7 +93,7 @@ def _reactions(ax: Axes, row: Mapping[str, Any], history: DataFrame, last: int) 
     """The reactions of a custom structure, and a line at the shape that is shown."""
     probe_reactions(ax, history, row)
     ax.set_title("", loc="left")
-    place = history["load_factor"] if "load_factor" in history else 1e3 * history["time_s"]
+    place = history["load_factor"] if "load_factor" in history else in_unit(history["time_s"], "ms")
     ax.axvline(place[last], color=case_plots.GREY)
     if ax.get_legend():
         ax.legend(frameon=False, fontsize="small")

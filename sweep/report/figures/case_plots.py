@@ -21,7 +21,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
-from sweep.numbers import energy_text, three_digits
+from sweep.numbers import energy_text, in_unit, percent, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
     PARTS,
@@ -71,7 +71,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     history : from `read_history`; row : of the case in the summary. A dead load appears and
     disappears within one step.
     """
-    strain, force = 100.0 * history["strain"], history["reaction_top_N"]
+    strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     turn = released = last_loaded(history, row)
     ended = len(history) - 1
     if row["loading_mode"] == "displacement":
@@ -79,7 +79,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     down, held, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
-    given_back = f"returns {100.0 * row['returned_energy_J'] / absorbed:.0f} %"
+    given_back = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
     words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{given_back}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
@@ -101,7 +101,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     ax.set(xlabel="strain, %", ylabel="force, N")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
-    scale = 10.0 * row["height_m"]  # mm of travel for one percent
+    scale = in_unit(to_si(row["height_m"], "%"), "mm")  # mm of travel for one percent
     travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
     travel.set_xlabel("top displacement, mm")
     ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
@@ -116,7 +116,7 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
     strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
     if row["loading_mode"] != "displacement" or not strain > 0.0:
         return
-    mean, end = energy / (strain * row["height_m"]), 100.0 * strain
+    mean, end = energy / (strain * row["height_m"]), in_unit(strain, "%")
     densified = np.isfinite(row["densification_strain"])
     until = f"densification at {end:.0f} %, until then"
     at = until if densified else f"no densification; counted to {end:.0f} %:"
@@ -137,14 +137,14 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
 
     Over the path of a driven platen, down and back; otherwise over time.
     """
-    work = 1e3 * history["work_in_J"]
+    work = in_unit(history["work_in_J"], "mJ")
     place, words = path_of(history, row)
     ax.set_xlabel(words)
     for at, words in turns(history, row).items():
         mark(ax, place[at], words, after=words.startswith("cycle"))
     parts = parts_of(history)
     colors = [COLORS[name] for name in parts]
-    values = [1e3 * history[name] for name in parts]
+    values = [in_unit(history[name], "mJ") for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
     total = "energy of the striker" if row["loading_mode"] == "impact" else "work done"
     ax.plot(place, work, color="black", lw=1.4, label=total)
@@ -175,8 +175,9 @@ def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
     """The view that contains the chosen frames and their platens."""
     if "quads" in frames:
         return _view_of_plates(frames, chosen)
-    points, drawn = 1e3 * frames["position_m"][chosen], np.unique(frames["edges"])
-    plates, thickness = 1e3 * frames["plate_y_m"][chosen], 1e3 * frames["edge_thickness_m"].max()
+    points, drawn = in_unit(frames["position_m"][chosen], "mm"), np.unique(frames["edges"])
+    plates = in_unit(frames["plate_y_m"][chosen], "mm")
+    thickness = in_unit(frames["edge_thickness_m"].max(), "mm")
     ground = points[0, drawn, 1].min() - 0.5 * thickness
     low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
     low, high = low - thickness, high + thickness
@@ -188,21 +189,21 @@ def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
 
 def _view_of_plates(frames: Mapping[str, Any], chosen: list[int]) -> View:
     """The same of plates, as the camera sees them; ground: height of the lower platen."""
-    points = 1e3 * np.asarray(frames["position_m"][chosen], float)
+    points = in_unit(np.asarray(frames["position_m"][chosen], float), "mm")
     margin = 0.03 * float(np.ptp(points[0], axis=0).max())
     plates = [
-        shaded.platen(_extent(frames), 1e3 * float(height), margin)
+        shaded.platen(_extent(frames), in_unit(float(height), "mm"), margin)
         for height in frames["plate_y_m"][chosen].ravel()
     ]
     screen = np.concatenate([shaded.seen(points)[0].reshape(-1, 2), *plates])
     (left, below), (right, top) = screen.min(axis=0) - margin, screen.max(axis=0) + margin
-    ground = 1e3 * float(frames["plate_y_m"][chosen[0], 0])
+    ground = in_unit(float(frames["plate_y_m"][chosen[0], 0]), "mm")
     return View(left, right, below - margin, top, ground, margin)
 
 
 def _extent(frames: Mapping[str, Any]) -> np.ndarray:
     """Least and greatest x and y of plates at rest, (2, 2) mm."""
-    plan = 1e3 * np.asarray(frames["position_m"][0], float)[:, :2]
+    plan = in_unit(np.asarray(frames["position_m"][0], float)[:, :2], "mm")
     return np.stack([plan.min(axis=0), plan.max(axis=0)])
 
 
@@ -236,7 +237,9 @@ def deformed_shapes(
     axes = fig.subplots(1, len(chosen), sharex=True, sharey=True, squeeze=False)[0]
     fig.suptitle(title, x=0.01, ha="left", fontsize="medium")
     view = _view(frames, list(chosen))
-    points, plates = (1e3 * frames[name][list(chosen)] for name in ("position_m", "plate_y_m"))
+    points, plates = (
+        in_unit(frames[name][list(chosen)], "mm") for name in ("position_m", "plate_y_m")
+    )
     for ax, caption, position, plate in zip(axes, chosen.values(), points, plates, strict=True):
         _shape(ax, view, frames, position, plate)
         ax.set_title(caption, fontsize="medium")
@@ -247,7 +250,7 @@ def deformed_shapes(
 def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
     """The shape of this number, in a view that contains all shapes."""
     view = _view(frames, list(range(len(frames["strain"]))))
-    position, plate = (1e3 * frames[name][number] for name in ("position_m", "plate_y_m"))
+    position, plate = (in_unit(frames[name][number], "mm") for name in ("position_m", "plate_y_m"))
     _shape(ax, view, frames, position, plate)
     ax.set(xlim=(view.left, view.right), ylim=(view.below, view.top))
     _scale_bar(ax, view.left, view.below)
@@ -272,7 +275,7 @@ def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:
     if "quads" in frames:
         surfaces(ax, position, frames["quads"])
         return
-    loops = silhouette(position, frames["edges"], 1e3 * frames["edge_thickness_m"])
+    loops = silhouette(position, frames["edges"], in_unit(frames["edge_thickness_m"], "mm"))
     outline = Outline.make_compound_path(*(Outline(loop, closed=True) for loop in loops))
     ax.add_patch(PathPatch(outline, facecolor=WALL, edgecolor="none", snap=False))
     ax.set_aspect("equal")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import isna
 
+from sweep.numbers import in_unit
 from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
 from sweep.ranking.merit import doubtful
 from sweep.ranking.scenes import ASSUMPTIONS
@@ -77,11 +78,11 @@ def cushion_diagram(
         curves, peaks = [], []
         for row, crush in _crushed(rows, crushes):
             one, (static, peak) = rows.loc[[row.name]], cushion_curve(crush, drop_height)
-            curves.append((1e-3 * static, peak))
+            curves.append((in_unit(static, "kPa"), peak))
             best = int(np.argmin(peak))
             _curve(ax, *curves[-1], look, one, best if best < len(peak) - 1 else None)
             struck = same_design(near, row).dropna(subset="peak_G")
-            _rings(ax, 1e-3 * struck["static_stress_Pa"], struck["peak_G"], look.of(one))
+            _rings(ax, in_unit(struck["static_stress_Pa"], "kPa"), struck["peak_G"], look.of(one))
             peaks += list(struck["peak_G"])
         rings = rings or bool(peaks)
         title = f"{ax.get_title('left')},\ndropped from {drop_height:g} m"
@@ -129,8 +130,11 @@ def _crushed(rows: DataFrame, crushes: Mapping[str, Crush]) -> Iterator[tuple[Se
 
 def _scaled(crush: Crush, row: Series, related: bool) -> Crush:
     """Stress and energy per volume / modulus of the material, or in kPa and kJ/m^3."""
-    scale = 1.0 / row["material_modulus_Pa"] if related else 1e-3
-    return crush._replace(greatest=scale * crush.greatest, work=scale * crush.work)
+    if related:
+        scale = 1.0 / row["material_modulus_Pa"]
+        return crush._replace(greatest=scale * crush.greatest, work=scale * crush.work)
+    greatest, work = in_unit(crush.greatest, "kPa"), in_unit(crush.work, "kJ/m^3")
+    return crush._replace(greatest=greatest, work=work)
 
 
 def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | None) -> None:

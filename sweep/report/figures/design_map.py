@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.numbers import in_unit
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.figures.design_style import (
@@ -93,7 +94,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
         for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
             style = look.of(best) | {"s": 28.0}
-            wall = 1e3 * best["wall_thickness_m"]
+            wall = in_unit(best["wall_thickness_m"], "mm")
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])

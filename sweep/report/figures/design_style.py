@@ -16,7 +16,7 @@ from pandas import concat
 
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
-from sweep.numbers import energy_text, tenths, three_digits
+from sweep.numbers import energy_text, in_unit, tenths, text_in, three_digits
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import LEAST, doubtful
 from sweep.ranking.places import places_by
@@ -34,6 +34,7 @@ OF_FAMILY |= {"kagome": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
 THIN = 0.2  # points of a line / diameter of the sign of a design
+CHARTED = {"peak_strain": "%", "peak_force_N": "N"}  # units of compared columns; else J
 LINE = {"ls": "-", "marker": ""}
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
@@ -80,7 +81,7 @@ class Looks(NamedTuple):
             heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
             noun: {name: {"marker": sign} for name, sign in self.signs.items()},
             "wall": {
-                f"{1e3 * t:.3g} mm": LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
+                text_in(t, "mm", 3): LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
                 for t, area in self.areas.items()
             },
         }
@@ -145,14 +146,14 @@ def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
 
 def merits(rows: DataFrame, energy: str) -> Series:
     """The compared values of the designs of one scene: strain in %, force in N, or energy in J."""
-    name, scale = _compared(rows, energy)
-    return scale * rows[name]
+    name, unit = _compared(rows, energy)
+    return in_unit(rows[name], unit)
 
 
 def merit_errors(rows: DataFrame, energy: str) -> Series:
     """The errors of `merits`; NaN if unknown."""
-    name, scale = _compared(rows, energy)
-    return scale * errors_of(rows, name)
+    name, unit = _compared(rows, energy)
+    return in_unit(errors_of(rows, name), unit)
 
 
 def errors_of(rows: DataFrame, name: str) -> Series:
@@ -161,10 +162,10 @@ def errors_of(rows: DataFrame, name: str) -> Series:
     return rows[name] * np.nan if known is None else known
 
 
-def _compared(rows: DataFrame, energy: str) -> tuple[str, float]:
-    """The compared column of the designs of one scene, and its factor in charts."""
+def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
+    """The compared column of the designs of one scene, and its unit in charts."""
     least = LEAST.get(rows["loading_mode"].iloc[0])
-    return least or energy, 100.0 if least == "peak_strain" else 1.0
+    return least or energy, CHARTED.get(least or energy, "J")
 
 
 def until(ranking: Ranking) -> str:

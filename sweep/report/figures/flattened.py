@@ -13,13 +13,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 THIN = 0.1  # of a wall's thickness: lines of a grid
+LEVEL = 1e-6  # of the height: nodes no farther apart have one height
 
 
 def plan(frames: Mapping[str, Any]) -> dict[str, Any]:
     """The shape at rest as walls in the plan: `frames` with `edges`, and one frame."""
     quads, position = frames["quads"], frames["position_m"][:1]
     height = position[0, :, 2]
-    lowest = height.min() + 1e-6 * np.ptp(height)
+    lowest = height.min() + LEVEL * np.ptp(height)
     bottom = height[quads[:, 0]] <= lowest
     return {
         **{name: frames[name][:1] for name in ("strain", "time_s", "plate_y_m")},

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.numbers import in_unit
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import beside, walls
 from sweep.report.figures.design_style import errors_of, until
@@ -62,7 +63,7 @@ def _draw(ax: Axes, place: int, frames: Mapping[str, Any]) -> None:
     """Draw the shape at rest left of the bar at ``place``, and move the names out of its way."""
     ax.tick_params(axis="y", length=0.0, pad=72.0 * DRAWN + PAD)
     left = beside(ax, DRAWN, place - 0.46, 0.92)
-    walls(left, 1e3 * np.asarray(frames["position_m"][0], float), frames)
+    walls(left, in_unit(np.asarray(frames["position_m"][0], float), "mm"), frames)
     left.autoscale_view()
 
 

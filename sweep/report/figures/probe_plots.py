@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from sweep.numbers import in_unit
 from sweep.report.figures.storyboard import headline
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ COLORS = ("#0072b2", "#d55e00", "#e69f00", "#56b4e9", "#cc79a7", "#8a8a8a")
 def probe_reactions(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     """Forces on the structure at its probes and from the floor, over load factor or time."""
     loaded = "load_factor" in history
-    abscissa = history["load_factor"] if loaded else 1e3 * history["time_s"]
+    abscissa = history["load_factor"] if loaded else in_unit(history["time_s"], "ms")
     columns = {name: match for name in history if (match := PROBE.fullmatch(name))}
     curves = {f"{m[2]} at node {m[1]}": history[name] for name, m in columns.items()}
     curves["floor"] = history["reaction_bottom_N"]

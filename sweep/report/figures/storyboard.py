@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import DataFrame
 
+from sweep.numbers import in_unit, percent, text_in
 from sweep.ranking.scenes import scene_label
 
 ALONG = "out_of_plane"
@@ -40,8 +41,8 @@ def headline(row: Mapping[str, Any]) -> str:
     if pattern == "custom":
         cells = ""
     if row["infill_share"] > 0.0:  # NaN without a slicer
-        cells = f", {100.0 * row['infill_share']:.3g} % infill"
-    wall = f"wall {1e3 * row['wall_thickness_m']:.3g} mm"
+        cells = f", {text_in(row['infill_share'], '%', 3)} infill"
+    wall = f"wall {text_in(row['wall_thickness_m'], 'mm', 3)}"
     if row["direction"] == ALONG:
         wall += ", along its cells"
     return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
@@ -93,8 +94,8 @@ def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
     """Abscissa of the energies of a case, and its label: path of a driven platen, or time."""
     if row["loading_mode"] == "displacement":
         travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
-        return 1e3 * travel, "platen travel, down and up, mm"
-    return 1e3 * history["time_s"], "time, ms"
+        return in_unit(travel, "mm"), "platen travel, down and up, mm"
+    return in_unit(history["time_s"], "ms"), "time, ms"
 
 
 def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple[int, str]]:
@@ -112,10 +113,10 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     count = SHAPES - len(back) - (release is not None)
     down = sorted({*_even(strain[: turn + 1], count), turn})
     free = release is not None or strain[-1] < RELEASED
-    captions = {i: f"{100 * strain[i]:.0f} %" for i in [*down, *back]}
+    captions = {i: f"{percent(strain[i])} %" for i in [*down, *back]}
     captions |= dict.fromkeys(back if free else [], "released")
     clock = "" if release is None else "\n{:.0f} ms"
-    return [(i, text + clock.format(1e3 * time[i])) for i, text in captions.items()]
+    return [(i, text + clock.format(in_unit(time[i], "ms"))) for i, text in captions.items()]
 
 
 def _turn(strain: NDArray[np.float64]) -> int:

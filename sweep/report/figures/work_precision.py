@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from sweep.numbers import in_unit
 from sweep.ranking.accuracy import TARGETS, Study, front
 from sweep.report.figures.case_plots import (
     BLUE,
@@ -56,7 +57,7 @@ def _lines(ax: Axes, study: Study, name: str) -> None:
     """
     doubt = study.references[name].doubt
     rows = study.settings.dropna(subset=name)
-    rows = rows.assign(**{name: 100.0 * rows[name].clip(lower=max(doubt, LEAST_SHOWN))})
+    rows = rows.assign(**{name: in_unit(rows[name].clip(lower=max(doubt, LEAST_SHOWN)), "%")})
     for k, (method, group) in enumerate(rows.groupby("method", sort=False)):
         look: dict[str, Any] = {"color": COLORS[k % len(COLORS)]}
         best = group[front(group, name)].sort_values("cpu_s")
@@ -72,8 +73,8 @@ def _lines(ax: Axes, study: Study, name: str) -> None:
     ring: dict[str, Any] = {"s": 60.0, "facecolor": "none", "edgecolor": "black", "lw": 0.9}
     ax.scatter(ringed["cpu_s"], ringed[name], label="Pareto front", **ring)
     for target in TARGETS:
-        ax.axhline(100.0 * target, color=GREY, lw=0.9, ls=":")
-    low, floor = ax.get_ylim()[0], 100.0 * doubt
+        ax.axhline(in_unit(target, "%"), color=GREY, lw=0.9, ls=":")
+    low, floor = ax.get_ylim()[0], in_unit(doubt, "%")
     if low < floor < float("inf"):
         ax.axhspan(low, floor, color=GRID, lw=0.0, zorder=0)
         ax.annotate(f"uncertainty of the reference: {percents(doubt)}", (0.02, floor), (0, -3),

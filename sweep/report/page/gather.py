@@ -11,7 +11,7 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, error_column
 from sweep.design.panel import BEHIND, BESIDE
-from sweep.numbers import counted, short
+from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, merits, through_solid
@@ -89,7 +89,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "energies": [_energy(each) for each in counted],
         "heads": list(design_text(finished, summary)),
         "question": {
-            "budgets_g": [1e3 * float(mass) for mass in question.budgets],
+            "budgets_g": [in_unit(float(mass), "g") for mass in question.budgets],
             "panel": list(question.panel or ()) or None,
             "require": limits(question.require),
             "per": question.per,
@@ -98,6 +98,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "round_off": ROUND_OFF,
         "round_off_of_curves": SEVEN_DIGITS,
         "beside": BESIDE,
+        "factors": FACTORS,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
         "cases": list(cases.values()),
@@ -260,10 +261,10 @@ class _Stored:
         return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
 
     def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Work done and its parts (mJ) over the path."""
+        """Work done and its parts (J) over the path."""
         parts = parts_of(history)
         place, label = path_of(history, row)
-        columns = [place, *(1e3 * history[name] for name in ("work_in_J", *parts))]
+        columns = [place, *(history[name] for name in ("work_in_J", *parts))]
         values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
         return {"label": label, "parts": list(parts.values()), "values": values}
 
@@ -316,11 +317,11 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:
     """Force (N) over strain (%); strain over time (ms) of a dead load, whose force is constant."""
-    mode, strain = row["loading_mode"], 100.0 * history["strain"]
+    mode, strain = row["loading_mode"], in_unit(history["strain"], "%")
     if mode == "force":
-        return 1e3 * history["time_s"], strain
+        return in_unit(history["time_s"], "ms"), strain
     if mode == "custom":
-        return 1e3 * history["time_s"], history["reaction_bottom_N"]
+        return in_unit(history["time_s"], "ms"), history["reaction_bottom_N"]
     return strain, history["reaction_bottom_N" if mode == "impact" else "reaction_top_N"]
 
 

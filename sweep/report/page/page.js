@@ -79,8 +79,8 @@ const gramsPerUnit = () => Number($("unit").value);
 const showBudget = wish("budget", massRange, gramsPerUnit, (grams) => (asked.budget = grams));
 const showForce = wish("force", forceRange, () => 1, (newtons) => (asked.force = newtons));
 const setSide = (side) => (mm) => {
-  const sides = ["width", "height"].map((name) => Number($(name).value) / 1000);
-  sides[side] = mm / 1000;
+  const sides = ["width", "height"].map((name) => toSI(Number($(name).value), "mm"));
+  sides[side] = toSI(mm, "mm");
   asked.panel = sides;
   $("panel-on").checked = true;
 };
@@ -122,21 +122,21 @@ function showRequired() {
   $("require-box").hidden = !known.length;
   $("per").value = asked.per;
   for (const input of [...$("require").children]) input.hidden = !known.some(([name]) => name === input.dataset.name);
-  for (const [name, { scale }] of known) {
+  for (const [name, { shown }] of known) {
     const [box, number] = [$(`${name}-on`), $(name)];
     box.checked = asked.require[name] !== undefined;
-    if (box.checked && document.activeElement !== number) number.value = Number((scale * asked.require[name]).toPrecision(6));
+    if (box.checked && document.activeElement !== number) number.value = Number(inUnits(asked.require[name], shown).toPrecision(6));
   }
 }
 
 function makeRequired() {
-  for (const [name, { scale, shown, limit }] of Object.entries(data.measures)) {
+  for (const [name, { shown, limit }] of Object.entries(data.measures)) {
     const words = limit.replace(/ *\{\}/, "");
     const box = element("input", { type: "checkbox", id: `${name}-on` });
     const number = element("input", { type: "number", id: name, min: 0, step: "any", "aria-label": `${words}, ${shown}` });
     const tell = () => {
       const value = Number(number.value);
-      if (box.checked && value > 0) asked.require[name] = value / scale;
+      if (box.checked && value > 0) asked.require[name] = toSI(value, shown);
       else if (!box.checked) delete asked.require[name];
       else return;
       Object.assign(view, { chosen: null, current: null });
@@ -156,9 +156,9 @@ function makeRequired() {
 }
 
 function limitText(name, value) {
-  const { scale, shown } = data.measures[name];
+  const { shown } = data.measures[name];
   if (name === "min_absorbed") return energyText(value);
-  return `${Number((scale * value).toPrecision(4))} ${shown}`;
+  return `${Number(inUnits(value, shown).toPrecision(4))} ${shown}`;
 }
 
 // What is required, and how many designs within the budget fulfil it.
@@ -186,8 +186,8 @@ function missText(row) {
       const { noun, far } = data.measures[name];
       if (share === Infinity) return `${noun} unknown`;
       if (name === "min_absorbed" && row.open)
-        return `${noun} at least ${limitText(name, found[name])}, at most ${Number((100 * share).toPrecision(2))} % ${far}`;
-      return `${noun} ${limitText(name, found[name])}, ${Number((100 * share).toPrecision(2))} % ${far}`;
+        return `${noun} at least ${limitText(name, found[name])}, at most ${percents(share)} % ${far}`;
+      return `${noun} ${limitText(name, found[name])}, ${percents(share)} % ${far}`;
     })
     .join("; ");
 }
@@ -199,7 +199,7 @@ function* instead() {
   if (lightest) yield `The lightest design that fulfils this weighs ${inUnit(lightest.mass, 3)}: ${lightest.design.label}.`;
   else if (needed)
     yield `Absorbing ${energyText(needed.energy)} at no more than ${limitText("max_force", needed.force)} takes a stroke of at least ` +
-      `${digits(1e3 * needed.stroke)} mm (energy / force); the lattice is ${digits(1e3 * needed.height)} mm high.`;
+      `${digits(inUnits(needed.stroke, "mm"))} mm (energy / force); the lattice is ${digits(inUnits(needed.height, "mm"))} mm high.`;
 }
 
 function* nearestText() {
@@ -218,9 +218,9 @@ function showAsked() {
     $(`${name}-box`).classList.toggle("off", asked[name] === null);
   showBudget(asked.budget ?? (Number($("budget").value) * gramsPerUnit() || Math.sqrt(low * high)));
   if (crushed()) showForce(asked.force ?? (Number($("force").value) || three(Math.sqrt(forceRange().low * forceRange().high))));
-  const [width, height] = asked.panel ?? [Number($("width").value) / 1000 || 0.1, Number($("height").value) / 1000 || 0.1];
-  showWidth(1000 * width);
-  showHeight(1000 * height);
+  const [width, height] = asked.panel ?? ["width", "height"].map((name) => toSI(Number($(name).value), "mm") || 0.1);
+  showWidth(inUnits(width, "mm"));
+  showHeight(inUnits(height, "mm"));
   picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
   const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
   picks($("forces"), ofPanel(asked) ? [] : forces, "N", "force", asked.force);
@@ -233,26 +233,31 @@ function inUnit(grams, figures = 4) {
   return `${Number((grams / gramsPerUnit()).toPrecision(figures))} ${gramsPerUnit() === 1 ? "g" : "oz"}`;
 }
 
+// A share in percent, two digits.
+function percents(share) {
+  return Number(inUnits(share, "%").toPrecision(2));
+}
+
 function percentOf(row) {
   return row.error === null || row.error === undefined || !row.value ? "" : ` ± ${share(row)} %`;
 }
 
 function share(row) {
-  const percent = 100 * (row.error / Math.abs(row.value));
+  const percent = inUnits(row.error / Math.abs(row.value), "%");
   return percent < 9.95 ? percent.toFixed(1) : percent.toFixed(0);
 }
 
 function valueText(row) {
   const mode = scene().mode;
   if (mode === "impact") return `${digits(row.value)} N on the support`;
-  if (mode === "force") return `compressed by ${digits(100 * row.value)} %`;
+  if (mode === "force") return `compressed by ${digits(inUnits(row.value, "%"))} %`;
   const least = row.early ? "at least " : "";
   return least + (row.value === row.energy ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
 }
 
 // The true lengths of a panel, in mm.
 function panelText(row) {
-  return row.panel.lengths.map((side) => Number((1000 * side).toPrecision(3))).join(" x ");
+  return row.panel.lengths.map((side) => Number(inUnits(side, "mm").toPrecision(3))).join(" x ");
 }
 
 function until() {
@@ -325,7 +330,7 @@ function showCommand() {
   if (!(budgeted && paneled)) return;
   const file = /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
-  const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number((1000 * side).toPrecision(6))} mm"`).join(" ")}` : "";
+  const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number(inUnits(side, "mm").toPrecision(6))} mm"`).join(" ")}` : "";
   const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
   $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}${requiredOptions()}`));
 }
@@ -333,9 +338,9 @@ function showCommand() {
 // The options that differ from what the config of the file requires.
 function requiredOptions() {
   const { require, per } = data.question;
-  const options = Object.entries(data.measures).flatMap(([name, { scale, shown }]) => {
+  const options = Object.entries(data.measures).flatMap(([name, { shown }]) => {
     if (asked.require[name] === require[name]) return [];
-    const value = asked.require[name] === undefined ? "none" : `"${Number((scale * asked.require[name]).toPrecision(12))} ${shown}"`;
+    const value = asked.require[name] === undefined ? "none" : `"${Number(inUnits(asked.require[name], shown).toPrecision(12))} ${shown}"`;
     return [` --${name.replaceAll("_", "-")} ${value}`];
   });
   return options.join("") + (asked.per === per ? "" : ` --per ${asked.per}`);
@@ -357,12 +362,12 @@ function columns() {
     found.push(number("panel g", (row) => digits(row.mass)));
   }
   if (mode === "impact") found.push(number("force N", (row) => digits(row.value), (row) => row.value));
-  else if (mode === "force") found.push(number("strain %", (row) => digits(100 * row.value), (row) => row.value));
+  else if (mode === "force") found.push(number("strain %", (row) => digits(inUnits(row.value, "%")), (row) => row.value));
   else {
     const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
-    const [unit, scale] = most < 1 ? ["mJ", 1e3] : ["J", 1];
+    const unit = energyUnit(most);
     const more = (row) => (row.early ? "> " : "");
-    found.push(number(`${asked.panel ? "panel" : "absorbed"} ${unit}`, (row) => more(row) + digits(scale * row.energy), (row) => row.energy));
+    found.push(number(`${asked.panel ? "panel" : "absorbed"} ${unit}`, (row) => more(row) + digits(inUnits(row.energy, unit)), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
     if (crushed()) {
       found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
@@ -381,10 +386,10 @@ function columns() {
 function requiredColumns() {
   const limits = askedOf(data, asked);
   const found = [];
-  if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && row.design.deceleration * data.measures.max_deceleration.scale]);
+  if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && inUnits(row.design.deceleration, "g0")]);
   const limited = crushed() && (asked.force !== null || "max_force" in limits);
   if ((limited || "max_stroke" in limits) && now.placed.some((row) => row.stroke !== null))
-    found.push(["stroke mm", (row) => row.stroke && 1e3 * row.stroke]);
+    found.push(["stroke mm", (row) => row.stroke && inUnits(row.stroke, "mm")]);
   return found;
 }
 
@@ -459,7 +464,7 @@ function notes() {
   if (storedEnergy(data, asked) < 0)
     lines.push(
       `These energies are read from curves of at most ${data.points} points: their error is at most ` +
-        `${(100 * data.doubt).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
+        `${inUnits(data.doubt, "%").toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
@@ -478,33 +483,32 @@ function notes() {
 // ---- merit over mass ----
 
 function merit(row) {
-  if (scene().least) return row.value === null ? null : (scene().mode === "force" ? 100 : 1) * row.value;
-  return row.energy;
+  return scene().least ? row.value : row.energy;
 }
 
 function showMap() {
   const mode = scene().mode;
   const noun = asked.panel ? "panel" : "specimen";
-  const names = { impact: ["Force over mass", "force on the support, N"], force: ["Strain over mass", "greatest strain, %"] };
+  const names = { impact: ["Force over mass", "force on the support", "N"], force: ["Strain over mass", "greatest strain", "%"] };
   const rows = now.rows.filter((row) => merit(row) > 0);
-  const small = Math.max(...rows.map(merit)) < 1;
-  const [title, label] = names[mode] ?? ["Energy over mass", `energy of a ${noun}, ${small ? "mJ" : "J"}`];
-  const scale = names[mode] ? 1 : small ? 1e3 : 1;
+  const energy = ["Energy over mass", `energy of a ${noun}`, energyUnit(Math.max(...rows.map(merit)))];
+  const [title, quantity, unit] = names[mode] ?? energy;
   $("map-title").textContent = title;
   if (!rows.length) return $("map").replaceChildren("Nothing to draw.");
   const masses = rows.map((row) => row.mass);
-  const values = rows.map((row) => scale * merit(row));
+  const shown = (row) => inUnits(merit(row), unit);
+  const values = rows.map(shown);
   const plot = chart($("map"), {
     x: { range: logExtent(masses), label: `mass of a ${noun}, g`, log: true },
-    y: { range: logExtent(values), label, log: true },
+    y: { range: logExtent(values), label: `${quantity}, ${unit}`, log: true },
     height: 400,
     label: title,
   });
   showLimit(plot);
   const front = rows.filter((row) => row.pareto).sort((a, b) => a.mass - b.mass);
-  const steps = front.flatMap((row, i) => (i ? [[row.mass, merit(front[i - 1])], [row.mass, merit(row)]] : [[row.mass, merit(row)]]));
-  line(plot, steps.map(([mass]) => mass), steps.map(([, value]) => scale * value), { class: "front" });
-  for (const row of rows) dot(plot, row, scale);
+  const steps = front.flatMap((row, i) => (i ? [[row.mass, shown(front[i - 1])], [row.mass, shown(row)]] : [[row.mass, shown(row)]]));
+  line(plot, steps.map(([mass]) => mass), steps.map(([, value]) => value), { class: "front" });
+  for (const row of rows) dot(plot, row, shown);
 }
 
 function showLimit(plot) {
@@ -517,14 +521,14 @@ function showLimit(plot) {
   );
 }
 
-function dot(plot, row, scale) {
-  const [x, y] = [plot.toX(row.mass), plot.toY(scale * merit(row))];
+function dot(plot, row, shown) {
+  const [x, y] = [plot.toX(row.mass), plot.toY(shown(row))];
   const placed = row.place !== undefined;
   const kind = [placed ? "" : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
   if (row.error && row.value) {
     const share = row.error / Math.abs(row.value);
     const inside = (v) => Math.min(Math.max(v, MARGIN.top), plot.bottom);
-    const [y1, y2] = [1 - share, 1 + share].map((k) => inside(plot.toY(scale * merit(row) * Math.max(k, 0.1))));
+    const [y1, y2] = [1 - share, 1 + share].map((k) => inside(plot.toY(shown(row) * Math.max(k, 0.1))));
     plot.svg.append(shape("line", { class: "bar", x1: x, x2: x, y1, y2 }));
   }
   plot.svg.append(
@@ -693,12 +697,12 @@ function showBook(design) {
   $("book").replaceChildren();
   $("parts").replaceChildren();
   if (!book) return;
-  const joules = Math.max(...book.values.slice(1).flat()) >= 1000;
-  const [place, work, ...parts] = book.values.map((list, i) => (i && joules ? list.map((v) => v / 1000) : list));
+  const unit = energyUnit(Math.max(...book.values.slice(1).flat()));
+  const [place, work, ...parts] = book.values.map((list, i) => (i ? list.map((v) => inUnits(v, unit)) : list));
   const sums = parts.reduce((rows, part) => [...rows, part.map((v, i) => v + rows[rows.length - 1][i])], [place.map(() => 0)]);
   const plot = chart($("book"), {
     x: { range: [place[0], place[place.length - 1]], label: book.label },
-    y: { range: extent([work, ...sums]), label: `energy, ${joules ? "J" : "mJ"}` },
+    y: { range: extent([work, ...sums]), label: `energy, ${unit}` },
     height: 340,
     label: "energies over the path",
   });
@@ -749,7 +753,7 @@ function start() {
   $("unit").addEventListener("change", refresh);
   $("panel-on").addEventListener("change", () => {
     const sides = [Number($("width").value), Number($("height").value)];
-    asked.panel = $("panel-on").checked ? sides.map((mm) => mm / 1000) : null;
+    asked.panel = $("panel-on").checked ? sides.map((mm) => toSI(mm, "mm")) : null;
     refresh();
   });
   $("all").addEventListener("click", () => {

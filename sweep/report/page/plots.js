@@ -30,8 +30,22 @@ function digits(value) {
   return value.toFixed(Math.min(Math.max(decimals, 0), 12));
 }
 
+// Data is in SI; people read mm, %, mJ. The factors are those of numbers.py.
+function inUnits(value, unit) {
+  return data.factors[unit] * value;
+}
+
+function toSI(value, unit) {
+  return value / data.factors[unit];
+}
+
+function energyUnit(joules) {
+  return joules >= 1 ? "J" : "mJ";
+}
+
 function energyText(joules) {
-  return joules >= 1 ? `${digits(joules)} J` : `${digits(1e3 * joules)} mJ`;
+  const unit = energyUnit(joules);
+  return `${digits(inUnits(joules, unit))} ${unit}`;
 }
 
 // Round numbers from low to high, about `count` of them.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from sweep.numbers import in_unit
 from sweep.report.page.thinning import thinned
 
 if TYPE_CHECKING:
@@ -104,12 +105,12 @@ def drawing(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> di
     for trail in trails(position, edges, thickness):
         points = position[trail.nodes]
         kept = thinned(points, len(points), STRAIGHT * trail.thickness)
-        wide = round(1e3 * trail.thickness, 4)
+        wide = round(in_unit(trail.thickness, "mm"), 4)
         paths[wide] = paths.get(wide, "") + _path(np.rint(points[kept] / UNIT).astype(int).tolist())
     half = 0.5 * thickness.max()
     used = position[np.unique(edges)]
     low, size = used.min(0) - half, np.ptp(used, axis=0) + 2.0 * half
-    box = [round(1e3 * float(v), 3) for v in (*low, *size)]
+    box = [round(in_unit(float(v), "mm"), 3) for v in (*low, *size)]
     return {"box": box, "walls": [[wide, path] for wide, path in paths.items()]}
 
 
@@ -129,21 +130,21 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
     chosen = _even(len(frames["strain"]))
     used, edges = np.unique(frames["edges"], return_inverse=True)
     edges = edges.reshape(-1, 2)
-    position = 1e3 * frames["position_m"][chosen][:, used].astype(float)
+    position = in_unit(frames["position_m"][chosen][:, used].astype(float), "mm")
     low = position.min((0, 1))
     step = float((position.max((0, 1)) - low).max()) / GRID or 1.0
     counts = np.rint((position - low) / step).astype("<u2")
-    plates = 1e3 * frames["plate_y_m"][chosen]
+    plates = in_unit(frames["plate_y_m"][chosen], "mm")
     lines = trails(position[0], edges, frames["edge_thickness_m"].astype(float))
     return {
-        "strain": _few(100.0 * frames["strain"][chosen]),
-        "time": _few(1e3 * frames["time_s"][chosen]),
+        "strain": _few(in_unit(frames["strain"][chosen], "%")),
+        "time": _few(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
         "plates": [_few(ends) for ends in plates],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
         "nodes": len(used),
-        "trails": [[float(f"{1e3 * t.thickness:.4g}"), t.nodes] for t in lines],
+        "trails": [[float(f"{in_unit(t.thickness, 'mm'):.4g}"), t.nodes] for t in lines],
         "position": b64encode(counts.tobytes()).decode(),
     }
 

@@ -10,7 +10,15 @@ import numpy as np
 import pandas as pd
 
 from sweep.columns import describe_column
-from sweep.numbers import NOTHING, energy_text, short, three_digits, with_unit
+from sweep.numbers import (
+    NOTHING,
+    energy_text,
+    in_unit,
+    short,
+    text_in,
+    three_digits,
+    with_unit,
+)
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
 from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.report.tables.sheet import Sheet
@@ -116,11 +124,12 @@ def setting(study: Study, row: Series) -> str:
 
 def percents(share: float) -> str:
     """A share in percent, two digits."""
-    return f"{_digits(100.0 * share)} %"
+    return f"{_percent(share)} %"
 
 
-def _digits(value: float) -> str:
-    """Two digits, never in powers of ten."""
+def _percent(share: float) -> str:
+    """A share in percent, two digits, never in powers of ten."""
+    value = in_unit(share, "%")
     decimals = 1 - int(np.floor(np.log10(value))) if value > 0.0 else 0
     text = f"{value:.{max(decimals, 0)}f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -133,7 +142,7 @@ def _error(study: Study, row: Series, name: str) -> str:
     doubt = max(study.references[name].doubt, LEAST_SHOWN)
     if not np.isfinite(doubt) or not np.isfinite(row[name]):
         return NOTHING
-    return f"< {_digits(100.0 * doubt)}" if row[name] < doubt else _digits(100.0 * row[name])
+    return f"< {_percent(doubt)}" if row[name] < doubt else _percent(row[name])
 
 
 def _orders(study: Study) -> Sheet:
@@ -175,7 +184,7 @@ def _size(key: str, value: float, bare: bool = False) -> str:
     if key.endswith("load_steps"):
         return f"{value:.0f}" + ("" if bare else " load steps")
     unit = "m" if key == "solver.step_error" else "s"
-    text = f"{1e3 * value:.4g} m{unit}" if value >= 1e-4 else f"{1e6 * value:.4g} u{unit}"
+    text = text_in(value, f"{'m' if value >= 1e-4 else 'u'}{unit}")
     return text if unit == "s" or bare else f"error of a step {text}"
 
 

@@ -9,7 +9,7 @@ from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import describe_column
-from sweep.numbers import NOTHING, SHOWN, scaled, short
+from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 
 if TYPE_CHECKING:
@@ -68,11 +68,11 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "cells_x", "cells_y") and not laid:
         columns["cells"] = frame["cells_x"].astype(str) + " x " + frame["cells_y"].astype(str)
     if "infill_share" in frame and _varies(among, "infill_share"):
-        share = (100.0 * frame["infill_share"]).map("{:.3g}".format)
+        share = in_unit(frame["infill_share"], "%").map("{:.3g}".format)
         columns["infill %"] = share.where(frame["infill_share"].notna(), "")
     for name, head in MILLIMETRES.items():
         if _sizes_vary(among, name):
-            columns[head] = (frame[name] * 1e3).map("{:.3g}".format)
+            columns[head] = in_unit(frame[name], "mm").map("{:.3g}".format)
     if _varies(among, "material"):
         columns["material"] = frame["material"].astype(str)
     if _varies(among, "material_memory"):
@@ -102,7 +102,7 @@ def about_direction(row: Series) -> list[str]:
     lines = ["pressed along its cells; delamination of printed layers is not modelled"]
     solid, strain = row["solid_strain"], row["peak_strain"]
     if strain > solid:
-        share = f"{100.0 * solid:.3g} %"
+        share = text_in(solid, "%", 3)
         lines.append(
             f"beyond a strain of {share} its walls fill the pressed area, which plates do not model"
         )
@@ -129,7 +129,7 @@ def _with_noun(head: str, text: str) -> str:
     if head == "infill %":
         return f"{text} % infill"
     noun, _, unit = head.rpartition(" ")
-    if noun and unit in SHOWN:
+    if noun and unit in FACTORS:
         return f"{noun} {text}" if text == NOTHING else f"{noun} {text} {unit}"
     return text if head in ("material", "pattern") else f"{head} {text}"
 

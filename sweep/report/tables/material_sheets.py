@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 from sweep.config.materials.material_file import MEMORY, PLASTICITY
 from sweep.config.materials.material_header import assumed, source
-from sweep.numbers import NOTHING, percent
+from sweep.numbers import NOTHING, in_unit, percent
 from sweep.report.tables.sheet import Sheet
 
 if TYPE_CHECKING:
     from sweep.config.materials.material_file import Record
 
-SCALES = dict.fromkeys(("modulus", "softening_m", "yield_stress", "hardening"), 1e-6)  # to MPa
 SHOWN = {
     "modulus MPa": "modulus",
     "density kg/m3": "density",
@@ -24,12 +23,9 @@ SHOWN = {
     "yield MPa": "yield_stress",
 }
 UNITS = {
-    "modulus": " MPa",
-    "density": " kg/m3",
-    "reference_time": " s",
-    "softening_m": " MPa",
-    "yield_stress": " MPa",
-    "hardening": " MPa",
+    **dict.fromkeys(("modulus", "softening_m", "yield_stress", "hardening"), "MPa"),
+    "density": "kg/m3",
+    "reference_time": "s",
 }
 NOTE = (
     "after s: the time after loading for which the curve holds, if the material relaxes.\n"
@@ -69,7 +65,7 @@ def _with_range(record: Record, key: str) -> str:
     value = _value(record, key)
     if value is None:
         return NOTHING
-    text = f"{SCALES.get(key, 1.0) * value:.4g}"
+    text = _digits(key, value)
     low, high = record.ranges.get(key, (value, value))
     less, more = (percent(abs(end / value - 1.0)) for end in (low, high))
     if less == more:
@@ -90,13 +86,17 @@ def _value(record: Record, key: str) -> float | None:
 
 def number(record: Record, key: str) -> str:
     """A number of a material with its range, as text; a dash for a number it does not state."""
-    scale = SCALES.get(key, 1.0)
     value = _value(record, key)
-    texts = [] if value is None else [f"{scale * value:.4g}"]
+    texts = [] if value is None else [_digits(key, value)]
     if key in record.ranges:
-        low, high = record.ranges[key]
-        texts.append(f"({scale * low:.4g} .. {scale * high:.4g})")
+        low, high = (_digits(key, end) for end in record.ranges[key])
+        texts.append(f"({low} .. {high})")
     return " ".join(texts) or NOTHING
+
+
+def _digits(key: str, value: float) -> str:
+    """A number of a material in the unit of its key."""
+    return f"{in_unit(value, UNITS[key]) if key in UNITS else value:.4g}"
 
 
 def details(record: Record) -> Iterator[str]:
@@ -104,7 +104,7 @@ def details(record: Record) -> Iterator[str]:
     yield from record.comments
     keys = dict.fromkeys(["modulus", "density", "poisson", "reference_time"])
     for key in keys | dict.fromkeys([*record.memory, *record.plasticity, *record.ranges]):
-        yield f"{key.replace('_', ' '):16}{number(record, key)}{UNITS.get(key, '')}"
+        yield f"{key.replace('_', ' '):16}{number(record, key)} {UNITS.get(key, '')}".rstrip()
     strain = record.strain
     if strain:
         yield f"{'curve':16}{len(strain)} points from {min(strain):g} to {max(strain):g} strain"

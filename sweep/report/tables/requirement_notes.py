@@ -8,8 +8,7 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from sweep.constants import STANDARD_GRAVITY
-from sweep.numbers import energy_text, numerals, tenths, three_digits
+from sweep.numbers import energy_text, in_unit, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
 from sweep.ranking.requirement_table import MEASURES
 
@@ -34,18 +33,18 @@ NOT_APPLIED = {
 }
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
-    "stroke mm": "stroke: over which the counted energy is absorbed; without crush, the greatest.",
+    "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
 
 
 def quantity(name: str, value: float, digits: int = 4) -> str:
-    """The value of a requirement (SI) in the unit of a maker."""
+    """The value of a requirement (SI) in its unit."""
     if name == "min_absorbed":
         return energy_text(value)
-    measure = MEASURES[name]
-    return f"{float(f'{measure.scale * value:.{digits}g}'):g} {measure.shown}"
+    shown = MEASURES[name].shown
+    return f"{float(f'{in_unit(value, shown):.{digits}g}'):g} {shown}"
 
 
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
@@ -170,7 +169,9 @@ def _rectangle(outcome: Outcome) -> Iterator[str]:
     """The least stroke for an energy at a force, if both are known."""
     if math.isfinite(outcome.stroke):
         energy, force = energy_text(outcome.energy), quantity("max_force", outcome.force)
-        stroke, height = (f"{three_digits(1e3 * x)} mm" for x in (outcome.stroke, outcome.height))
+        stroke, height = (
+            f"{three_digits(in_unit(x, 'mm'))} mm" for x in (outcome.stroke, outcome.height)
+        )
         yield (
             f"Absorbing {energy} at no more than {force} takes a stroke of at least {stroke} "
             f"(energy / force);\nthe lattice is {height} high."
@@ -185,12 +186,12 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     columns = {}
     struck = rows["striker_mass_g"].notna().any()
     if struck and ("max_deceleration" in ranking.required or DECELERATION in {*rows["ranked_by"]}):
-        columns["decel. g0"] = numerals(rows[DECELERATION] / STANDARD_GRAVITY)
+        columns["decel. g0"] = numerals(in_unit(rows[DECELERATION], "g0"))
     crushed = rows["loading_mode"].iloc[0] == "displacement"
     limited = crushed and (ranking.limited or "max_force" in ranking.required)
     asked = limited or required_of(ranking, rows, "max_stroke")
     if asked and rows["counted_stroke_m"].notna().any():
-        columns["stroke mm"] = numerals(1e3 * rows["counted_stroke_m"])
+        columns["stroke mm"] = numerals(in_unit(rows["counted_stroke_m"], "mm"))
     return columns
 
 
@@ -216,7 +217,8 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
     """The true lengths of the panel, where there is one."""
     if "panel_specimens" not in rows:
         return {}
-    sides = [(1e3 * rows[f"panel_{side}_m"]).map("{:.3g}".format) for side in ("width", "depth")]
+    lengths = (in_unit(rows[f"panel_{side}_m"], "mm") for side in ("width", "depth"))
+    sides = [length.map("{:.3g}".format) for length in lengths]
     return {"panel mm": sides[0] + " x " + sides[1]}
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
-from sweep.numbers import NOTHING, numerals, three_digits
+from sweep.numbers import NOTHING, in_unit, numerals, percent, three_digits
 from sweep.ranking.assessment import ALIKE
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
 from sweep.report.tables.design_text import design_text
@@ -83,7 +83,7 @@ def _verdict(spread: Spread) -> Iterator[str]:
     first = float(kept.iloc[0])
     if first < NARROW or first > 1.0 / NARROW:
         at = _where(spread)
-        yield f"The first design stands on a narrow peak: {at} leaves {100 * first:.0f} % of it."
+        yield f"The first design stands on a narrow peak: {at} leaves {percent(first)} % of it."
     safest = worst if spread.sign > 0 else -worst
     if safest.notna().any() and (k := int(safest.argmax())):
         place, value = spread.rows["place"].iloc[k], three_digits(float(worst.iloc[k]))
@@ -124,8 +124,8 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         f"{'panel' if 'panel_mass_g' in rows else 'absorbed'} J": numerals(rows[ranking.energy]),
         "peak N": numerals(rows["passed_on_N"]),
         **panel_column(rows),
-        "stroke mm": numerals(1e3 * rows["counted_stroke_m"]),
-        "misses by %": numerals(100.0 * shares),
+        "stroke mm": numerals(in_unit(rows["counted_stroke_m"], "mm")),
+        "misses by %": numerals(in_unit(shares, "%")),
     }
     return Sheet(
         "Nearest to what is required",
@@ -148,5 +148,5 @@ def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
         f"Pareto front of {column} and {other}",
         list(columns),
         [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=(FRONT.format(column, 100.0 * ALIKE), *mark_notes(rows)),
+        notes=(FRONT.format(column, in_unit(ALIKE, "%")), *mark_notes(rows)),
     )

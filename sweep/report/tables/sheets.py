@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
-from sweep.numbers import numerals, percent, tenths
+from sweep.numbers import in_unit, numerals, percent, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import LEAST
 from sweep.ranking.scenes import by_scene, scene_label
@@ -212,7 +212,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 
 
 def _under_load(rows: DataFrame) -> dict[str, Series]:
-    return {"strain %": numerals(100.0 * rows["peak_strain"])}
+    return {"strain %": numerals(in_unit(rows["peak_strain"], "%"))}
 
 
 def impact_text(rows: DataFrame) -> dict[str, Series]:
@@ -220,19 +220,19 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
     return {
         "force N": numerals(rows["peak_force_N"]),
         **panel_column(rows),
-        "strain %": numerals(100.0 * rows["peak_strain"]),
-        "left mm": numerals(1e3 * rows["stroke_left_m"]),
+        "strain %": numerals(in_unit(rows["peak_strain"], "%")),
+        "left mm": numerals(in_unit(rows["stroke_left_m"], "mm")),
         "rebound %": rows["rebound_share"].map(percent),
     }
 
 
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbed"
-    unit, scale = ("mJ", 1e3) if energy.max() < 1.0 else ("J", 1.0)
+    unit = "mJ" if energy.max() < 1.0 else "J"
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})
     return {
-        f"{noun} {unit}": more + numerals(energy * scale),
+        f"{noun} {unit}": more + numerals(in_unit(energy, unit)),
         "J/g": more + numerals(rows[ranking.per_gram]),
         "peak N": numerals(rows["passed_on_N"]),
     }

@@ -29,7 +29,7 @@ from scipy.stats import qmc
 
 from sweep.columns import in_words, less_is_better
 from sweep.config.case import Case
-from sweep.numbers import three_digits
+from sweep.numbers import text_in, three_digits
 from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Known, with_allowed
 from sweep.ranking.question import Question
@@ -202,5 +202,5 @@ def _best(found: Assessment) -> str:
         return f"the {most} {noun} is {value} {unit}".rstrip()
     least = min(found.missed.values(), default=inf)
     if least < inf:
-        return f"none fulfils all requirements; the nearest misses them by {100.0 * least:.3g} %"
+        return f"none fulfils all requirements; the nearest misses them by {text_in(least, '%', 3)}"
     return "none can be ranked"

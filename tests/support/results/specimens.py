@@ -88,6 +88,18 @@ def designs(masses, energies, **common):
     return [{"mass_g": mass, "absorbed_energy_J": energy} | common for mass, energy in pairs]
 
 
+CRUSHES = summary(*designs([1.0, 2.0, 3.0], [0.10, 0.18, 0.40], height_m=12.5e-3)).assign(
+    peak_force_until_packed_N=[20.0, 30.0, 80.0]
+)
+"""Three crushes: the heavier, the more energy and force."""
+_HIT = {"loading_mode": "impact", "stroke_m": np.nan, "striker_mass_g": 50.0, "height_m": 12.5e-3}
+_HIT |= {"impact_energy_J": 1.5, "peak_strain": 0.5}
+IMPACTS = summary(*(_HIT | {"peak_force_N": force} for force in (76.0, 90.0))).assign(
+    peak_deceleration_filtered_m_per_s2=[500.0, np.nan]
+)
+"""Two impacts, the second without a filtered deceleration."""
+
+
 def there_and_back(rows=21):
     """A block of 10 mm pressed by 4 mm at a rising force and let up at half of it."""
     travel = 4e-3 * np.concatenate([np.linspace(0, 1, rows), np.linspace(1, 0, rows)[1:]])

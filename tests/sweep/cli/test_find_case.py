@@ -42,19 +42,6 @@ def test_scene_is_a_number_or_words(two_scenes, scene):
     assert told == "number 1 of 2: crushed to 50 %, contact platens, up to 10 g"
 
 
-@pytest.mark.parametrize(
-    ("number", "scene", "why"),
-    [
-        (6, None, "no number 6 in the ranking of crushed to 50 %, glued platens; allowed: 1 to 5"),
-        (1, "crushed", '--scene "crushed": in 2 scenes; allowed: a number or words of 1: crushed'),
-        (1, "3", '--scene "3": in no scene; .*; 2: crushed to 50 %, contact platens'),
-    ],
-)
-def test_what_is_not_there_is_refused(two_scenes, number, scene, why):
-    with pytest.raises(CaseError, match=why):
-        by_number(two_scenes, number, scene, Question())
-
-
 def test_ranking_without_places_has_no_numbers():
     with pytest.raises(CaseError, match="no design is ranked; without CASE, show"):
         by_number(summary({"status": "stopped"}), 1, None, Question())
@@ -70,14 +57,6 @@ def test_where_nothing_has_a_place_the_nearest_design_is_named(two_scenes):
     assert by_number(two_scenes, 1, None, question)[0]["case_id"] == two_scenes["case_id"][1]
     with pytest.raises(CaseError, match=r"that of the nearest design: case 0+6, ninjaflex"):
         by_number(two_scenes, 1, "contact", question)
-
-
-def test_a_number_of_a_doubtful_design_says_so(two_scenes):
-    doubtful = two_scenes.assign(max_crossings=[0, 1, 0, 0, 0, 0, 0])
-    assert by_number(doubtful, 1, None, Question(budget="10 g"))[1].endswith(
-        "up to 10 g, marked as unreliable"
-    )
-    assert by_number(doubtful, 2, None, Question(budget="10 g"))[1].endswith("up to 10 g")
 
 
 def test_id_begins_so(two_scenes):

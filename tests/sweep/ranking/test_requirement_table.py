@@ -28,7 +28,6 @@ def test_an_example_is_shown_in_the_unit_of_a_maker(name, measure):
     value = quantity(measure.example, measure.unit)
     assert text_of(name, value).endswith(f" {measure.shown}")
     assert quantity(text_of(name, value), measure.unit) == pytest.approx(value)
-    assert measure.scale == pytest.approx(1.0 / quantity(f"1 {measure.shown}", measure.unit))
     assert {*measure.asked_of} <= {*MODES}
     assert measure.asked_of == MODES or {*measure.asked_of} <= {*NEEDED}
 

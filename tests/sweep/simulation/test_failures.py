@@ -10,9 +10,8 @@ import pytest
 from kernels.solve import outcomes
 from sweep.columns import ABSORBED_AT, COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case
-from sweep.config.kinds.solver import Arcs
 from sweep.result import Status
-from sweep.simulation.failures import ADVICE, LOST, stopped
+from sweep.simulation.failures import ADVICE, stopped
 from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import is_sound, pressed
 
@@ -150,12 +149,3 @@ def test_every_end_of_the_solver_has_its_advice():
         assert status == Status.STOPPED
         assert message.startswith("stopped while loading, here: ")
         assert "{" not in message
-
-
-def test_a_dead_load_that_buckles_needs_iterations_and_a_path_shorter_arcs():
-    few = "more solver.load_steps", "a larger solver.max_iterations"
-    for driven in (True, False):
-        _, message = stopped(LONG, outcomes.ITERATIONS, "there", driven)
-        assert message.endswith(f"Newton iterations; try {few[not driven]}")
-    path = LONG.model_copy(update={"solver": Arcs(arc_length=1e-3)})
-    assert stopped(path, outcomes.ITERATIONS, "there", False)[1] == f"stopped there: {LOST}"

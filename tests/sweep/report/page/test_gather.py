@@ -66,7 +66,7 @@ def test_shapes_of_the_best_come_first(tmp_path, monkeypatch):
 def test_energies_of_the_page_add_up_to_the_work(tmp_path):
     (case,) = gathered(tmp_path, summary({}))["cases"]
     _, work, *parts = np.array(case["book"]["values"])
-    np.testing.assert_allclose(np.sum(parts, axis=0), work, rtol=1e-3, atol=1e-3)
+    np.testing.assert_allclose(np.sum(parts, axis=0), work, rtol=1e-3, atol=1e-6)
     assert case["book"]["parts"] == ["bending", "lost to friction"]
 
 

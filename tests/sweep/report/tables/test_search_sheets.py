@@ -30,15 +30,6 @@ def test_row_has_the_fine_mesh_and_the_spread():
     assert len(found.notes) == 1
 
 
-def test_narrow_peak_and_the_safest_design_are_told():
-    found = sheet((0.39, 0.28), (0.35, 0.27), (0.04, 0.29))
-    told = "The first design stands on a narrow peak: walls +5 % leaves 10 % of it."
-    assert found.notes[1:] == (
-        told,
-        "The safest of these is number 2, with 0.270 at its worst.",
-    )
-
-
 def test_least_is_the_best_where_the_column_says_so():
     found = sheet((1.0, 2.0), (1.0, 2.0), (3.0, 2.1), "mass_g")
     assert "walls +5 % leaves 300 % of it." in found.notes[1]

@@ -1,6 +1,5 @@
 """The spread as a table, and in sentences."""
 
-import pytest
 from pandas import DataFrame
 
 from sweep.ranking.spread import AS_GIVEN, Spread
@@ -20,18 +19,6 @@ def sheet(first, second, failed=0):
     return next(spread_sheets([spread], OWN))
 
 
-@pytest.mark.parametrize(
-    ("values", "sentence"),
-    [
-        ((1.5, 2.0), "The order of these designs does not change."),
-        ((3.0, 2.0), "The order changes: with friction 0.9, the first is "),
-        ((None, None), "No number is uncertain here."),
-    ],
-)
-def test_the_order_is_told(values, sentence):
-    assert sheet(*values).notes[-1].startswith(sentence)
-
-
 def test_row_has_the_ends_and_where_they_are():
     found = sheet(3.0, 2.5, failed=2)
     assert found.rows[0][0] == "1"
@@ -47,11 +34,3 @@ def test_values_that_are_all_missing_are_dashes():
     found = next(spread_sheets([spread], OWN))
     assert found.rows[0][3:] == ["–"] * 5
     assert found.title.endswith("crushed, up to 5 g")
-
-
-def test_others_may_change_places_behind_the_first():
-    rows = summary(*designs([1.0, 2.0, 3.0], [0.4, 0.3, 0.2]))
-    rows = rows.assign(place=[1, 2, 3], scene="crushed", budget_g=float("nan"))
-    table = DataFrame({AS_GIVEN: [1.0, 2.0, 3.0], "soft": [1.0, 3.0, 2.0]})
-    found = next(spread_sheets([Spread(rows, COLUMN, table, table.rank(), 0)], rows))
-    assert found.notes[-1] == "The first design stays first; others change places with soft."
