@@ -1,4 +1,4 @@
-"""Whole sweeps on two cores: what comes on top of the cases, and designs a second."""
+"""A whole sweep on two cores: designs a second."""
 
 import os
 import tempfile
@@ -21,7 +21,6 @@ from tests.support.converged import converged, demand
 
 CONFIG = Path(__file__).parents[3] / "configs/thousand.toml"
 FINER = 4  # times the load steps and the elements, to see what they leave out
-WORKERS = (1, 2)
 IDLE, WAITING = 3, 4  # columns of /proc/stat
 RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of the cases / workers
 
@@ -40,24 +39,18 @@ def changed(case, **tables):
 
 class Swept(NamedTuple):
     """Seconds of a sweep: on the clock, of processors that other programs had meanwhile, and so of
-    the clock that they took; CPU of the process, CPU of the cases alone.
+    the clock that they took; CPU of the cases alone.
     """
 
     wall: float
     others: float
     lost: float
-    spent: float
     own: float
 
     @property
     def free(self):
         """On the clock, had no other program run."""
         return self.wall - self.lost
-
-    @property
-    def more(self):
-        """CPU that the cases have not taken, in % of theirs."""
-        return 100.0 * (self.spent / self.own - 1.0)
 
 
 def busy():
@@ -83,19 +76,7 @@ def swept(designs, workers):
         summary = read_summary(file)
     demand(summary.to_dict("records"))
     taken = lost(others, wall, workers, os.cpu_count())
-    return Swept(wall, others, taken, spent, float(summary["cpu_s"].sum()))
-
-
-def overhead(designs, count):
-    """Two workers against one."""
-    columns = ("wall, s", "others, s", "CPU of cases, s", "more CPU, %", RATIO)
-    found = Table(f"a sweep of {len(designs)} cases", columns)
-    samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
-    for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
-        figures = [(s.wall, s.others, s.own, s.more, s.free * workers / s.own) for s in rounds]
-        for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
-            found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
-    return found
+    return Swept(wall, others, taken, float(summary["cpu_s"].sum()))
 
 
 def refined(case, elements):
