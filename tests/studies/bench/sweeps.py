@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
@@ -28,13 +27,6 @@ RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of t
 def thousand():
     """All designs of the config."""
     return expand(load_config(CONFIG))
-
-
-def changed(case, **tables):
-    """A case with some keys of some tables changed."""
-    given = {name: getattr(case, name).model_copy(update=keys) for name, keys in tables.items()}
-    kept = {name: getattr(case, name) for name in Case.model_fields if name not in given}
-    return Case.of(**kept, **given)
 
 
 class Swept(NamedTuple):
@@ -83,7 +75,7 @@ def refined(case, elements):
     """A case with `FINER` times its load steps and so many times its elements."""
     per_wall, steps = case.lattice.nodes_per_wall + 1, FINER * case.solver.load_steps
     mesh = {"nodes_per_wall": elements * per_wall - 1}
-    return changed(case, lattice=mesh, solver={"load_steps": steps})
+    return case.changed(lattice=mesh, solver={"load_steps": steps})
 
 
 def errors(sample, elements=1):
@@ -97,7 +89,7 @@ def errors(sample, elements=1):
 
 def kinds(designs):
     """The designs with friction and without."""
-    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
+    smooth = [case.changed(contact={"friction": 0.0}) for case in designs]
     return {"with friction": designs, "without friction": smooth}
 
 

@@ -12,9 +12,7 @@ PATIENCE = 600.0  # s for a case
 def finer(case):
     """The same case with more elements."""
     elements = max(FINE, TIMES * (case.lattice.nodes_per_wall + 1))
-    lattice = case.lattice.model_copy(update={"nodes_per_wall": elements - 1})
-    solver = case.solver.model_copy(update={"time_limit": PATIENCE})
-    return case.model_copy(update={"lattice": lattice, "solver": solver})
+    return case.changed(lattice={"nodes_per_wall": elements - 1}, solver={"time_limit": PATIENCE})
 
 
 def by_order(usual, fine):
