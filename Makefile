@@ -93,7 +93,7 @@ plates_solid: setup  ## compare a square tube of shells with one of bricks, thro
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)
 	@$(PYTHON) -m tests.studies.stability results/stability
 
-bench: setup  ## measure how fast it is; table and figure go to results/bench/
+bench: setup  ## measure how fast it is; the tables go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.bench results/bench
 
 pictures: setup  ## draw the pictures of README.md again, from results/infills.h5

@@ -9,8 +9,9 @@ from kernels.solve.workspace import make_workspace
 from kernels.terms.rows import STORED
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from tests.studies.bench.measuring import cases, counts
+from tests.studies.bench.measuring import cases
 from tests.studies.bench.measuring.crushes import Crush
+from tests.support.kernels.counts import counted
 from tests.support.kernels.solving import at_rest, ramp, whole
 
 STEP = 1e-4  # m
@@ -55,6 +56,6 @@ def test_no_step_sets_out_as_a_snap_went(guess):
 
 def test_a_factor_outlives_the_list_of_pairs():
     crush = Crush(3, cases.SMOOTH, (0.0, 0.1), 40)
-    calls, iterations = counts.counted(crush), crush.onwards()[0].iterations
+    calls, iterations = counted(crush), crush.onwards()[0].iterations
     assert 1.0 < calls["list"] * iterations < crush.steps + 1.5
     assert calls["factor"] < 1.0

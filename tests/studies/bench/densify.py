@@ -3,7 +3,6 @@
 from sweep.scene.lattice import build_scene
 from tests.studies.bench.measuring import cases, marching
 from tests.studies.bench.measuring.alone import MEMORY, alone
-from tests.studies.bench.sweeps import changed
 from tests.studies.bench.table import Table
 from tests.support.converged import demand
 
@@ -15,7 +14,7 @@ def table(cells, strain, steps):
     """One row."""
     found = Table(f"{cells} x {cells}, with contact", COLUMNS)
     case = cases.crush(cells, strain, steps, cases.SMOOTH)
-    summary = alone(changed(case, solver={"time_limit": PATIENCE}))
+    summary = alone(case.changed(solver={"time_limit": PATIENCE}))
     row = f"to {100 * strain:.0f} % in {steps} steps"
     demand([summary])
     march, packed = marching.whole(case, build_scene(case)), 100.0 * summary["densification_strain"]

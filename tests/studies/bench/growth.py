@@ -5,8 +5,9 @@ from functools import partial
 import numpy as np
 
 from kernels.planar import reach
+from kernels.terms import friction
 from sweep.scene.lattice import build_scene
-from tests.studies.bench.measuring import cases, loops, marching
+from tests.studies.bench.measuring import cases, marching
 from tests.studies.bench.measuring.alone import MEMORY, alone
 from tests.studies.bench.measuring.clock import medians, seconds
 from tests.studies.bench.table import Table
@@ -31,7 +32,7 @@ def exponent(sizes, times):
 def _search(scene):
     """List pairs and make the system, as every march does once."""
     pairs = reach.list_neighbours(scene.terms, scene.x_rest, 0.0)[0]
-    loops.analyse(1, scene.x_rest, scene.terms, pairs)
+    reach.make_system(scene.terms, scene.x_rest, pairs, friction.none())
 
 
 def table(sizes, steps, count):

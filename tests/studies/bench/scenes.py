@@ -5,22 +5,17 @@ from functools import partial
 
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
+from tests.studies.bench import opensees
 from tests.studies.bench.measuring import cases, marching
 from tests.studies.bench.measuring.clock import medians, seconds
 from tests.studies.bench.measuring.crushes import COLLAPSED, Crush
-from tests.studies.bench.peers import descent, elements, opensees
 from tests.studies.bench.table import Table
 
 WHOLE, SCENE, ITERATIONS, EACH = "CPU s", "building, ms", "iterations", "µs an iteration"
 COLUMNS = (WHOLE, SCENE, ITERATIONS, EACH)
 SEED = "no contact"
-PEERS = {
-    "OpenSees, ProfileSPD": partial(opensees.Peer, solver="ProfileSPD"),
-    "numpy, all elements together": descent.Peer,
-    "numpy, element by element": partial(descent.Peer, model=elements.Elements),
-}
+PEERS = {"OpenSees, ProfileSPD": partial(opensees.Peer, solver="ProfileSPD")}
 LARGER = {"OpenSees, SparseSYM": partial(opensees.Peer, solver="SparseSYM")}
-LONG = 10.0  # s: a peer that takes longer is measured once
 ALLOWED = {
     "contact allowed, nothing touches": {"contact": cases.SMOOTH},
     "friction too": {"contact": cases.ROUGH},
@@ -37,7 +32,7 @@ def compared(title, chosen, count, peers=None):
     """A row for each of the ``chosen`` cases and of the ``peers``, which march; in brackets the
     ratio to the first row.
     """
-    sides, iterations, once = {}, {}, {}
+    sides, iterations = {}, {}
     for name, case in chosen.items():
         scene = build_scene(case)
         march = partial(marching.whole, case, scene)
@@ -46,17 +41,13 @@ def compared(title, chosen, count, peers=None):
         sides[name, SCENE] = partial(seconds, partial(cases.new_scene, case))
         sides[name, EACH] = partial(marching.sustained, march)
     for name, peer in (peers or {}).items():
-        taken, iterations[name] = peer.whole()
-        if taken > LONG:
-            once[name, WHOLE] = taken
-        else:
-            sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
-    found, at, first = Table(title, COLUMNS), medians(sides, count) | once, next(iter(chosen))
+        iterations[name] = peer.whole().iterations
+        sides[name, WHOLE] = lambda peer=peer: peer.whole().seconds
+    found, at, first = Table(title, COLUMNS), medians(sides, count), next(iter(chosen))
     for name, often in iterations.items():
         each = at.get((name, EACH), at[name, WHOLE] / often)
         whole = at[name, WHOLE]
-        said = ", measured once" if (name, WHOLE) in once else ""
-        found.put(name, WHOLE, whole, f"{whole / at[first, WHOLE]:.3g} x{said}")
+        found.put(name, WHOLE, whole, f"{whole / at[first, WHOLE]:.3g} x")
         if name in chosen:
             found.put(name, SCENE, 1e3 * at[name, SCENE])
         found.put(name, ITERATIONS, often)
@@ -79,15 +70,6 @@ def seed(cells, duration, count, allowed=ALLOWED, beside=PEERS):
         if name not in peers:
             found.lack(name, "not installed")
     return found
-
-
-def crush(steps, count):
-    """Crushes to 60 % between glued platens, with contact and without."""
-    chosen = {
-        name: cases.crush(3, 0.6, steps, contact)
-        for name, contact in (("without contact", cases.APART), ("with contact", cases.SMOOTH))
-    }
-    return compared(f"crushed to 60 %, 3 x 3, {steps} steps", chosen, count)
 
 
 def left_out(steps, count):

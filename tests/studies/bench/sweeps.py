@@ -1,4 +1,4 @@
-"""Whole sweeps on two cores: what comes on top of the cases, and designs a second."""
+"""A whole sweep on two cores: designs a second."""
 
 import os
 import tempfile
@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.running.beside.refinement import refined
@@ -22,7 +21,6 @@ from tests.support.converged import converged, demand
 
 CONFIG = Path(__file__).parents[3] / "configs/thousand.toml"
 FINER = 4  # times the load steps and the elements, to see what they leave out
-WORKERS = (1, 2)
 IDLE, WAITING = 3, 4  # columns of /proc/stat
 RATIO = "times the ideal"  # wall clock, had no other program run, over CPU of the cases / workers
 
@@ -32,33 +30,20 @@ def thousand():
     return expand(load_config(CONFIG))
 
 
-def changed(case, **tables):
-    """A case with some keys of some tables changed."""
-    given = {name: getattr(case, name).model_copy(update=keys) for name, keys in tables.items()}
-    kept = {name: getattr(case, name) for name in Case.model_fields if name not in given}
-    return Case.of(**kept, **given)
-
-
 class Swept(NamedTuple):
     """Seconds of a sweep: on the clock, of processors that other programs had meanwhile, and so of
-    the clock that they took; CPU of the process, CPU of the cases alone.
+    the clock that they took; CPU of the cases alone.
     """
 
     wall: float
     others: float
     lost: float
-    spent: float
     own: float
 
     @property
     def free(self):
         """On the clock, had no other program run."""
         return self.wall - self.lost
-
-    @property
-    def more(self):
-        """CPU that the cases have not taken, in % of theirs."""
-        return 100.0 * (self.spent / self.own - 1.0)
 
 
 def busy():
@@ -84,19 +69,7 @@ def swept(designs, workers):
         summary = read_summary(file)
     demand(summary.to_dict("records"))
     taken = lost(others, wall, workers, os.cpu_count())
-    return Swept(wall, others, taken, spent, float(summary["cpu_s"].sum()))
-
-
-def overhead(designs, count):
-    """Two workers against one."""
-    columns = ("wall, s", "others, s", "CPU of cases, s", "more CPU, %", RATIO)
-    found = Table(f"a sweep of {len(designs)} cases", columns)
-    samples = [[swept(designs, workers) for workers in WORKERS] for _ in range(count)]
-    for workers, rounds in zip(WORKERS, zip(*samples, strict=True), strict=True):
-        figures = [(s.wall, s.others, s.own, s.more, s.free * workers / s.own) for s in rounds]
-        for column, figure in zip(columns, np.median(figures, axis=0), strict=True):
-            found.put(f"{workers} worker{'s' * (workers > 1)}", column, float(figure))
-    return found
+    return Swept(wall, others, taken, float(summary["cpu_s"].sum()))
 
 
 def errors(sample, elements=1):
@@ -112,7 +85,7 @@ def errors(sample, elements=1):
 
 def kinds(designs):
     """The designs with friction and without."""
-    smooth = [changed(case, contact={"friction": 0.0}) for case in designs]
+    smooth = [case.changed(contact={"friction": 0.0}) for case in designs]
     return {"with friction": designs, "without friction": smooth}
 
 

@@ -30,7 +30,10 @@ def test_starts_find_first_nothing_and_then_what_the_first_has_compiled(monkeypa
 def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
     monkeypatch.setattr("kernels.compile.cache.is_lasting", lambda: False)
     assert main(["warm"]) == 2
-    assert "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is no folder" in capsys.readouterr().err
+    assert (
+        "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
+        in capsys.readouterr().err
+    )
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda *_: True)
     monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda _: None)
     monkeypatch.setattr("kernels.compile.precompile.compile_ahead", lambda _: None)

@@ -33,19 +33,14 @@ def test_processors_are_busy_while_one_computes():
 
 
 def test_sweeps_are_timed_and_checked():
-    few = [cases.crush(cells, 0.1, 5) for cells in (1, 2)]
-    overhead = sweeps.overhead(few, 1)
-    for workers in ("1 worker", "2 workers"):
-        found = overhead.row(workers)
-        assert found["wall, s"] > 0.5 * found["CPU of cases, s"] > 0.0
-        assert found["more CPU, %"] > 0.0
     rough = sweeps.errors([cases.crush(2, 0.3, 4)])
     fine = sweeps.errors([cases.crush(2, 0.3, 64)])
     assert rough > 4.0 * fine > 0.0
     smooth = [cases.crush(2, 0.1, 5, contact) for contact in (cases.SMOOTH, cases.ROUGH)]
     throughput = sweeps.throughput(smooth, 1)
-    assert throughput.values["with friction", "per s"] > 1.0
     found = throughput.row("with friction")
+    assert found["per s"] > 1.0
+    assert found["wall, s"] > 0.5e-3 * 2 * found["CPU, ms"] > 0.0
     taken = 0.5e-3 * found["CPU, ms"] * found[sweeps.RATIO]
     assert found["per s"] == pytest.approx(1.0 / taken)
     assert throughput.values["without friction", "error, %"] > 0.0

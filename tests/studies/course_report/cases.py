@@ -6,15 +6,14 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame
 
-from sweep.config.case import TABLES, Case
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.simulation.simulate import simulate
 from tests.support.converged import demand
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
-HELD = 0.137  # s, just before the load is removed
 RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress", "uncertain")
+HELD = 0.137  # s, just before the load is removed
 
 
 @cache
@@ -39,19 +38,11 @@ def coarse():
 
 
 def varied(case, **changes):
-    """A case with changed keys: table -> key -> value in SI. A new mode resets the loading."""
-    tables = {name: getattr(case, name).model_dump(exclude_none=True) for name in TABLES}
-    for key in RECORD:
-        tables["material"].pop(key, None)
-    if "mode" in changes.get("loading", {}):
-        tables["loading"], tables["solver"] = {}, {**tables["solver"]}
-        for key in ("integrator", "time_step"):
-            tables["solver"].pop(key)
-    axes = dict(case.axes)
-    for name, change in changes.items():
-        tables[name] |= change
-        axes |= {f"{name}.{key}": value for key, value in change.items()}
-    return Case.of(**{name: TABLES[name](**table) for name, table in tables.items()}, axes=axes)
+    """A case with changed keys: table -> key -> value in SI. Its labels say which."""
+    axes = {f"{name}.{key}": value for name, keys in changes.items() for key, value in keys.items()}
+    if "material" in changes:  # its record is read anew
+        changes["material"] = dict.fromkeys(RECORD) | changes["material"]
+    return case.changed(axes, **changes)
 
 
 _results = {}

@@ -70,7 +70,7 @@ def test_a_varied_case_differs_in_what_is_named():
     pressed = varied(
         case, loading={"mode": "displacement", "strain": 0.2}, contact={"model": "none"}
     )
-    assert (pressed.loading.strain, pressed.loading.force) == (0.2, None)
+    assert (pressed.loading.mode, pressed.loading.strain) == ("displacement", 0.2)
     assert pressed.solver.integrator == "static"
     assert pressed.axes == case.axes | {
         "loading.mode": "displacement",

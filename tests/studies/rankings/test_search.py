@@ -23,7 +23,7 @@ def test_designs_beside_the_searches():
     assert {(lattice.kind, lattice.cells_x, lattice.cells_y) for lattice in scan} == {("hex", 4, 2)}
     assert (scan[0].wall_thickness, scan[-1].wall_thickness) == (0.3e-3, 1.2e-3)
     assert all(None not in cases for cases in cushion().beside.values())
-    assert tuple(cushion().search.search) == KEYS
+    assert tuple(cushion().search.recipe.search) == KEYS
 
 
 def test_rows_compare_with_the_first_beside(tmp_path):

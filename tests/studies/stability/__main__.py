@@ -17,6 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 from sweep.config.grid import expand
+from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.load import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
@@ -36,7 +37,7 @@ SECOND = "bdf2", "newmark"
 
 def kind_of(case):
     """What is done to the lattice of a case, in words."""
-    if case.lattice.structure is not None:
+    if isinstance(case.lattice, CustomStructure):
         return "custom"
     if case.material.remembers:
         return "memory"

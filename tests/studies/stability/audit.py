@@ -16,6 +16,7 @@ import numpy as np
 
 from kernels.solve import arc_length, integrators, march, outcomes, residual
 from kernels.solve.problem import Step
+from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.simulation.custom_history import WITHOUT_PLATENS
 from sweep.simulation.simulate import simulate
 from tests.studies.stability.model import stored
@@ -171,7 +172,7 @@ def audit(case):
 
 def _numbers(result, case):
     blank = ("min_gap_m",)
-    if case.lattice.structure is not None:
+    if isinstance(case.lattice, CustomStructure):
         blank += (*WITHOUT_PLATENS, "reaction_bottom_N")
     for name, column in result.history.items():
         if name not in blank and not np.all(np.isfinite(column)):

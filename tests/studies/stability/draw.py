@@ -14,7 +14,7 @@ from sweep.config.keys import case_keys
 from sweep.config.kinds.table import RefusedError
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.tables import lattice_with, material_with
 
 COUNT, SEED = 500, 20
 MEMORY = 1000  # beyond `COUNT`: first number of a scene with a memory
@@ -135,16 +135,19 @@ def _memory(draw, keys):
 
 
 def case_of(keys):
-    """The case that these keys make."""
-    keys = dict(keys)
-    if keys.get("material.name", "").endswith(".csv"):
-        keys["material.name"] = str(CONFIGS / keys["material.name"])
-    return Case.of(**{name: _table(ALIKE | keys, name) for name in TABLES})
+    """The case that these keys make; what is pressed at no speed has no damping."""
+    if keys["loading.mode"] == "displacement" and "loading.speed" not in keys:
+        keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
+    return Case.of(**{name: _values(ALIKE | keys, name) for name in TABLES})
 
 
-def _table(keys, name):
+def _values(keys, name):
+    """Values of a table by key; the material of a file by its place."""
     rows = [(key.split("."), value) for key, value in keys.items()]
-    return TABLES[name](**{key: value for (table, key), value in rows if table == name})
+    found = {key: value for (table, key), value in rows if table == name}
+    if found.get("name", "").endswith(".csv"):
+        found["name"] = str(CONFIGS / found["name"])
+    return found
 
 
 def _material(draw):
@@ -178,7 +181,7 @@ def _lattice(draw):
         "imperfection": 0.0 if draw.chance(0.5) else draw.between(1e-6, 1.0),
     }
     thin = lattice_with(**keys, wall_thickness=1e-4 * min(keys["width"] / cells_x, pitch))
-    joints, walls = thin._counts
+    joints, walls = thin.counts
     if joints + walls * keys["nodes_per_wall"] > MOST_NODES:
         keys["nodes_per_wall"] = max(0, (MOST_NODES - joints) // walls)
     keys["wall_thickness"] = float(f"{2.0 * thin.thickest * draw.between(0.02, 0.45):.3g}")
@@ -221,7 +224,8 @@ def _solver(draw):
 
 
 def _loading(draw, keys):
-    lattice, material = _table(keys, "lattice"), _material_of(keys)
+    lattice = lattice_with(**_values(keys, "lattice"))
+    material = material_with(**_values(keys, "material"))
     slenderness = lattice.wall_thickness / (lattice.height / lattice.cells_y)
     buckling = SWAY * slenderness**3 * material.modulus * lattice.width * lattice.depth
     mode = draw.one("slow", "fast", "force", "force", "impact", "slow")
@@ -237,13 +241,6 @@ def _loading(draw, keys):
         "solver.load_steps": draw.whole(5, 100),
     }
     return keys | ({"loading.speed": draw.between(1e-3, 300.0)} if mode == "fast" else {})
-
-
-def _material_of(keys):
-    name = keys.get("material.name", "")
-    return _table(
-        keys | {"material.name": str(CONFIGS / name)} if "/" in name else keys, "material"
-    )
 
 
 def _force(draw, buckling):

@@ -33,21 +33,7 @@ The order of the cubic element is 4 where walls are slender and the path is smoo
 - With contact, where nodes touch one after another, the error falls irregularly and slowly.
 
 One element does not buckle between clamped ends; the classical one does not between hinges either.
-"former": discrete hinges with the weights of exact beams, as measured in November 2026 on such a
-column, cross and grid before that element was removed.
 """
-# In %, of the element before the cubic one (see `NOTES`): they cannot be computed any more.
-FORMER = {
-    "clamped column, t/L 0.064, 5 %": {2: -55, 3: -20, 4: -14, 6: -6.1, 12: -1.6},
-    "clamped column, t/L 0.064, 20 %": {2: -56, 3: -25, 4: -16, 6: -5.9, 12: -1.5},
-    "clamped column, t/L 0.064, 40 %": {2: -58, 3: -33, 4: -19, 6: -6.2, 12: -1.4},
-    "clamped cross, t/L 0.011, 0.1 rad": {3: -25, 12: -4},
-    "clamped cross, t/L 0.011, 0.3 rad": {3: -53, 12: -16},
-    "clamped cross, t/L 0.011, 0.5 rad": {3: -64, 12: -25},
-    "3 x 3 grid, t/L 0.19, 5 %": {1: 19, 2: 1.9, 3: 0.6},
-    "3 x 3 grid, t/L 0.19, 10 %": {1: 18, 2: 0.9, 3: 0.8},
-    "3 x 3 grid, t/L 0.19, 30 %": {1: 14, 2: -5.2, 3: 0.3},
-}
 
 
 @cache
@@ -89,15 +75,12 @@ def percent(error):
 
 
 def rows(scene):
-    """Rows of a scene: one for each element, and one of the former if it was measured."""
+    """Rows of a scene: one for each element."""
     for element in ELEMENTS:
         found = errors(scene, element)
         slope = order(found)
         shown = [percent(found[n]) for n in MESHES]
         yield [scene.name, element, *shown, "-" if isnan(slope) else f"{slope:.2f}"]
-    if former := FORMER.get(scene.name):
-        shown = [f"{former[n]:+g}" if n in former else "" for n in MESHES]
-        yield [scene.name, "former", *shown, ""]
 
 
 def table():

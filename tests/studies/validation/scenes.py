@@ -10,7 +10,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from sweep.config.kinds.contact import Contact
 from sweep.result import Result
 from tests.studies.validation import frames, pressed
 from tests.studies.validation.elastica import cantilever
@@ -36,7 +35,7 @@ class Scene:
     measure: Callable[[Result], float]
     truth: Callable[["Scene"], float]
     steps: int = 20
-    contact: Contact = APART
+    contact: Mapping = field(default_factory=lambda: APART)
     options: Mapping = field(default_factory=lambda: MappingProxyType({}))
 
     def solve(self, pieces, element="cubic"):

@@ -2,7 +2,6 @@
 
 from math import isnan, log2, nan
 
-import numpy as np
 import pytest
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
@@ -89,8 +88,3 @@ def test_table_of_the_readme():
         *errors_now, order_now = readme.numbers(now)
         assert errors == pytest.approx(errors_now, rel=0.1, abs=1e-4)
         assert order == pytest.approx(order_now, rel=0.1 if row[-1] == "-" else 0.01)
-
-
-def test_former_figures_are_of_scenes():
-    assert elements.FORMER.keys() <= NAMES.keys()
-    assert np.all([set(former) <= set(elements.MESHES) for former in elements.FORMER.values()])

@@ -28,8 +28,3 @@ class Crush:
     def each(self):
         """Seconds an iteration."""
         return sustained(lambda: self.onwards()[0])
-
-    @property
-    def move(self):
-        """What a step moves (n,), on the average."""
-        return (self.onwards()[1].x - self.state.x) / self.steps
