@@ -6,10 +6,9 @@ them, so that equal physics has an equal id.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
 from hashlib import blake2b
 from math import hypot
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
@@ -31,7 +30,7 @@ from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sliced import sliced
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import Given, RefusedError, Table, canonical
+from sweep.config.kinds.table import Given, Pairs, RefusedError, Table, canonical
 from sweep.config.kinds.upright import across, upright
 from sweep.config.structures.structure_file import faults
 
@@ -125,21 +124,27 @@ class Case(BaseModel):
 
 @dataclass
 class Draft:
-    """A case that is being completed: its tables so far, and the values that are refused."""
+    """A case that is being completed: its tables so far, and the values that are refused.
 
+    made: tables by what they are made from, as the cases of a sweep share most of them.
+    """
+
+    made: dict[Any, Any] = field(default_factory=dict)
     tables: dict[str, Table] = field(default_factory=dict)
     refused: list[RefusedError] = field(default_factory=list)
 
     def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
         """Make a table, or note why it cannot be made."""
         try:
-            made = make(*values)
+            if (name, values) not in self.made:
+                self.made[name, values] = make(*values)
         except RefusedError as error:
             self.refused.append(error)
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]
             return None
+        made: T = self.made[name, values]
         self.tables[name] = made  # type: ignore[assignment]
         return made
 
@@ -150,62 +155,48 @@ class Draft:
         return Case.model_construct(None, **self.tables, axes={})  # type: ignore[arg-type]
 
 
-class Makers(NamedTuple):
-    """The functions that make the tables of a case from values that can be looked up."""
-
-    material: Callable[..., Material]
-    lattice: Callable[..., Lattice]
-    loading: Callable[..., Loading]
-    solver: Callable[..., Solver]
-
-
-def complete(given: Mapping[str, Given], make: "Makers | None" = None) -> Draft:
-    """The case of the values of each table, in SI. make: `cached` for many cases.
+def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> Draft:
+    """The case of the values of each table, in SI. made: as of `Draft`, of one sweep.
 
     The loading is checked even if the material and the lattice are refused.
     """
-    make = make or MAKERS
-    draft, wanted = Draft(), {name: _frozen(given.get(name, {})) for name in TABLES}
+    draft = Draft({} if made is None else made)
+    wanted = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(wanted["loading"])
     along, integrator = is_along(press), dict(wanted["solver"]).get("integrator")
-    material = draft.add("material", make.material, wanted["material"], along)
+    material = draft.add("material", materials.material, wanted["material"], along)
     density = material.density if material else None
     lattice = None
     if density or "mass" not in dict(wanted["lattice"]):
-        lattice = draft.add("lattice", make.lattice, wanted["lattice"], density or 1.0, along)
+        lattice = draft.add("lattice", lattice_of, wanted["lattice"], density or 1.0, along)
     pressed = _pressed(lattice, dict(wanted["lattice"]), along)
-    relaxes = materials.relaxes(dict(wanted["material"])) if material is None else material.relaxes
-    loading = draft.add("loading", make.loading, wanted["loading"], pressed, integrator, relaxes)
+    relaxes = material.relaxes if material else materials.relaxes(dict(wanted["material"]))
+    loading = draft.add(
+        "loading", loadings.loading, wanted["loading"], pressed, integrator, relaxes
+    )
     if loading is not None and material is not None:
-        _numerics(draft, wanted, pressed, loading, material, make)
+        _numerics(draft, wanted, pressed, loading, material)
     return draft
 
 
 def _numerics(
     draft: Draft,
-    wanted: Mapping[str, tuple[tuple[str, Any], ...]],
+    wanted: Mapping[str, Pairs],
     pressed: Pressed,
     loading: Loading,
     material: Material,
-    make: Makers,
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
-    asked = dict(wanted["contact"])
-    by_position = asked.get("model") == "position_based"
-    try:
-        steps.check_memory(material, dict(wanted["solver"]).get("integrator"))
-        diagonal = _diagonal(draft.tables.get("lattice"))
-        made = make.solver(wanted["solver"], loading, pressed.height, diagonal, by_position)
-        draft.tables["solver"] = made
-        draft.tables["contact"] = contacts.contact(
-            asked, loading, pressed.structure, made.integrator
-        )
-        draft.tables["damping"] = dampings.damping(
-            dict(wanted["damping"]), loading, material.relaxes
-        )
-        draft.tables["solver"] = steps.in_the_plane(made, material, loading)
-    except RefusedError as error:
-        draft.refused.append(error)
+    asked, relaxes = dict(wanted["contact"]), material.relaxes
+    diagonal, by_position = _diagonal(draft.tables), asked.get("model") == "position_based"
+    where = loading, pressed.height, diagonal, by_position
+    solver = draft.add("solver", steps.solver, wanted["solver"], material.remembers, *where)
+    if solver is None:
+        return
+    contact = (wanted["contact"], loading, pressed.structure, solver.integrator)
+    if draft.add("contact", contacts.contact, *contact):
+        draft.add("damping", dampings.damping, wanted["damping"], loading, relaxes)
+        draft.add("solver", steps.in_the_plane, solver, material, loading)
 
 
 def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
@@ -217,8 +208,9 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     return Pressed(getattr(lattice, key), structure, lattice.endless)
 
 
-def _diagonal(lattice: Table | None) -> float:
+def _diagonal(tables: Mapping[str, Table]) -> float:
     """The diagonal of the box of a lattice, m."""
+    lattice = tables.get("lattice")
     return hypot(lattice.width, lattice.height) if isinstance(lattice, Specimen) else 1.0
 
 
@@ -242,12 +234,13 @@ def _check_keys(table: Table, name: str, values: Given) -> None:
             raise RefusedError(f"{name}.{key}", value, allowed)
 
 
-def _frozen(values: Given) -> tuple[tuple[str, Any], ...]:
+def _frozen(values: Given) -> Pairs:
     return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
 
 
-def lattice_of(given: Given, density: float, along: bool) -> Lattice:
+def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
     """The lattice of these values; density (kg/m^3): of its material."""
+    given = dict(values)
     made: Lattice
     if given.get("kind") == CUSTOM:
         made = custom_structure(given)
@@ -255,39 +248,3 @@ def lattice_of(given: Given, density: float, along: bool) -> Lattice:
         made = sliced(given, density) if "slicer" in given else cells(given, density)
     check_printable(made)
     return upright(made, given) if along else across(made)
-
-
-def _material(values: tuple[tuple[str, Any], ...], along: bool) -> Material:
-    return materials.material(dict(values), along)
-
-
-def _lattice(values: tuple[tuple[str, Any], ...], density: float, along: bool) -> Lattice:
-    return lattice_of(dict(values), density, along)
-
-
-def _loading(
-    values: tuple[tuple[str, Any], ...], pressed: Pressed, integrator: str | None, relaxes: bool
-) -> Loading:
-    return loadings.loading(dict(values), pressed, integrator, relaxes)
-
-
-def _solver(
-    values: tuple[tuple[str, Any], ...],
-    loading: Loading,
-    height: float,
-    diagonal: float,
-    by_position: bool,
-) -> Solver:
-    return steps.solver(dict(values), loading, height, diagonal, by_position)
-
-
-MAKERS = Makers(_material, _lattice, _loading, _solver)
-
-
-def cached() -> Makers:
-    """Makers for the cases of one sweep, which share most of their tables.
-
-    They keep what they have read from files, so that they are made anew for each sweep.
-    """
-    keep = lru_cache(maxsize=4096)
-    return Makers(keep(_material), keep(_lattice), keep(_loading), keep(_solver))

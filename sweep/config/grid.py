@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import TABLES, Case, Draft, cached, complete
+from sweep.config.case import TABLES, Case, Draft, complete
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.table import RefusedError, rounded
@@ -177,7 +177,7 @@ class _Combination:
 
 
 def _drafts(recipe: Recipe) -> Iterator[_Combination]:
-    make = cached()
+    made: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
         written = recipe.base | _targets(chosen)
         given = {key: value for key, (value, *_) in written.items()}
@@ -186,7 +186,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
             table, name = key.split(".")
             tables[table][name] = value
         try:
-            draft = complete(tables, make)
+            draft = complete(tables, made)
         except RecordError as error:
             raise ConfigError([Fault("material.name", f"material.name: {error}")]) from None
         in_order = sorted(draft.refused, key=lambda refused: TABLES.index(refused.table))

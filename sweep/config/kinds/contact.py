@@ -10,6 +10,7 @@ from sweep.config.kinds.solver import ARCS
 from sweep.config.kinds.table import (
     Given,
     NonNegative,
+    Pairs,
     Positive,
     RefusedError,
     Speed,
@@ -63,13 +64,14 @@ Contact = NoContact | Barrier | ByPosition
 
 
 def contact(
-    given: Given, loading: Loading, structure: Structure | None, integrator: str
+    values: Given | Pairs, loading: Loading, structure: Structure | None, integrator: str
 ) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
     along arcs, since the unstable parts of an equilibrium path are not a motion.
     """
+    given = dict(values)
     model = given.get("model", "auto")
     if model == "position_based":
         return _by_position(loading, structure, integrator)

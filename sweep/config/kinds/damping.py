@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.table import Given, Lag, Rate, RefusedError, Table, chosen
+from sweep.config.kinds.table import Given, Lag, Pairs, Rate, RefusedError, Table, chosen
 
 
 class NoDamping(Table):
@@ -37,8 +37,9 @@ class KelvinVoigt(Table):
 Damping = NoDamping | Rayleigh | KelvinVoigt
 
 
-def damping(given: Given, loading: Loading, relaxes: bool) -> Damping:
+def damping(values: Given | Pairs, loading: Loading, relaxes: bool) -> Damping:
     """The damping of these values; along the cells there is none."""
+    given = dict(values)
     model = given.get("model", "none" if relaxes or loading.along else "rayleigh")
     if loading.along and model != "none":
         raise RefusedError("damping.model", model, f'"none" {WHERE}')

@@ -112,7 +112,7 @@ def _at_touch(given: Given, mass: float, drop_height: float | None) -> tuple[flo
         speed = sqrt(2.0 * STANDARD_GRAVITY * drop_height)
     elif "striker_speed" not in given and "energy" in given:
         speed = sqrt(2.0 * given["energy"] / mass)
-    energy, fall = 0.5 * mass * speed**2, speed**2 / (2.0 * STANDARD_GRAVITY)
+    energy, fall = 0.5 * mass * speed * speed, speed * speed / (2.0 * STANDARD_GRAVITY)
     source = "speed" if "striker_speed" in given else "drop height"
     for key, value, follows, unit in (
         ("drop_height", drop_height, fall, "m"),

@@ -10,7 +10,7 @@ from sweep.config.kinds.direction import WHERE, is_along
 from sweep.config.kinds.impact import Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
-from sweep.config.kinds.table import Given, RefusedError, Table
+from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
 from sweep.config.structures.structure import Structure
 
 Loading = Annotated[DeadLoad | Crush | Impact | OfFile, Field(discriminator="mode")]
@@ -28,8 +28,11 @@ class Pressed(NamedTuple):
     endless: bool = False
 
 
-def loading(given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Loading:
+def loading(
+    values: Given | Pairs, pressed: Pressed, integrator: str | None, relaxes: bool
+) -> Loading:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
+    given = dict(values)
     along = is_along(given)
     if pressed.structure is not None and not along:
         return of_file(given, pressed.structure, integrator)

@@ -10,6 +10,7 @@ from sweep.config.kinds.table import (
     Duration,
     Given,
     NonNegative,
+    Pairs,
     RefusedError,
     Strain,
     Stress,
@@ -126,11 +127,12 @@ class Material(Table):
         return self.bend in SECTIONS
 
 
-def material(given: Given, along: bool = False) -> Material:
+def material(values: Given | Pairs, along: bool = False) -> Material:
     """The material of these values; along: of walls that are pressed along the cells.
 
     `RecordError` if the file of a named one cannot be read.
     """
+    given = dict(values)
     made = Material.model_validate(given if "curve_strain" in given else _completed(given))
     _check_relaxation(made)
     _check_softening(made)

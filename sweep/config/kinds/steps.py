@@ -9,7 +9,7 @@ from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS, IN_TIME, Arcs, InTime, Solver, Static
-from sweep.config.kinds.table import Given, RefusedError, chosen, given_or
+from sweep.config.kinds.table import Given, Pairs, RefusedError, chosen, given_or
 
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
@@ -21,7 +21,12 @@ IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
 def solver(
-    given: Given, loading: Loading, height: float, diagonal: float, by_position: bool
+    values: Given | Pairs,
+    remembers: bool,
+    loading: Loading,
+    height: float,
+    diagonal: float,
+    by_position: bool,
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
@@ -30,7 +35,10 @@ def solver(
     an impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
     contact by position it is backward Euler.
     """
-    settings = dict(given)
+    settings = given = dict(values)
+    if remembers and given.get("integrator") == ARCS:  # its unstable part is no motion
+        allowed = f'"static" or {IN_TIME} if the material has a memory'
+        raise RefusedError("solver.integrator", ARCS, allowed)
     if loading.along:
         settings = ALONG | {key: value for key, value in given.items() if key not in IDLE_ALONG}
     arcs = settings.get("integrator") == ARCS
@@ -122,10 +130,3 @@ def in_the_plane(made: Solver, material: Material, loading: Loading) -> Solver:
         raise RefusedError("solver.joints", "solid", f'"points" if {why}')
     usual = "solid" if solid and not isinstance(loading, OfFile) else "points"
     return made.model_copy(update={"joints": made.joints or usual})
-
-
-def check_memory(material: Material, integrator: str | None) -> None:
-    """Refuse arcs of a material with a memory: the unstable part of a path is no motion."""
-    if material.remembers and integrator == ARCS:
-        allowed = f'"static" or {IN_TIME} if the material has a memory'
-        raise RefusedError("solver.integrator", ARCS, allowed)

@@ -10,6 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field
 T = TypeVar("T")
 Given = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
+Pairs = tuple[tuple[str, Any], ...]
+"""The same as keys and values, which can be looked up."""
 
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
