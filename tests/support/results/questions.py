@@ -57,16 +57,11 @@ def random_sweep(rng, other, count=16):
             if scene.get("loading_mode") == "impact":
                 rows[-1]["impact_energy_J"] = 0.056
     table = summary(*rows)
-    for kind in _bars(rng):
+    for kind in ("error", "correction") if rng.random() < 0.7 else ():
         for name in BARS:
             bar = table[name] * rng.choice([1e-3, 0.05, 0.2], len(table))
             table[f"{kind}_{name}"] = bar.mask(rng.random(len(table)) < 0.1)
     return table, factors
-
-
-def _bars(rng):
-    """Which error bars a table has."""
-    return (("error", "correction"), ("error",), ())[rng.integers(3)]
 
 
 def _row(rng, mass, energy, factor):
