@@ -87,8 +87,8 @@ class Block:
         return {name: self.summary[name] for name in names or self.summary}
 
     def as_stored(self, rows: np.ndarray) -> np.ndarray:
-        """Row numbers in the order in which the file stores their curves."""
-        return rows[np.argsort(self.ragged["histories"].start[rows], kind="stable")]
+        """Row numbers in the order in which the file stores their texts, curves and shapes."""
+        return rows[np.argsort(self.ragged["cases"].start[rows])]
 
 
 def block_of(results: Sequence[Result], revision: str = "") -> Block:
