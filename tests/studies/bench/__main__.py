@@ -8,6 +8,7 @@ from pathlib import Path
 
 from sweep.simulation.simulate import warm_up
 from tests.studies.bench import densify, growth, scenes, starts, sweeps
+from tests.studies.tables import tell
 
 SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
 
@@ -27,13 +28,7 @@ def tables():
 def main(folder):
     """Print every table as it is found; write them to a folder."""
     warm_up()
-    lines = []
-    for table in tables():
-        lines += [*table.markdown(), ""]
-        sys.stdout.write("\n".join([*table.markdown(), "", ""]))
-        sys.stdout.flush()
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "bench.md").write_text("\n".join(lines), "utf-8")
+    tell((text for table in tables() for text in (*table.markdown(), "")), folder / "bench.md")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from tests.studies.tables import head, line
+
 
 @dataclass
 class Table:
@@ -28,10 +30,9 @@ class Table:
     def markdown(self):
         """Lines of the table under its title."""
         rows = dict.fromkeys(row for row, _ in self.texts)
-        yield _line([self.title, *map(_name, self.columns)])
-        yield "|---" * (len(self.columns) + 1) + "|"
+        yield from head([self.title, *map(_name, self.columns)])
         for row in rows:
-            yield _line([row, *(self.texts.get((row, column), "") for column in self.columns)])
+            yield line([row, *(self.texts.get((row, column), "") for column in self.columns)])
 
 
 def number(value):
@@ -41,7 +42,3 @@ def number(value):
 
 def _name(column):
     return f"{column} x {column}" if isinstance(column, int) else str(column)
-
-
-def _line(texts):
-    return f"| {' | '.join(texts)} |"

@@ -7,12 +7,7 @@ solids themselves are computed by tests.studies.continuum.solids.
 import sys
 from pathlib import Path
 
-
-def table(head, rows):
-    """Lines of a Markdown table."""
-    yield f"| {' | '.join(head)} |"
-    yield "|---" * len(head) + "|"
-    yield from (f"| {' | '.join(row)} |" for row in rows)
+from tests.studies.tables import head, line, tell
 
 
 def lines(found):
@@ -35,18 +30,12 @@ def main(folder):
     from sweep.report.figures.case_plots import save
     from tests.studies.continuum import figure, solids, study
 
-    def told(lines):
-        text = "\n".join([*lines, "", ""])
-        sys.stdout.write(text)
-        sys.stdout.flush()
-        return text
-
     grids, crush = [study.compared(*pair) for pair in solids.PAIRS], study.packed()
-    rows = [line for found in grids for line in lines(found)]
-    text = told(table(heads(study.APART), rows))
-    text += told(table(heads(study.WATCHED), lines(crush)))
+    rows = [row for found in grids for row in lines(found)]
+    found = [*head(heads(study.APART)), *map(line, rows), ""]
+    found += [*head(heads(study.WATCHED)), *map(line, lines(crush))]
+    tell(found, folder / "continuum.md")
     save(figure.draw(grids, crush), folder / "continuum.png")
-    (folder / "continuum.md").write_text(text, "utf-8")
 
 
 if __name__ == "__main__":

@@ -8,10 +8,10 @@ against run time. Finished cases are kept in the given folder.
 import sys
 from pathlib import Path
 
-from sweep.report.tables.markdown import markdown
 from tests.studies.memory.costs import costs
 from tests.studies.memory.cycles import cycles, losses, rated, rates
 from tests.studies.memory.orders import by_loss, table, variants
+from tests.studies.tables import publish
 from tests.support.converged import swept
 
 CONFIGS = Path(__file__).parents[3] / "configs"
@@ -36,9 +36,7 @@ def main(folder):
         by_loss(summaries, "loss 40 %"),
         costs(),
     ]
-    text = markdown(sheets)
-    (folder / "memory.md").write_text(text, "utf-8")
-    sys.stdout.write(text)
+    publish(sheets, folder / "memory.md")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ the given folder.
 import sys
 from pathlib import Path
 
-from sweep.report.tables.markdown import markdown
 from sweep.running.beside.error_bars import companions
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_history, read_summary
@@ -20,6 +19,7 @@ from tests.studies.mesh.crushes import cases_of, compare, usual, without_contact
 from tests.studies.mesh.orders import by_order, finer
 from tests.studies.mesh.tables import by_column, by_design, by_group
 from tests.studies.rankings.orders import cases_of as cases_of_sweeps
+from tests.studies.tables import publish
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 
@@ -46,9 +46,7 @@ def main(folder):
         for table in (shipped, fine)
     )
     sheets.append(by_order(*tables))
-    text = markdown(sheets)
-    (folder / "mesh.md").write_text(text, "utf-8")
-    sys.stdout.write(text)
+    publish(sheets, folder / "mesh.md")
 
 
 def curve(file, case_id):

@@ -15,10 +15,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import track
 
-from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from tests.studies.mutants.flips import sample
 from tests.studies.mutants.trial import Copy, StudyError
+from tests.studies.tables import publish
 
 HEADS = ["file", "line", "in", "wrong", "first red test", "s", "as"]
 
@@ -59,10 +59,7 @@ def main(folder, each=1):
         verdicts = tried(list(sample(each)))
     except StudyError as error:
         sys.exit(str(error))
-    text = markdown([sheet(verdicts)])
-    sys.stdout.write(text)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "mutants.md").write_text(text, "utf-8")
+    publish([sheet(verdicts)], folder / "mutants.md")
     return any(verdict.red is None for verdict in verdicts)
 
 

@@ -13,13 +13,13 @@ import pandas as pd
 from sweep.columns import ERROR
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.refinement import pieces, refined
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
+from tests.studies.tables import publish
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 EVERY = {"armor.toml": 4, "impact.toml": 3}  # cases: as many of each scene
@@ -86,7 +86,7 @@ def main(folder):
     ]
     bars = beside_finer(*tables)
     told = f"{bars['case'].nunique()} of {len(designs)} cases; the others did not converge."
-    sys.stdout.write(markdown([coverage(bars)._replace(notes=(told,))]))
+    publish([coverage(bars)._replace(notes=(told,))], folder / "bars.md")
 
 
 if __name__ == "__main__":

@@ -23,10 +23,10 @@ from sweep.config.load import load_config
 from sweep.numbers import three_digits
 from sweep.ranking.assessment import assess
 from sweep.ranking.question import Question
-from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import Search, Settings
+from tests.studies.tables import publish
 from tests.support.converged import swept
 
 CONFIG = Path(__file__).parents[3] / "configs" / "search.toml"
@@ -135,9 +135,7 @@ def main(folder):
     for question in (peak(), cushion()):
         beside = best_beside(question, folder)
         sheets.append(sheet(question, beside, [found(question, s, folder) for s in SEEDS]))
-    table = markdown(sheets)
-    (folder / "search.md").write_text(table, "utf-8")
-    sys.stdout.write(table)
+    publish(sheets, folder / "search.md")
 
 
 if __name__ == "__main__":

@@ -15,12 +15,12 @@ import pandas as pd
 from sweep.columns import ABSORBED_AT
 from sweep.config.case import Case
 from sweep.numbers import tenths
-from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 from sweep.running.beside.error_bars import HEADLINE
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
+from tests.studies.tables import publish
 
 SETTINGS = {
     "elements": (4, 6, 8, 12, 16, 24),  # of a wall
@@ -119,9 +119,8 @@ def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     cases, file = families(), folder / "spread.h5"
     run_sweep([case for alike in cases.values() for case in alike], file)
-    table = markdown([sheet(spreads(cases, read_summary(file).set_index("case_id")))])
-    (folder / "spread.md").write_text(table, "utf-8")
-    sys.stdout.write(table)
+    found = spreads(cases, read_summary(file).set_index("case_id"))
+    publish([sheet(found)], folder / "spread.md")
 
 
 if __name__ == "__main__":

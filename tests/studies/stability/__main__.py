@@ -23,6 +23,7 @@ from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
 from tests.studies.stability.draw import CONFIGS, remembering, second_order
 from tests.studies.stability.structures import COUNT, structure_scene
+from tests.studies.tables import head, line, tell
 
 WORKERS = 2
 MEMORIES = 150  # lattices whose material has a memory
@@ -72,9 +73,8 @@ def counted(cases, audits):
 
 def markdown(counts):
     """The table, a line of text each."""
-    rows = [("scenes that", *KINDS), ("---",) * (1 + len(KINDS))]
-    rows += [(name, *(row[kind] for kind in KINDS)) for name, row in counts.items()]
-    return [f"| {' | '.join(map(str, row))} |" for row in rows]
+    rows = (line([name, *(row[kind] for kind in KINDS)]) for name, row in counts.items())
+    return [*head(["scenes that", *KINDS]), *rows]
 
 
 def scenes():
@@ -94,10 +94,7 @@ def main(folder):
     with ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool:
         found = pool.map(audit, cases)
         audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))
-    lines = markdown(counted(cases, audits))
-    sys.stdout.write("\n".join([*lines, ""]))
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "stability.md").write_text("\n".join([*lines, ""]), "utf-8")
+    tell(markdown(counted(cases, audits)), folder / "stability.md")
     with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(("scene", "case_id", "status", "cpu_s", "violations", "message"))

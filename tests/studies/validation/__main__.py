@@ -7,9 +7,9 @@ import sys
 from math import isnan
 from pathlib import Path
 
+from tests.studies.tables import head, line, tell
 from tests.studies.validation import PROBLEMS, energy
 from tests.studies.validation.problem import SOURCES, find
-from tests.studies.validation.tables import line, tell
 
 HEAD = ("problem", "source", "truth", "coarse", "middle", "fine", "order")
 MORE = ("error, %", "extrapolated, %", "meshes")
@@ -36,12 +36,10 @@ def main(folder):
 
 def table():
     """Lines, each as soon as its problem is solved."""
-    yield line(HEAD + MORE)
-    yield line(["---"] * len(HEAD + MORE))
+    yield from head(HEAD + MORE)
     yield from (line(row(problem, find(problem))) for problem in PROBLEMS)
     yield f"\n{NOTES}\n"
-    yield line(energy.HEAD)
-    yield line(["---"] * len(energy.HEAD))
+    yield from head(energy.HEAD)
     yield from map(line, energy.rows())
 
 

@@ -8,9 +8,9 @@ from functools import cache
 from math import isnan, log2, nan
 from pathlib import Path
 
+from tests.studies.tables import head, line, tell
 from tests.studies.validation.problem import NOISE
 from tests.studies.validation.scenes import FINEST, SCENES
-from tests.studies.validation.tables import line, tell
 
 ELEMENTS = ("cubic", "classical")
 MESHES = (1, 2, 3, 4, 6, 12)
@@ -85,8 +85,7 @@ def rows(scene):
 
 def table():
     """Lines, each as soon as its scene is solved."""
-    yield line(HEAD)
-    yield line(["---"] * len(HEAD))
+    yield from head(HEAD)
     for scene in SCENES:
         yield from map(line, rows(scene))
     yield f"\n{NOTES}"
