@@ -68,7 +68,7 @@ function required(data, row, question) {
   const of = {
     max_force: crushed ? row.passed : design.peak,
     max_deceleration: design.deceleration,
-    max_mass: (1e-3 * row.mass) / count,
+    max_mass: row.mass / 1e3 / count,
     min_absorbed: row.energy === null ? null : row.energy / count,
     max_stroke: row.stroke,
   };
