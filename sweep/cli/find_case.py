@@ -24,13 +24,13 @@ def is_number(text: str) -> bool:
 
 def by_id(summary: DataFrame, prefix: str) -> Series:
     """The only row whose id begins with ``prefix``."""
-    found = summary[summary["case_id"].str.startswith(prefix)]
-    if len(found) == 1:
-        return found.iloc[0]
-    if found.empty:
+    rows = summary[summary["case_id"].str.startswith(prefix)]
+    if len(rows) == 1:
+        return rows.iloc[0]
+    if rows.empty:
         raise CaseError(f'no case "{prefix}"; without CASE, show lists all {len(summary)} ids')
-    ids = ", ".join(found["case_id"].head(4)) + (" ..." if len(found) > 4 else "")
-    raise CaseError(f'"{prefix}" begins {len(found)} ids: {ids}')
+    ids = ", ".join(rows["case_id"].head(4)) + (" ..." if len(rows) > 4 else "")
+    raise CaseError(f'"{prefix}" begins {len(rows)} ids: {ids}')
 
 
 def by_number(
@@ -79,9 +79,9 @@ def _scene(labels: list[str], wanted: str | None, usual: str) -> str:
         return usual or labels[0]
     if wanted.isdecimal() and 0 < int(wanted) <= len(labels):
         return labels[int(wanted) - 1]
-    found = [label for label in labels if wanted.lower() in label.lower()]
-    if len(found) == 1 or wanted in found:
-        return wanted if wanted in found else found[0]
-    known = "; ".join(f"{k}: {label}" for k, label in enumerate(labels, 1))
-    why = f"in {len(found)} scenes" if found else "in no scene"
-    raise CaseError(f'--scene "{wanted}": {why}; allowed: a number or words of {known}')
+    matches = [label for label in labels if wanted.lower() in label.lower()]
+    if len(matches) == 1 or wanted in matches:
+        return wanted if wanted in matches else matches[0]
+    choices = "; ".join(f"{k}: {label}" for k, label in enumerate(labels, 1))
+    why = f"in {len(matches)} scenes" if matches else "in no scene"
+    raise CaseError(f'--scene "{wanted}": {why}; allowed: a number or words of {choices}')

@@ -122,16 +122,16 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     if out.suffix != ".csv" or out.resolve() == file.resolve():
         raise MaterialsError(f"--out {out}; allowed: another file, whose name ends in .csv")
     coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
-    found = fit(coupon)
+    law = fit(coupon)
     with writing(out.parent, out):
-        out.write_text(material_text(found, _size(arguments.density, "kg/m^3")), encoding="utf-8")
-    say_all(sentences_on_fit(found, read_record(out)))
+        out.write_text(material_text(law, _size(arguments.density, "kg/m^3")), encoding="utf-8")
+    say_all(sentences_on_fit(law, read_record(out)))
     figure = blank(8.0, 6.0)
-    record, model = (coupon.strain, coupon.stress), (coupon.strain, found.model)
-    coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(found)}")
+    record, model = (coupon.strain, coupon.stress), (coupon.strain, law.model)
+    coupon_fit(figure, record, model, f"{coupon.name}: {fit_sentence(law)}")
     picture = save(figure, out.with_suffix(".png"))
     acts = '; its loss and softening act with material.memory = "measured"'
-    say(f"{out}: for material.name{acts if found.memory else ''}")
+    say(f"{out}: for material.name{acts if law.memory else ''}")
     say(picture)
 
 

@@ -38,9 +38,9 @@ def print_status(file: str, as_json: bool) -> bool:
     if others := about["other_cases"]:
         say(f"{others} cases belong to other configs than the last run")
     say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
-    known = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
+    versions = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
     say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
-    say(", ".join(f"{name} {version}" for name, version in known.items()))
+    say(", ".join(f"{name} {version}" for name, version in versions.items()))
     if "compiler" in about:
         say(f"kernels: {about['compiler']} compiler")
     return failed_cases(summary).empty
@@ -62,7 +62,9 @@ def _in_common(messages: list[str]) -> str:
     """One sentence for messages that differ only in their numbers, which become ranges."""
     columns = zip(*map(NUMBER.findall, messages), strict=True)
     ranges = (sorted({*figures}, key=float) for figures in columns)
-    texts = (f"{found[0]} to {found[-1]}" if len(found) > 1 else found[0] for found in ranges)
+    texts = (
+        f"{figures[0]} to {figures[-1]}" if len(figures) > 1 else figures[0] for figures in ranges
+    )
     return NUMBER.sub(lambda _: next(texts), messages[0])
 
 

@@ -73,7 +73,7 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
 def next_commands(file: str, ranking: Ranking) -> Iterator[str]:
     """Where the results are, and the commands that a user may want next.
 
-    Where no design has a place, `nearest_commands` has told more.
+    Where no design is ranked, `nearest_commands` says more.
     """
     yield f"results: {file}"
     name = quote(file)
@@ -178,15 +178,15 @@ def fitted(sheet: Sheet, limit: int, usual: int) -> Fitted:
     have one word in a line, then texts go on in a second line, then columns that are `spare` are
     left out. If that is not enough, the terminal wraps its lines.
     """
-    found = _laid_out(sheet, by_words=False, gap=2)
-    if found.width > usual:
-        found = found._replace(gap=1)
-    if found.width > limit:
-        found = _folded(_laid_out(sheet, by_words=True, gap=1), limit)
+    table = _laid_out(sheet, by_words=False, gap=2)
+    if table.width > usual:
+        table = table._replace(gap=1)
+    if table.width > limit:
+        table = _folded(_laid_out(sheet, by_words=True, gap=1), limit)
     spare = iter(sheet.spare)
-    while found.width > limit and (head := next(spare, None)):
-        found = _folded(_laid_out(found.sheet.without(head), by_words=True, gap=1), limit)
-    return found
+    while table.width > limit and (head := next(spare, None)):
+        table = _folded(_laid_out(table.sheet.without(head), by_words=True, gap=1), limit)
+    return table
 
 
 def _laid_out(sheet: Sheet, by_words: bool, gap: int) -> Fitted:

@@ -65,9 +65,9 @@ def fit(coupon: Coupon) -> Fit:
         raise CouponError(f"{coupon.name}: the stress does not rise with the strain")
     grows = len(rows) > 3 and _peak(coupon, rows[3]) > LARGER * _peak(coupon, rows[1])
     scale = legs.work(coupon, 0, rows[1])
-    found = [_fitted(coupon, loading, names, scale) for names in _laws(rows, grows)]
-    least = min(misfit for _, misfit in found)
-    memory = next(m for m, misfit in found if misfit <= AS_GOOD[0] * least + AS_GOOD[1])
+    fits = [_fitted(coupon, loading, names, scale) for names in _laws(rows, grows)]
+    least = min(misfit for _, misfit in fits)
+    memory = next(m for m, misfit in fits if misfit <= AS_GOOD[0] * least + AS_GOOD[1])
     at_points, model = loading.follow(memory)
     strain, stress = loading.curve(at_points)
     apart = _apart(coupon, model)

@@ -100,14 +100,14 @@ def _rows(path: Path) -> list[list[str]]:
 
 def _numbers(head: str, texts: list[str]) -> Floats:
     """The numbers of a column that is read; of another one, none."""
-    found: list[float] = []
+    values: list[float] = []
     for number, text in enumerate(texts if head in KNOWN else (), 1):
         try:
-            found.append(float(text))
+            values.append(float(text))
         except ValueError:
             wrong = f'{head} in row {number} is "{text}", not a number'
             raise ValueError(f"{wrong}; needed: numbers alone below the heads") from None
-    return np.array(found)
+    return np.array(values)
 
 
 def _column(columns: dict[str, Floats], name: str) -> Floats:
@@ -165,21 +165,21 @@ def _check(coupon: Coupon) -> None:
 
 def _check_modulus(coupon: Coupon) -> None:
     """Refuse a modulus that no plastic has, and say which unit it may be."""
-    found = coarse_modulus(coupon)
-    if found == 0.0:
+    modulus = coarse_modulus(coupon)
+    if modulus == 0.0:
         raise ValueError("the stress does not rise between 1 and 4 % strain; needed: that it does")
-    if found < 0.0:
+    if modulus < 0.0:
         raise ValueError(
             "stress and strain have opposite signs between 1 and 4 %; allowed: both positive in "
             "tension, both negative in compression"
         )
-    wrong = f"a modulus of {found:.3g} Pa between 1 and 4 % strain"
-    if found < SOFTEST:
+    wrong = f"a modulus of {modulus:.3g} Pa between 1 and 4 % strain"
+    if modulus < SOFTEST:
         raise ValueError(
             f"{wrong}: is stress_Pa in MPa or kPa (needed: Pa), a force (needed: a column force_N "
             "and --area), or the strain in percent (needed: 0.1 for 10 %)?"
         )
-    if found > STIFFEST:
+    if modulus > STIFFEST:
         raise ValueError(f"{wrong}: are stress_Pa or the size of the specimen in another unit?")
 
 

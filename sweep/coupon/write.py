@@ -80,7 +80,7 @@ def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
     of = "first cycle" if len(shares) == 1 else "first and second cycle"
     if shares:
         yield f"lost work       {cycles} of the {of} of the record"
-    yield from _told_memory(fit)
+    yield from _memory_lines(fit)
     yield fit_sentence(fit)
     yield from doubts(fit, record)
 
@@ -108,7 +108,7 @@ def doubts(fit: Fit, record: Record) -> Iterator[str]:
         )
 
 
-def _told_memory(fit: Fit) -> Iterator[str]:
+def _memory_lines(fit: Fit) -> Iterator[str]:
     memory = fit.memory
     if len(fit.rows) < 3:
         yield "loss            not known, as the record has no unloading: the curve alone is fitted"
@@ -123,5 +123,5 @@ def _told_memory(fit: Fit) -> Iterator[str]:
         yield "softening       none: the law follows the record as well without"
     else:
         numbers = f"r {memory['softening_r']:.3g}, m {text_in(memory['softening_m'], 'MPa', 3)}"
-        known = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
-        yield f"softening       {numbers}, beta {memory['softening_beta']:.3g}{known}"
+        doubt = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
+        yield f"softening       {numbers}, beta {memory['softening_beta']:.3g}{doubt}"

@@ -161,10 +161,10 @@ def check_export(
 
 def _writer(path: Path) -> Writer:
     """The writer of the format that the name of a file asks for."""
-    if found := WRITERS.get(path.suffix.lower()):
-        return found
-    asked = f"{path.suffix} is unknown" if path.suffix else "has no ending"
-    raise ExportError(f"{path.name or path}: {asked}; allowed: {', '.join(WRITERS)}")
+    if writer := WRITERS.get(path.suffix.lower()):
+        return writer
+    wrong = f"{path.suffix} is unknown" if path.suffix else "has no ending"
+    raise ExportError(f"{path.name or path}: {wrong}; allowed: {', '.join(WRITERS)}")
 
 
 def _sides(panel: Sequence[float | str] | None) -> list[float] | None:
@@ -185,10 +185,10 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
     from sweep.store.read import read_summary
 
     summary = read_summary(source)
-    found = summary[summary["case_id"] == case_id]
-    if found.empty:
+    rows = summary[summary["case_id"] == case_id]
+    if rows.empty:
         raise ExportError(f'{source} holds no case "{case_id}"')
-    return Source(source, found.iloc[0].to_dict())
+    return Source(source, rows.iloc[0].to_dict())
 
 
 def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
@@ -235,7 +235,7 @@ def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
     layout = _layout(source, wish)
     write_stl(path, solid(layout, TO_MM3 * layout.specimens * source.design.volume))
-    return _told(layout, source, wish)
+    return _description(layout, source, wish)
 
 
 def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -247,7 +247,7 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     layout = _layout(source, wish)
     body = solid(layout, TO_MM3 * layout.specimens * source.design.volume)
     write_3mf(path, body, layout.name, {})
-    return [*_told(layout, source, wish), "print it with 100 % infill"]
+    return [*_description(layout, source, wish), "print it with 100 % infill"]
 
 
 def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -263,7 +263,7 @@ def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     prusa = "PrusaSlicer reads the settings of the object from the file. "
     prusa = prusa if prusa_reads(settings) else ""
     return [
-        *_told(layout, source, wish),
+        *_description(layout, source, wish),
         f"{prusa}OrcaSlicer and Bambu Studio read only the block if "
         f"they say so; then set by hand: {by_hand(settings)}",
         "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
@@ -276,7 +276,7 @@ def _svg(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
     layout = _layout(source, wish)
     write_svg(path, layout)
-    return _told(layout, source, wish)
+    return _description(layout, source, wish)
 
 
 def _dxf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -284,7 +284,7 @@ def _dxf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
     layout = _layout(source, wish)
     write_dxf(path, layout)
-    return _told(layout, source, wish)
+    return _description(layout, source, wish)
 
 
 def _csv(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -308,7 +308,7 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     return []
 
 
-def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
+def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
     """What a layout is, in a sentence; of a panel, in two."""
     from sweep.export.outline import filled_panel
 
@@ -320,14 +320,14 @@ def _told(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
         )
     if wish.panel is None:
         return [size]
-    asked = " x ".join(f"{in_unit(side, 'mm'):g}" for side in wish.panel)
+    lengths = " x ".join(f"{in_unit(side, 'mm'):g}" for side in wish.panel)
     nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
     deep = f"each {layout.behind} specimens of {text_in(source.design.footprint[1], 'mm')} deep"
     return [
         f"{layout.across} side by side, {deep}: {size}",
         f"these {layout.specimens} specimens, which are not joined, are what rank counts "
-        f"for a panel of {asked} mm"
+        f"for a panel of {lengths} mm"
         f"{wider if width - nominal > SHOWN else ''}",
     ]
 

@@ -2,7 +2,7 @@
 
 Energy-absorption diagram (Maiti, Gibson & Ashby 1984): energy per volume W(e) over the greatest
 stress so far M(e), both divided by the modulus of the solid. Its shoulder is where W / M is
-greatest: the most energy for the stress that is passed on.
+greatest: the most energy for the stress that is transmitted.
 
 Cushion curve (drawn from drops in ASTM D1596): greatest deceleration G, in units of gravity g, over
 the static stress p = m g / A of a weight m that falls from a height H onto a cushion of area A and

@@ -1,6 +1,6 @@
 """The merit of a design: its counted energy, in all, per gram, and for a panel of specimens.
 
-Energy is counted until the lattice has packed, or until the force exceeds the allowed force. A
+Energy is counted until densification, or until the force exceeds the allowed force. A
 packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
 infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
 """Columns that are compared instead of energy, by `loading_mode`; the least value is the best.
 
-Under a dead load, the design that gives way most absorbs most energy. Every design absorbs all the
+Under a dead load, the design that deforms most absorbs most energy. Every design absorbs all the
 energy of a striker; designs differ in the force on the support, which is large if the stroke is
 used up.
 """

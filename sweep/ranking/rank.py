@@ -84,14 +84,14 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         behind the other; `sweep.design.panel` has the rule.
     by : column to sort by, the better values first (`Column.better`); a column without better
         values is refused. Default: under a dead load the least strain, under a striker the least
-        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until the
-        lattice has packed if a budget or a panel is given, else the greatest energy per gram. With
+        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until
+        densification if a budget or a panel is given, else the greatest energy per gram. With
         `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with
         `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
     top : number of designs listed for each scene and budget; None lists all.
     allowed_force : count energy only up to this force, such as "50 N". A table as the source needs
         the column `absorbed_energy_at_..N_J`, and knows no force of a panel; a file has the curves.
-    require : limits that a design must meet to have a place: `max_force`, `max_deceleration`
+    require : limits that a design must meet to be ranked: `max_force`, `max_deceleration`
         (filtered), `max_mass`, `min_absorbed`, `max_stroke`.
     per : "specimen" or "panel": what `allowed_force` and `require` are of.
 

@@ -164,8 +164,8 @@ def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:
     """Frames of all designs by their id; none if there are too many to draw, or if one has none."""
     if len(designs) > MAX_DRAWN:
         return {}
-    found = {case_id: read_frames(file, case_id) for case_id in designs["case_id"]}
-    return found if all(found.values()) else {}
+    frames = {case_id: read_frames(file, case_id) for case_id in designs["case_id"]}
+    return frames if all(frames.values()) else {}
 
 
 def _some_scenes(ranking: Ranking, mode: str) -> Ranking:

@@ -118,10 +118,10 @@ class Results:
         """The row with a number, counted from 0, or with an id."""
         table = self.table
         if isinstance(case, str):
-            found = table[table["case_id"].str.startswith(case)]
-            if len(found) != 1:
-                raise KeyError(f'"{case}" begins {len(found)} ids of {len(table)}')
-            return found.iloc[0]
+            rows = table[table["case_id"].str.startswith(case)]
+            if len(rows) != 1:
+                raise KeyError(f'"{case}" begins {len(rows)} ids of {len(table)}')
+            return rows.iloc[0]
         if not 0 <= case < len(table):
             raise IndexError(f"no case {case}; allowed: 0 to {len(table) - 1}, or an id")
         return table.iloc[case]

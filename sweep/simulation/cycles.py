@@ -1,4 +1,4 @@
-"""What a crush absorbs, loses and passes on in each of its cycles."""
+"""What a crush absorbs, loses and transmits in each of its cycles."""
 
 from math import nan
 
@@ -10,7 +10,7 @@ from sweep.scene.mesh import Floats
 def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> dict[str, float]:
     """The columns of `cycle_columns`, and the second cycle's absorbed energy over the first's.
 
-    work (rows,) J done on the lattice so far, force (rows,) N passed on. NaN: the run ended before.
+    work (rows,) J done on the lattice so far, force (rows,) N borne. NaN: the run ended before.
     """
     if len(cycles) == 1:
         return {"second_cycle_share": nan}

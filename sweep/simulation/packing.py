@@ -1,8 +1,8 @@
-"""Where a crushed lattice has packed: energy, force and strain at the greatest efficiency.
+"""Densification of a crushed lattice: energy, force and strain at the greatest efficiency.
 
 The efficiency of energy absorption, eta(e) = W(e) / M(e), is the work per volume W up to a strain e
 over the greatest stress M so far (Miltz & Gruenbaum 1981). Where it is greatest, the lattice has
-absorbed most for the force that it has passed on: the onset of densification (Avalle, Belingardi &
+absorbed most for the force that it transmits: the onset of densification (Avalle, Belingardi &
 Montanini 2001; Li, Magkiriadis & Harrigan 2006).
 
 The place of a maximum is not continuous in the curve. A lattice whose rows fold one after another

@@ -176,10 +176,10 @@ def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
     """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
     if isinstance(case.loading, Impact):
         return float(kinetic(case.loading, rebound_speed(history)))
-    given_back = history["work_in_J"][cycle.released : cycle.ended + 1]
-    if isinstance(case.loading, DeadLoad) or len(given_back) < 2:
+    work = history["work_in_J"][cycle.released : cycle.ended + 1]
+    if isinstance(case.loading, DeadLoad) or len(work) < 2:
         return np.nan
-    return float(given_back[0] - given_back[-1])
+    return float(work[0] - work[-1])
 
 
 def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict[str, float]:

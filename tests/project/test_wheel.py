@@ -180,7 +180,7 @@ def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
     told = run("python", "-m", "crumple", "run", "custom", NUMBA_DISABLE_JIT="1")
     assert re.search(r"example custom: .*/site-packages/crumple/configs/custom\.toml ", told)
     assert "1/1 cases" in told
-    assert "loaded as its file says" in told
+    assert "loaded as in its file" in told
 
 
 def test_kernels_are_compiled_ahead(run):

@@ -76,18 +76,18 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     ended = len(history) - 1
     if row["loading_mode"] == "displacement":
         turn, released, ended = crushes(history)[0]
-    down, held, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
+    down, pause, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead = row["loading_mode"] == "force"
     absorbed = row["absorbed_energy_J"]
-    given_back = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
-    words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{given_back}")
+    returned = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
+    words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{returned}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
     whole = f"absorbed in total\n{_energy(absorbed, row)}"
     ax.fill_between(strain[down], force[down], label=whole, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if released > turn:
-        ax.plot(strain[held], force[held], color=VERMILION, lw=1.6, label="hold")
+        ax.plot(strain[pause], force[pause], color=VERMILION, lw=1.6, label="hold")
     if released + 1 < len(history):
         dashes: dict[str, Any] = {"color": ORANGE, "lw": 1.6, "ls": "--", "drawstyle": style}
         ax.plot(strain[back], force[back], label=words[1], **dashes)
@@ -284,10 +284,10 @@ def walls(ax: Axes, position: np.ndarray, frames: Mapping[str, Any]) -> None:
 
 def surfaces(ax: Axes, position: np.ndarray, quads: np.ndarray) -> None:
     """Draw plates as shaded surfaces without thickness; position (n, 3) in mm."""
-    found = shaded.faces(position, quads)
-    colours = SHADES(found.shades)
+    faces = shaded.faces(position, quads)
+    colours = SHADES(faces.shades)
     edges = np.append(0.8 * colours[:, :3], colours[:, 3:], axis=1)
-    drawn = PolyCollection(list(found.corners), facecolors=colours, edgecolors=edges, lw=0.15)
+    drawn = PolyCollection(list(faces.corners), facecolors=colours, edgecolors=edges, lw=0.15)
     ax.add_collection(drawn)
     ax.set_aspect("equal")
     ax.set_axis_off()
@@ -305,9 +305,9 @@ def _plates(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plat
 def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
     """New axes that begin ``inches`` left of ``ax``, from ``bottom`` on, in its unit of y."""
     left = ScaledTranslation(-inches, 0.0, ax.figure.dpi_scale_trans)
-    found = ax.inset_axes((0.0, bottom, 1.0, height), transform=ax.get_yaxis_transform() + left)
-    found.set_anchor("W")
-    return found
+    inset = ax.inset_axes((0.0, bottom, 1.0, height), transform=ax.get_yaxis_transform() + left)
+    inset.set_anchor("W")
+    return inset
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:

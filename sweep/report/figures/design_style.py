@@ -158,8 +158,8 @@ def merit_errors(rows: DataFrame, energy: str) -> Series:
 
 def errors_of(rows: DataFrame, name: str) -> Series:
     """The errors of a column; NaN if unknown."""
-    known = rows.get(error_column(name))
-    return rows[name] * np.nan if known is None else known
+    errors = rows.get(error_column(name))
+    return rows[name] * np.nan if errors is None else errors
 
 
 def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:

@@ -116,13 +116,13 @@ def marks(rows: DataFrame) -> Series:
 
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     """The meaning of the marks that these rows have."""
-    found = {
+    notes = {
         BEYOND: rows["beyond_model"],
         CROSSED: rows["crossed"],
         UNPRINTABLE: unprintable(rows) != "",
         STRETCHED: rows["beyond_curve"],
     }
-    return tuple(note for note, has in found.items() if has.any())
+    return tuple(note for note, has in notes.items() if has.any())
 
 
 def unprintable(rows: DataFrame) -> Series:

@@ -49,9 +49,9 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
 
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
     """What is required of these kinds of loading in one sentence; empty if it is nothing."""
-    known = set(modes)
-    asked = {k: v for k, v in ranking.required.items() if known.intersection(MEASURES[k].asked_of)}
-    limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in asked.items()]
+    kinds = set(modes)
+    own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].asked_of)}
+    limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
     return f"Required of a {ranking.per}: {', '.join(limits)}." if limits else ""
 
 
@@ -71,10 +71,10 @@ def requirement_notes(
     if not outcomes:
         return
     first = outcomes[0]
-    if asked := required(ranking, [first.mode]):
-        yield fill(asked, WIDTH)
+    if sentence := required(ranking, [first.mode]):
+        yield fill(sentence, WIDTH)
         yield from _of_budgets(outcomes, ranking, named)
-    alike = [label for label, found in ranking.outcomes.items() if found[0].mode == first.mode]
+    alike = [label for label, others in ranking.outcomes.items() if others[0].mode == first.mode]
     if first.left_out and scene == alike[0]:
         yield NOT_APPLIED[first.mode].format(", ".join(first.left_out))
 
@@ -139,11 +139,11 @@ def _nearest(
     yield fill(f"Nearest{_within(*alike)}: {named(row)}{doubt}: {'; '.join(parts)}.", WIDTH)
     for name, count in outcome.failed.items():
         best = outcome.best[name]
-        known = outcome.missed.get(name) == best.value or not math.isfinite(best.value)
-        if count == outcome.designs and not known:
-            found = quantity(name, best.value)
+        mentioned = outcome.missed.get(name) == best.value or not math.isfinite(best.value)
+        if count == outcome.designs and not mentioned:
+            closest = quantity(name, best.value)
             unsure = " (marked ! or x: do not trust it)" if best.doubtful else ""
-            yield f"{MEASURES[name].none.format(quantity(name, limits[name]), found)}{unsure}."
+            yield f"{MEASURES[name].none.format(quantity(name, limits[name]), closest)}{unsure}."
 
 
 def _miss(name: str, outcome: Outcome, early: bool) -> str:
@@ -189,8 +189,8 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["decel. g0"] = numerals(in_unit(rows[DECELERATION], "g0"))
     crushed = rows["loading_mode"].iloc[0] == "displacement"
     limited = crushed and (ranking.limited or "max_force" in ranking.required)
-    asked = limited or required_of(ranking, rows, "max_stroke")
-    if asked and rows["counted_stroke_m"].notna().any():
+    shown = limited or required_of(ranking, rows, "max_stroke")
+    if shown and rows["counted_stroke_m"].notna().any():
         columns["stroke mm"] = numerals(in_unit(rows["counted_stroke_m"], "mm"))
     return columns
 
@@ -209,8 +209,8 @@ def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:
     """The force of the panel, where there is one."""
-    known = "panel_force_N" in rows
-    return {"panel N": numerals(rows["panel_force_N"])} if known else {}
+    paneled = "panel_force_N" in rows
+    return {"panel N": numerals(rows["panel_force_N"])} if paneled else {}
 
 
 def panel_size(rows: DataFrame) -> dict[str, Series]:

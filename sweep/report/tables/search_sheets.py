@@ -1,4 +1,4 @@
-"""What a search has found, as tables of text and sentences."""
+"""The results of a search, as tables of text and sentences."""
 
 from __future__ import annotations
 
@@ -66,10 +66,10 @@ def _masses(spread: Spread) -> Series:
 def _again(values: Series) -> list[str]:
     """A design's value on the fine mesh, and its lowest and highest one with their corners."""
     others = values.drop(AS_GIVEN)
-    found = ends(others)
-    if found is None:
+    corners = ends(others)
+    if corners is None:
         return [NOTHING] * 5
-    spans = [text for name in found for text in (three_digits(float(others[name])), name)]
+    spans = [text for name in corners for text in (three_digits(float(others[name])), name)]
     return [three_digits(float(others.get(FINE, float("nan")))), *spans]
 
 
@@ -92,10 +92,10 @@ def _verdict(spread: Spread) -> Iterator[str]:
 
 def _limits_missed(spread: Spread) -> Iterator[str]:
     """A sentence for each limit and corner at which designs do not keep the limit."""
-    found: dict[tuple[str, str], list[str]] = {}
+    excess: dict[tuple[str, str], list[str]] = {}
     for place, corner, what in spread.missed:
-        found.setdefault((what, corner), []).append(str(place))
-    for (what, corner), places in found.items():
+        excess.setdefault((what, corner), []).append(str(place))
+    for (what, corner), places in excess.items():
         several = len(places) > 1
         who = f"Number{'s' if several else ''} {', '.join(places)}"
         if what == "budget":

@@ -72,9 +72,9 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     for scene in ranking.lightest_g:
         placed = rows = table[table["scene"] == scene]
         missed = _missed(scene, ranking, named)
-        asked = tuple(requirement_notes(scene, ranking, named))
+        requirements = tuple(requirement_notes(scene, ranking, named))
         if rows.empty:
-            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *asked))
+            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *requirements))
             continue
         first = {}
         if len(budgets) > 1:
@@ -103,7 +103,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *missed,
-                *asked,
+                *requirements,
             ),
             spare=_spare(columns, rows, ranking),
             elsewhere="crumple rank with --csv",
@@ -113,8 +113,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
 def _spare(columns: Iterable[str], rows: DataFrame, ranking: Ranking) -> tuple[str, ...]:
     """The heads of measured columns by which these rows are not sorted."""
     sorted_by, energies = set(rows["ranked_by"]), {"J/g": ranking.per_gram}
-    known = SPARE | energies
-    return tuple(head for head in known if head in columns and known[head] not in sorted_by)
+    shown = SPARE | energies
+    return tuple(head for head in shown if head in columns and shown[head] not in sorted_by)
 
 
 def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> tuple[str, ...]:

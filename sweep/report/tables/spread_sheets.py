@@ -19,9 +19,9 @@ ABOUT = (
 )
 
 
-def spread_sheets(found: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet]:
+def spread_sheets(spreads: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet]:
     """A sheet for each scene and budget; summary: all designs, among which they are described."""
-    for spread in found:
+    for spread in spreads:
         rows = spread.rows
         budget = rows["budget_g"].iloc[0]
         within = f", up to {budget:g} g" if budget > 0.0 else ""
@@ -46,10 +46,10 @@ def _differing(rows: DataFrame, summary: DataFrame) -> dict[str, Series]:
 def _row(spread: Spread, k: int, design: list[str]) -> list[str]:
     row, values = spread.rows.iloc[k], spread.at_corners.iloc[k]
     value = three_digits(float(row[spread.column]))
-    found = ends(values)
-    if found is None:
+    corners = ends(values)
+    if corners is None:
         return [str(row["place"]), *design, value, *[NOTHING] * 5]
-    low, high = found
+    low, high = corners
     places = spread.places.iloc[k].dropna()
     best, worst = int(places.min()), int(places.max())
     return [

@@ -166,11 +166,6 @@ def test_ranking_counts_failures_aloud(capsys, file):
     assert [line[:2] for line in table[:3]] == ["1*", "2*", "2*"]
 
 
-def test_ranking_without_options_is_that_of_the_config(capsys, file):
-    _, out, _ = crumple(capsys, "rank", file)
-    assert "At most 2 g. Best first: most energy." in out
-
-
 def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     config = {"rank": {"budgets": [0.5], "panel": [0.1, 0.05]}}
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})

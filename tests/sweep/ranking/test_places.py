@@ -185,11 +185,3 @@ def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypat
     assert records[2]["ranked_error"] is None
     main([*question, "--markdown"])
     assert "| 1=*" in capsys.readouterr().out
-
-
-def test_command_line_tells_which_joints_are_points(capsys, tmp_path):
-    shares = ({}, {"solid_joint_share": 0.9}, {"solid_joint_share": NAN})
-    file = write(tmp_path / "trial.h5", summary(*shares))
-    assert main(["rank", file]) == 0
-    told = "In 1 of 3 cases some walls end in points, not in solid joints: see solid_joint_share."
-    assert told in capsys.readouterr().out

@@ -62,15 +62,6 @@ def test_shaded_area_is_the_absorbed_energy(row):
     assert labels(ax)[0] == "absorbed in total\n96.0 mJ, 0.0960 J/g"
 
 
-def test_way_down_and_way_back_are_told_apart(row):
-    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
-    down, back = ax.get_lines()[:2]
-    assert down.get_xdata()[-1] == back.get_xdata()[0] == pytest.approx(40.0)
-    assert down.get_color() != back.get_color()
-    assert down.get_linestyle() != back.get_linestyle()
-    assert labels(ax)[1:3] == ["loading", "unloading,\nreturns 50 %"]
-
-
 def test_a_pause_is_neither_loading_nor_unloading(row):
     once = there_and_back()
     held = pandas.concat([once[:21], *[once[20:21]] * 5, once[21:]], ignore_index=True)
@@ -127,12 +118,6 @@ def test_dead_load_comes_and_goes_in_a_step(dead):
     assert labels(ax)[1:] == ["load applied", "load removed"]
 
 
-@pytest.mark.parametrize("draw", [case_plots.force_displacement, case_plots.energies])
-def test_title_says_design_and_scene(row, draw):
-    title = axes_of(draw, there_and_back(), row).get_title("left")
-    assert title == "square, 3 x 3 cells, wall 1 mm, ninjaflex\ncrushed to 40 %, glued platens"
-
-
 def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     history = there_and_back()
     ax = axes_of(case_plots.energies, history, row)
@@ -161,19 +146,6 @@ def test_energies_under_a_dead_load_are_drawn_over_time(dead):
     assert release.get_xdata()[0] == pytest.approx(20.0)
     assert work.get_xdata()[-1] == pytest.approx(40.0)
     assert [text.get_text() for text in ax.texts] == ["load removed"]
-
-
-def test_negligible_energies_have_no_colour(row):
-    ax = axes_of(case_plots.energies, there_and_back(), row)
-    assert labels(ax) == ["work done", "lost to friction", "bending"]
-
-
-def test_shapes_have_captions_under_a_title():
-    figure = case_plots.blank(12, 3)
-    case_plots.deformed_shapes(figure, "a cell", squeezed_cell())
-    titles = [ax.get_title() for ax in figure.axes]
-    assert titles == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
-    assert figure.get_suptitle() == "a cell"
 
 
 def test_walls_are_as_thick_as_they_are_in_millimetres():
@@ -210,17 +182,6 @@ def test_nothing_is_left_blank_between_shapes(heights):
     assert above_and_below < 0.9 * figure.dpi  # a title, a caption, the scale bar
 
 
-def test_winners_are_as_high_as_their_shapes():
-    figure = case_plots.blank(12, 6)
-    cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
-    case_plots.winners(figure, dict(zip(["flat", "tall"], cells, strict=True)))
-    figure.draw_without_rendering()
-    heights = [strip.bbox.height / figure.dpi for strip in figure.subfigs]
-    scale = min(case_plots.shapes_scale(frames) for frames in cells)
-    asked = [case_plots.shapes_size("", frames, scale=scale)[1] for frames in cells]
-    np.testing.assert_allclose(heights, asked, rtol=0.02)
-
-
 def test_winners_are_drawn_to_one_scale():
     figure = case_plots.blank(12, 6)
     cells = [squeezed_cell(heights=heights) for heights in (FLAT, TALL)]
@@ -235,10 +196,3 @@ def test_winners_are_drawn_to_one_scale():
         left, right = strip.axes[0].bbox, strip.axes[1].bbox
         assert left.x1 <= right.x0
         assert left.y1 < strip.bbox.y1
-
-
-def test_pictures_are_png_files(tmp_path):
-    figure = case_plots.blank(12, 6)
-    case_plots.winners(figure, {"one": squeezed_cell(), "two": squeezed_cell(platens=False)})
-    path = case_plots.save(figure, tmp_path / "new" / "shapes.png")
-    assert path.read_bytes().startswith(b"\x89PNG")

@@ -8,7 +8,7 @@ from matplotlib.collections import LineCollection
 
 from sweep.ranking.rank import ranked
 from sweep.report.figures.case_plots import TICKS, blank, round_ticks
-from sweep.report.figures.design_map import TITLE, design_map, has_trends, thickness_trends
+from sweep.report.figures.design_map import design_map, has_trends, thickness_trends
 from sweep.report.figures.pattern_bars import pattern_bars
 from tests.support.results.specimens import designs, summary
 
@@ -98,16 +98,6 @@ def test_legends_stay_on_the_page(patterns, cells):
     assert figure.axes[0].bbox.width > 0.3 * 6.8 * figure.dpi
 
 
-def test_designs_of_the_same_mass_differ_in_their_signs():
-    kinds = ["square", "hex"]
-    rows = [{"mass_g": 1.4, "lattice_kind": kind, "cells_x": 4} for kind in kinds]
-    figure = drawn(ranked(summary(*rows), top=None))
-    signs = [dots.get_paths()[0].vertices.tolist() for dots in figure.axes[0].collections[:2]]
-    assert signs[0] != signs[1]
-    said = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert said == ["pattern", "hex", "square"]
-
-
 def test_charts_say_up_to_which_force_energy_counts():
     rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
     ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
@@ -134,15 +124,6 @@ def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(rank
         np.testing.assert_allclose(dashed.get_ydata(), y)
         np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
         assert solid.get_drawstyle() == dashed.get_drawstyle()
-
-
-def test_designs_on_the_front_are_drawn_on_top_the_best_last(ranking):
-    ranking.table["material"] = np.where(ranking.table["pareto"], "cheetah", "ninjaflex")
-    figure = blank(8, 4)
-    design_map(figure, ranking)
-    others, front = figure.axes[0].collections[:2]
-    assert [tuple(point) for point in others.get_offsets()] == [(3.0, 0.2)]
-    assert [tuple(point) for point in front.get_offsets()] == [(1.0, 0.1), (2.0, 0.3)]
 
 
 def test_trend_follows_the_wall_thickness(ranking):
@@ -174,14 +155,6 @@ def test_trends_and_patterns_have_the_error_bars_of_energy_per_gram(ranking):
     for draw, across in ((thickness_trends, 1), (pattern_bars, 0)):
         widths = [np.ptp(bar[:, across]) for bar in bars_of(drawn(sure, draw).axes[0])]
         np.testing.assert_allclose(widths, [0.04] * 3)
-
-
-def test_titles_break_behind_commas_only(ranking):
-    names = "a rather long-winded name of a self-made material", "x" * (TITLE + 1)
-    ranking.table["material"] = [names[k % 2] for k in range(6)]
-    lines = [line.strip() for line in drawn(ranking).axes[0].get_title("left").splitlines()]
-    assert len(lines) > 2
-    assert all(line.endswith((",", "J/g", "platens")) for line in lines)
 
 
 @pytest.mark.parametrize("view", [(1e-6, 1.0), (0.05, 30.0), (0.8, 2.2), (0.9, 1.02), (38.0, 71.0)])

@@ -158,13 +158,13 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
     put(tab, "min_absorbed", "1000")
     assert tab.run(ROWS) == []
     said = tab.run('document.getElementById("sentence").textContent')
-    assert said == "No design up to 60 g fulfils what is required."
+    assert said == "No design up to 60 g meets the requirements."
     more = tab.run('document.getElementById("detail").textContent')
     assert "Required of a specimen: absorbed energy at least 1000 J." in more
     assert "Nearest: " in more
     put(tab, "budget-on", False, what="checked", event="change")
     without_budget = tab.run('document.getElementById("sentence").textContent')
-    assert without_budget == "No design fulfils what is required."
+    assert without_budget == "No design meets the requirements."
     put(tab, "min_absorbed-on", False, what="checked", event="change")
     assert len(tab.run(ROWS)) > 5
 
@@ -238,7 +238,7 @@ def test_stroke_and_deceleration_are_shown_where_the_terminal_shows_them(tab):
     put(tab, "max_force-on", False, what="checked", event="change")
     put(tab, "force", "20")
     assert heads(tab)[-1] == "stroke mm"
-    assert "stroke: in which" in tab.run('document.getElementById("notes").textContent')
+    assert "stroke: over which" in tab.run('document.getElementById("notes").textContent')
     put(tab, "scene", "2", event="change")
     assert "stroke mm" not in heads(tab)
     put(tab, "max_deceleration", "900")
@@ -247,10 +247,10 @@ def test_stroke_and_deceleration_are_shown_where_the_terminal_shows_them(tab):
 
 def test_columns_of_the_whole_crush_are_explained(tab):
     notes = tab.run('document.getElementById("notes").textContent')
-    assert "pack: strain at which the lattice has packed down" in notes
-    assert "back: returned energy" in notes
+    assert "dens.: densification strain" in notes
+    assert "returned: returned energy" in notes
     put(tab, "force", "20")
-    assert "pack: " not in tab.run('document.getElementById("notes").textContent')
+    assert "dens.: " not in tab.run('document.getElementById("notes").textContent')
     put(tab, "scene", "2", event="change")
     notes = tab.run('document.getElementById("notes").textContent')
     assert "rebound: energy of the striker" in notes

@@ -125,12 +125,6 @@ def test_tables_are_sorted_as_rank_sorts_without_a_budget(tmp_path, capsys):
     assert [line.count(f"{k:016x}") for k, line in enumerate(listed[1:])] == [1, 1, 1]
 
 
-def test_tables_say_that_nothing_fulfils_what_is_required(tmp_path):
-    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
-    said = written(tmp_path, table, require={"min_absorbed": 9.0})
-    assert "0 of 2 designs fulfil this" in " ".join(Reader(said).text["p"].split())
-
-
 def test_page_of_failures_alone_says_so(tmp_path):
     text = written(tmp_path, summary({"status": "stopped", "message": "more steps"}))
     assert "No case has converged" in text
