@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from sweep.config.case import Case
     from sweep.config.faults import ConfigError
     from sweep.config.grid import Config, expand
     from sweep.config.load import load_config
