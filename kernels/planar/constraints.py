@@ -3,7 +3,8 @@
 from kernels.arrays import zero, zero_rows
 from kernels.compile.jit import jit, jit_exact
 from kernels.linear.condensed import periodic_images
-from kernels.terms import elements, followers
+from kernels.shared import followers
+from kernels.terms import elements
 
 
 @jit

@@ -3,9 +3,9 @@
 from kernels.compile.jit import jit_exact, separate
 from kernels.linear.condensed import block_ldlt, system
 from kernels.linear.condensed.block_matrix import clear
+from kernels.shared.lagging import slip_of
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from kernels.terms import contact, damping, fold, friction, inertia, spring
-from kernels.terms.lagging import slip_of
 
 LENGTHS = 2  # x and y, the first slots of a block
 

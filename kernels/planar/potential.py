@@ -12,21 +12,10 @@ import numpy as np
 
 from kernels.arrays import add, copy, zero_rows
 from kernels.compile.jit import jit_exact, separate
-from kernels.planar.reach import drift
-from kernels.terms import (
-    bend,
-    contact,
-    damping,
-    elements,
-    fold,
-    inertia,
-    lagging,
-    loads,
-    moves,
-    spring,
-    stretch,
-)
-from kernels.terms.rows import BEND, CONTACT, STRETCH
+from kernels.planar.neighbour_lists import drift
+from kernels.shared import lagging, moves
+from kernels.shared.rows import BEND, CONTACT, STRETCH
+from kernels.terms import bend, contact, damping, elements, fold, inertia, loads, spring, stretch
 
 LEAST = np.dtype(
     (

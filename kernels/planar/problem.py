@@ -9,11 +9,11 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory, in_python
-from kernels.planar import constraints, factoring, potential, reach, steps
-from kernels.planar.reach import Neighbours
+from kernels.planar import constraints, factoring, neighbour_lists, potential, steps
+from kernels.planar.neighbour_lists import Neighbours
+from kernels.shared import followers, lagging, moves, rows
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, moves, rows
 from kernels.terms.damping import Before
 from kernels.terms.elements import Resultants, Shape, Stiffness
 
@@ -59,11 +59,11 @@ class Planar(NamedTuple):
     tie = followers.tie
 
     travel = moves.travel
-    step_limit = reach.step_limit
+    step_limit = neighbour_lists.step_limit
     covers = moves.covers
-    longest = reach.longest
-    drift = reach.drift
-    least_gap = reach.least_gap
+    longest = neighbour_lists.longest
+    drift = neighbour_lists.drift
+    least_gap = neighbour_lists.least_gap
 
     lag = lagging.lag
     exchange = lagging.exchange
@@ -71,7 +71,7 @@ class Planar(NamedTuple):
     forget = lagging.forget
 
     project = steps.project
-    covers_projection = reach.covers_projection
+    covers_projection = neighbour_lists.covers_projection
     write = rows.write
 
 
@@ -129,7 +129,7 @@ class PlanarScene(NamedTuple):
     layout: object
     project: object
 
-    find_neighbours = reach.find_neighbours
-    renew_neighbours = reach.renew_neighbours
+    find_neighbours = neighbour_lists.find_neighbours
+    renew_neighbours = neighbour_lists.renew_neighbours
     make_buffers = make_buffers
     assemble = assemble

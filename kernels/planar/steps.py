@@ -3,8 +3,8 @@
 from kernels.compile.jit import jit_exact, separate
 from kernels.planar import position_based
 from kernels.planar.potential import recall
+from kernels.shared.rows import BEND, STRETCH
 from kernels.terms import bend, damping, stretch
-from kernels.terms.rows import BEND, STRETCH
 
 
 @separate

@@ -4,7 +4,7 @@ from kernels.compile.jit import jit, jit_exact
 from kernels.linear.supernodal import matrix as blocks
 from kernels.plates.contacts import contact, friction, mirror
 from kernels.plates.layout import PER_NODE, POSITION
-from kernels.terms.lagging import slip_of
+from kernels.shared.lagging import slip_of
 
 
 @jit_exact

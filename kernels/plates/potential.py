@@ -12,9 +12,10 @@ from kernels.arrays import copy, zero
 from kernels.compile.jit import jit_exact, separate
 from kernels.plates.contacts import contact, mirror
 from kernels.plates.element import shell
-from kernels.plates.reach import drift
-from kernels.terms import inertia, lagging, loads, moves
-from kernels.terms.rows import BEND, CONTACT, STRETCH
+from kernels.plates.neighbour_lists import drift
+from kernels.shared import lagging, moves
+from kernels.shared.rows import BEND, CONTACT, STRETCH
+from kernels.terms import inertia, loads
 
 
 @separate

@@ -9,13 +9,13 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory, in_python
-from kernels.plates import factoring, potential, reach, steps
+from kernels.plates import factoring, neighbour_lists, potential, steps
 from kernels.plates.contacts import thickness
 from kernels.plates.element import relaxing_shear, shell
-from kernels.plates.reach import Neighbours
+from kernels.plates.neighbour_lists import Neighbours
+from kernels.shared import followers, lagging, moves, rows
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms import followers, lagging, moves, rows
 
 
 class Buffers(NamedTuple):
@@ -68,11 +68,11 @@ class Plates(NamedTuple):
     tie = followers.tie
 
     travel = moves.travel
-    step_limit = reach.step_limit
+    step_limit = neighbour_lists.step_limit
     covers = moves.covers
-    longest = reach.longest
-    drift = reach.drift
-    least_gap = reach.least_gap
+    longest = neighbour_lists.longest
+    drift = neighbour_lists.drift
+    least_gap = neighbour_lists.least_gap
 
     lag = lagging.lag
     exchange = lagging.exchange
@@ -80,7 +80,7 @@ class Plates(NamedTuple):
     forget = lagging.forget
 
     project = steps.project
-    covers_projection = reach.covers_projection
+    covers_projection = neighbour_lists.covers_projection
     write = rows.write
 
 
@@ -132,7 +132,7 @@ class PlateScene(NamedTuple):
     friction: object
     layout: object
 
-    find_neighbours = reach.find_neighbours
-    renew_neighbours = reach.renew_neighbours
+    find_neighbours = neighbour_lists.find_neighbours
+    renew_neighbours = neighbour_lists.renew_neighbours
     make_buffers = make_buffers
     assemble = assemble

@@ -4,7 +4,7 @@ from kernels.compile.jit import jit_exact
 from kernels.plates.contacts import thickness
 from kernels.plates.element import rotation, shell
 from kernels.plates.potential import recall
-from kernels.terms.rows import BEND, STRETCH
+from kernels.shared.rows import BEND, STRETCH
 
 
 @jit_exact

@@ -7,8 +7,4 @@ gradient and Hessian. `rayleigh` starts from that Hessian. The *other terms* hav
 `evaluate` returns the energy and adds the gradient, `hessian` adds to the matrix (`inertia`,
 `damping` by mass, `spring`, `fold`, `contact`, `friction`). `loads` are linear.
 `contact_near_joints` prepares `contact`. The material laws are in `kernels.laws`.
-
-Four files are no terms. They have verbs that terms, and the problems of walls and of plates, share:
-`followers` (coordinates that follow others), `lagging` (when friction is updated), `moves` (how far
-nodes move, and whether a list of pairs still holds) and `rows` (rows and shapes of a history).
 """

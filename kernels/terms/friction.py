@@ -206,7 +206,7 @@ def forget(lagged_contacts):
 
 
 class LaggedContacts(NamedTuple):
-    """Lagged contacts, the first ``count`` (1,) entries, with the verbs of `kernels.terms.lagging`.
+    """Lagged contacts, the first ``count`` (1,) entries; verbs as in `kernels.shared.lagging`.
 
     nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
     lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =

@@ -4,8 +4,8 @@ import numpy as np
 
 from kernels.linear.condensed import analysis
 from kernels.planar import position_based
+from kernels.shared.moves import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints
-from kernels.terms.moves import MOVE_MARGIN
 from sweep.config.case import Case
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from kernels.geometry.specimen_height import height
+from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
-from kernels.terms.rows import ROW, STRETCH, Output
 from sweep.config.case import Case, complete
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from kernels.geometry.space import crossing
+from kernels.shared.rows import ROW, Output
 from kernels.solve import march
 from kernels.solve.outcomes import CONVERGED
-from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from sweep.scene.plates.scene import build_scene
 from tests.support.kernels.pressed_plates import DRIVEN, tube

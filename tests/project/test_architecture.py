@@ -22,7 +22,7 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 # From the ground up: a package imports those before it and itself, inside of functions too.
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
-    "kernels.laws", "kernels.terms", "kernels.planar", "kernels.plates",
+    "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.design", "sweep.config",
     "sweep.columns", "sweep.result", "sweep.scene", "sweep.coupon", "sweep.simulation",
     "sweep.store", "sweep.ranking", "sweep.report",
@@ -77,9 +77,9 @@ TESTED_ELSEWHERE = {
     "kernels.solve.residual": "kernels/solve/test_newton.py",
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
     "kernels.laws.law": "physics/test_memories.py",
-    "kernels.terms.lagging": "kernels/plates/test_potential.py",
-    "kernels.terms.moves": "kernels/planar/test_reach.py",
-    "kernels.terms.rows": "sweep/simulation/test_custom_history.py",
+    "kernels.shared.lagging": "kernels/plates/test_potential.py",
+    "kernels.shared.moves": "kernels/planar/test_neighbour_lists.py",
+    "kernels.shared.rows": "sweep/simulation/test_custom_history.py",
     "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
     "sweep.__main__": "sweep/cli/test_verbs.py",

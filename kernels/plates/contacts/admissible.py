@@ -7,7 +7,7 @@ from kernels.geometry.space import advancement
 from kernels.geometry.space.closest import squared_to_triangle
 from kernels.geometry.space.vectors import SIZE, point
 from kernels.plates.contacts.pairs import edges_within
-from kernels.terms.moves import ADVANCE
+from kernels.shared.moves import ADVANCE
 
 
 @jit_exact

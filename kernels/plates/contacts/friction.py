@@ -272,7 +272,7 @@ def forget(lagged_contacts):
 
 
 class LaggedContacts(NamedTuple):
-    """Lagged contacts, the first ``count`` (1,) entries, with the verbs of `kernels.terms.lagging`.
+    """Lagged contacts, the first ``count`` (1,) entries; verbs as in `kernels.shared.lagging`.
 
     nodes (n, 4): p, a, b, c; size (n,): 4, or 1 for a platen, which does not move sideways. slopes
     (n, 4, 2, 3): derivatives of the slip in the moves of the nodes. load (n,): mu lambda, N. dual

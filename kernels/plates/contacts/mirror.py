@@ -15,7 +15,7 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
 from kernels.laws.barrier import barrier
-from kernels.terms.moves import ADVANCE
+from kernels.shared.moves import ADVANCE
 
 
 class Mirror(NamedTuple):

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 
 from kernels.plates.factoring import LOWERED, RAISED
-from kernels.plates.reach import make_matrix
+from kernels.plates.neighbour_lists import make_matrix
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from tests.support.kernels.pressed_plates import (
     CASES,

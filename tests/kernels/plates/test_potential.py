@@ -5,7 +5,7 @@ import pytest
 
 from kernels.plates.contacts import contact, mirror
 from kernels.plates.element import shell
-from kernels.terms.rows import BEND, CONTACT, STRETCH
+from kernels.shared.rows import BEND, CONTACT, STRETCH
 from tests.support.kernels.pressed_plates import (
     CASES,
     STATES,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from kernels.compile.reference import by_reference
+from kernels.shared.rows import STORED
 from kernels.solve import march, newton
 from kernels.solve.workspace import make_workspace
-from kernels.terms.rows import STORED
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.bench.measuring import cases

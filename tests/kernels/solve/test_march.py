@@ -10,9 +10,9 @@ import pytest
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
 from kernels.geometry.specimen_height import height
+from kernels.shared.rows import CONTACT
 from kernels.solve import march, newton, outcomes
 from kernels.solve.energy_book import kinetic
-from kernels.terms.rows import CONTACT
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate

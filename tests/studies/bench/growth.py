@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from kernels.planar import reach
+from kernels.planar import neighbour_lists
 from kernels.terms import friction
 from sweep.scene.lattice import build_scene
 from tests.studies.bench.measuring import cases, marching
@@ -31,8 +31,8 @@ def exponent(sizes, times):
 
 def _search(scene):
     """List pairs and make the system, as every march does once."""
-    pairs = reach.list_neighbours(scene.terms, scene.x_rest, 0.0)[0]
-    reach.make_system(scene.terms, scene.x_rest, pairs, friction.none())
+    pairs = neighbour_lists.list_neighbours(scene.terms, scene.x_rest, 0.0)[0]
+    neighbour_lists.make_system(scene.terms, scene.x_rest, pairs, friction.none())
 
 
 def table(sizes, steps, count):

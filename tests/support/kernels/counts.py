@@ -4,10 +4,10 @@ from collections import Counter
 from unittest.mock import patch
 
 from kernels.compile.jit import Kernel
-from kernels.planar import reach
+from kernels.planar import neighbour_lists
 from kernels.planar.problem import Planar
 
-WATCHED = {Planar.factor: "factor", reach.list_neighbours: "list"}
+WATCHED = {Planar.factor: "factor", neighbour_lists.list_neighbours: "list"}
 COMPILED = (Planar.descend,)  # meets records that only compiled code can read
 
 

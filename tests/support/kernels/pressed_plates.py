@@ -12,7 +12,7 @@ import numpy as np
 
 from kernels.compile.reference import by_reference, referred
 from kernels.linear.supernodal.matrix import place
-from kernels.plates import potential, reach
+from kernels.plates import neighbour_lists, potential
 from kernels.plates.contacts import friction
 from kernels.plates.contacts.touching import no_contacts
 from kernels.plates.element import shell
@@ -131,11 +131,14 @@ class WholeOfPlates(Whole):
 
 def neighbours_of(x, terms, move=0.0):
     """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
-    listed, margin = reach.list_pairs(terms, x, move)
+    listed, margin = neighbour_lists.list_pairs(terms, x, move)
     lagged = friction.no_contacts(listed, terms.contact, terms.friction)
     friction.lag(lagged, x, terms.contact, listed, 0.0, terms.friction)
-    matrix, touching = reach.make_matrix(terms, listed, lagged), no_contacts(terms.contact, listed)
-    return reach.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
+    matrix, touching = (
+        neighbour_lists.make_matrix(terms, listed, lagged),
+        no_contacts(terms.contact, listed),
+    )
+    return neighbour_lists.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
 
 
 def whole(of, x, seed=0, past=True):

@@ -7,14 +7,14 @@ from unittest.mock import patch
 import numpy as np
 
 from kernels.compile.reference import by_reference, referred
+from kernels.planar import neighbour_lists
 from kernels.planar import problem as planar
-from kernels.planar import reach
 from kernels.planar.problem import Planar
+from kernels.shared.rows import ROW, STORED, Output
 from kernels.solve import march, newton, outcomes
 from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
 from kernels.solve.workspace import make_workspace
 from kernels.terms import contact, fold, friction, spring
-from kernels.terms.rows import ROW, STORED, Output
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.support.kernels.terms import assembled, dense, full_matrix, nowhere
@@ -111,12 +111,14 @@ class Whole:
 
 def neighbours_of(x, terms, move=0.0):
     """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
-    found, margin, projection_pairs = reach.list_neighbours(terms, x, move)
+    found, margin, projection_pairs = neighbour_lists.list_neighbours(terms, x, move)
     lagged = friction.no_contacts(found, terms.contact, terms.friction)
     friction.lag(lagged, x, terms.contact, found, np.inf, terms.friction)
-    system = reach.make_system(terms, x, found, lagged)
+    system = neighbour_lists.make_system(terms, x, found, lagged)
     touching = contact.no_contacts(found)
-    return reach.Neighbours(found, x.copy(), margin, system, projection_pairs, touching, lagged)
+    return neighbour_lists.Neighbours(
+        found, x.copy(), margin, system, projection_pairs, touching, lagged
+    )
 
 
 def problem_of(terms, neighbours, buffers):

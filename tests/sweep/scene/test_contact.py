@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from kernels.planar import reach
-from kernels.terms.moves import MOVE_MARGIN
+from kernels.planar import neighbour_lists
+from kernels.shared.moves import MOVE_MARGIN
 from sweep.config.case import Case
 from sweep.scene.contact import PAIRS
 from sweep.scene.lattice import build_scene
@@ -59,7 +59,7 @@ def test_lists_of_neighbours_do_not_grow_with_the_square_of_a_lattice(kind):
     lattice = dict(kind=kind, cells_x=24, cells_y=12, wall_thickness=5e-5, nodes_per_wall=1)
     scene = build_scene(Case.of(lattice=lattice))
     touch = scene.terms.contact
-    pairs, margin, _ = reach.list_neighbours(scene.terms, scene.x_rest, touch.most_move)
+    pairs, margin, _ = neighbour_lists.list_neighbours(scene.terms, scene.x_rest, touch.most_move)
     assert margin == pytest.approx(MOVE_MARGIN * touch.most_move)
     assert 50 * len(scene.mesh.points) < pairs.node.size < PAIRS * len(scene.mesh.points)
     assert touch.most_move > 0.5 * 12.5e-3 / 24  # half a cell

@@ -6,7 +6,7 @@ import pytest
 from kernels.geometry.space import advancement, crossing, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates.contacts import admissible, pairs
-from kernels.terms.moves import ADVANCE
+from kernels.shared.moves import ADVANCE
 from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,

@@ -5,7 +5,7 @@ import pytest
 
 from kernels.laws.barrier import barrier
 from kernels.plates.contacts import mirror
-from kernels.terms.moves import ADVANCE
+from kernels.shared.moves import ADVANCE
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering, at_rest
 from sweep.scene.plates.mesh import build_mesh

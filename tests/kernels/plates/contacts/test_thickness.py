@@ -7,8 +7,8 @@ from kernels.compile.reference import referred
 from kernels.plates.contacts import thickness
 from kernels.plates.contacts.contact import MOST_THICKENING
 from kernels.plates.element import shell
+from kernels.shared.rows import CONTACT, STORED
 from kernels.solve import energy_book, workspace
-from kernels.terms.rows import CONTACT, STORED
 from sweep.scene.plates.scene import build_scene
 from tests.support.kernels.pressed_plates import CASES, neighbours_of, pinched, whole
 

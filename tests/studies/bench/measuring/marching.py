@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kernels.shared.rows import ROW, Output
 from kernels.solve import history, march, outcomes
-from kernels.terms.rows import ROW, Output
 from sweep.scene.loading import stages, tolerances
 from tests.studies.bench.measuring.clock import seconds
 from tests.support.kernels.solving import at_rest, ramp

@@ -12,10 +12,10 @@ from kernels.linear.condensed import analysis
 from kernels.linear.condensed.analysis import System
 from kernels.planar import position_based
 from kernels.planar.couplings import couplings
+from kernels.shared.moves import ADVANCE, MOVE_MARGIN, listed_share
 from kernels.terms import contact, friction
 from kernels.terms.contact import Touching
 from kernels.terms.friction import LaggedContacts
-from kernels.terms.moves import ADVANCE, MOVE_MARGIN, listed_share
 
 LEAST_LENGTH = 0.1  # of an element after a move, as a share of its length before
 MARGIN = 1.0  # least margin of the pair list, as a share of the reach of contact

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from kernels.geometry import ccd, near_pairs
-from kernels.planar import reach
-from kernels.terms.moves import ADVANCE
+from kernels.planar import neighbour_lists
+from kernels.shared.moves import ADVANCE
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.support.kernels.solving import whole
@@ -84,7 +84,9 @@ def hits(scene, x, dx):
         gaps = x[2 * p + 1] - x[low], x[high] - x[2 * p + 1]
         closing = dx[low] - dx[2 * p + 1], dx[2 * p + 1] - dx[high]
         met += [gap / way for gap, way in zip(gaps, closing, strict=True) if way > 0.0]
-    short = [ccd.first_shrink(x, dx, a, b, reach.LEAST_LENGTH) for a, b in terms.walls.edges]
+    short = [
+        ccd.first_shrink(x, dx, a, b, neighbour_lists.LEAST_LENGTH) for a, b in terms.walls.edges
+    ]
     return np.array(met), np.array(short)
 
 

@@ -14,7 +14,7 @@ from kernels.plates.contacts.friction import LaggedContacts
 from kernels.plates.contacts.pairs import Pairs
 from kernels.plates.contacts.touching import Touching, no_contacts
 from kernels.plates.layout import PER_NODE, POSITION
-from kernels.terms.moves import MOVE_MARGIN, listed_share
+from kernels.shared.moves import MOVE_MARGIN, listed_share
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
 MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle

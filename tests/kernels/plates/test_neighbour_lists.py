@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.geometry.space import crossing
-from kernels.plates import reach
-from kernels.plates.reach import MOST_TURN
+from kernels.plates import neighbour_lists
+from kernels.plates.neighbour_lists import MOST_TURN
 from tests.support.kernels.pressed_plates import (
     SIDE,
     T,
@@ -77,7 +77,7 @@ def crossings(x, touch):
 def test_lists_hold_while_nodes_move_less_than_half_of_the_margin():
     of = scene("glued")
     problem = whole(of, of.x_rest).problem
-    half = 0.5 * reach.MARGIN * of.terms.contact.reach
+    half = 0.5 * neighbour_lists.MARGIN * of.terms.contact.reach
     assert problem.covers(of.x_rest, 0.99 * half)
     assert not problem.covers(of.x_rest, 1.01 * half)
     moved = of.x_rest.copy()
@@ -102,6 +102,6 @@ def test_the_least_gap_is_that_of_the_nearest_nodes_and_triangles():
     x[6 * node] = SIDE - 0.5 * T
     wall = np.abs(mesh.rest[:, 0] - SIDE) < 0.3 * T
     x[:-2].reshape(-1, 6)[wall, 0] = SIDE
-    assert reach.least_gap(whole(of, x).problem, x) == pytest.approx(0.5 * T)
+    assert neighbour_lists.least_gap(whole(of, x).problem, x) == pytest.approx(0.5 * T)
     x[touch.high] = x[:-2].reshape(-1, 6)[touch.high_nodes, 2].max() + 0.3 * T
-    assert reach.least_gap(whole(of, x).problem, x) == pytest.approx(0.3 * T)
+    assert neighbour_lists.least_gap(whole(of, x).problem, x) == pytest.approx(0.3 * T)
