@@ -79,7 +79,7 @@ anything other than numerical settings are studied separately. A method is a cho
 solver.integrator, solver.element, contact.model and the like; solver.time_step, .load_steps,
 .step_error and lattice.nodes_per_wall refine it."""
 WARM = """Compile the kernels now, so that the next run starts at once; otherwise the first run
-compiles them. It takes half a minute to a minute, or two by the stock compiler (CRUMPLE_COMPILER),
+compiles them. It takes a minute or two, or three by the stock compiler (CRUMPLE_COMPILER),
 and again after an update of Crumple or of its packages. The code is kept in CRUMPLE_CACHE_DIR, else
 in ~/.cache/crumple: one call serves all machines of a cluster that share this folder and have the
 same processor."""

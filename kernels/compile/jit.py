@@ -6,31 +6,15 @@ and compensated sums); ``@jit_owning`` is exact too and may make arrays. All rel
 that threads run side by side.
 
 A kernel that Python calls becomes machine code at the first such call, together with all that it
-calls, and is kept (`cache`). `choice` says which compiler does that.
+calls, and is kept (`cache`).
 """
 
 import numba
 
 from kernels.compile import cache, verbs  # noqa: F401  (cache: Numba keeps code in that folder)
-from kernels.compile.choice import FAST, compiler
-
-if compiler() == FAST:
-    from kernels.compile.fast.kernel import Kernel
-else:
-    from kernels.compile.stock import Kernel
+from kernels.compile.kernel import Kernel
 
 verbs.register(lambda found: isinstance(found, Kernel))
-
-
-def separate(kernel):
-    """Have other kernels call the machine code of ``kernel``, one of a module, where it is, if the
-    compiler can do that.
-    """
-    if "<locals>" in kernel.__qualname__:
-        raise TypeError(f"{kernel.__qualname__}: allowed are kernels that can be imported")
-    if isinstance(kernel, Kernel):  # else all is plain Python
-        kernel.is_separate = True
-    return kernel
 
 
 def decorator(fastmath, owning=False):

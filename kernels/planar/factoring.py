@@ -1,6 +1,6 @@
 """The Hessian of a lattice at the point of the last `potential.evaluate`, factored and solved."""
 
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.linear.condensed import block_ldlt, system
 from kernels.linear.condensed.block_matrix import clear
 from kernels.shared.lagging import slip_of
@@ -10,7 +10,6 @@ from kernels.terms import contact, damping, fold, friction, inertia, spring
 LENGTHS = 2  # x and y, the first slots of a block
 
 
-@separate
 @jit_exact
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.arrays import pair, triple
-from kernels.compile.jit import jit_exact, jit_owning, separate
+from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry import ccd, near_pairs
 from kernels.geometry.near_pairs import Pairs
 from kernels.linear.condensed import analysis
@@ -69,7 +69,6 @@ def _first_fold(x, dx, scene):
     return first
 
 
-@separate
 @jit_owning
 def list_neighbours(scene, x, move):
     """Return pairs, margin and projection pairs that hold for a ``move`` (m) from ``x``."""
@@ -86,7 +85,6 @@ def list_neighbours(scene, x, move):
     return pairs, margin, projection_pairs
 
 
-@separate
 @jit_owning
 def make_system(scene, x, pairs, lagged_contacts):
     """Return the system with room for all couplings of nodes that may soon share a term."""

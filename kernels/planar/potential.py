@@ -11,7 +11,7 @@ The Hessian is in `factoring`.
 import numpy as np
 
 from kernels.arrays import add, copy, zero_rows
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.planar.neighbour_lists import drift
 from kernels.shared import lagging, moves
 from kernels.shared.rows import BEND, CONTACT, STRETCH
@@ -28,7 +28,6 @@ LEAST = np.dtype(
 )
 
 
-@separate
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""

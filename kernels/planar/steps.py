@@ -1,13 +1,12 @@
 """Start and end of a step of a lattice: data of damping, commit, roll back, projection."""
 
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.planar import position_based
 from kernels.planar.potential import recall
 from kernels.shared.rows import BEND, STRETCH
 from kernels.terms import bend, damping, stretch
 
 
-@separate
 @jit_exact
 def begin(problem, step, ahead, scratch):
     """Set the pace of the laws, renew the frames of the elements at x0, and measure the shape that

@@ -8,7 +8,7 @@ are positive.
 """
 
 from kernels.arrays import zero
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.linear.pivots import ROUNDED, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal import matrix as blocks
@@ -62,7 +62,6 @@ def _shifted(problem):
     return False
 
 
-@separate
 @jit_exact
 def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""

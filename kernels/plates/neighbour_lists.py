@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit_exact, jit_owning, separate
+from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.space import near
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.matrix import Matrix
@@ -40,7 +40,6 @@ def n_nodes(scene):
     return scene.layout.block.size
 
 
-@separate
 @jit_owning
 def list_pairs(scene, x, move):
     """Return pairs that hold for a ``move`` (m) from ``x``, and their margin, m."""
@@ -48,7 +47,6 @@ def list_pairs(scene, x, move):
     return pairs.find(x, scene.contact, scene.contact.reach + margin), margin
 
 
-@separate
 @jit_owning
 def make_matrix(scene, listed, lagged_contacts):
     """Return the matrix with room for all couplings of nodes that may soon share a term."""

@@ -9,7 +9,7 @@ vanishes. The Hessian is in `factoring`.
 """
 
 from kernels.arrays import copy, zero
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.plates.contacts import contact, mirror
 from kernels.plates.element import shell
 from kernels.plates.neighbour_lists import drift
@@ -18,7 +18,6 @@ from kernels.shared.rows import BEND, CONTACT, STRETCH
 from kernels.terms import inertia, loads
 
 
-@separate
 @jit_exact
 def evaluate(problem, x, step, found, projected):
     """Return E in J; fill ``found``."""

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.arrays import copy, dot, zero
-from kernels.compile.jit import jit_exact, separate
+from kernels.compile.jit import jit_exact
 from kernels.solve.outcomes import (
     CONVERGED,
     INTERRUPTED,
@@ -324,7 +324,6 @@ def _descend(x, problem, step, tolerance, workspace, descent, control):
         move = _choose_move(slope, escape, coordinates, work, descent)
 
 
-@separate
 @jit_exact
 def minimise(x, problem, step, tolerance, workspace, descent, control):
     """Minimise over ``x`` (n,), in place, with the driven coordinate at ``descent.target``.

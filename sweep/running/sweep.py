@@ -107,13 +107,10 @@ def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
     what = "arcs" if arcs else "marches"
     if not is_cold("arcs", what) and not (plates and is_cold("plates")):
         return load()
-    from kernels.compile.precompile import compile_ahead
-
-    takes = "half a minute to one" if compiler() == FAST else "two minutes"
+    takes = "a minute or two" if compiler() == FAST else "two or three minutes"
     announce(f"compiling the kernels, once: this takes {takes}")
     if not is_lasting():
         announce(f"for this run alone: {UNWRITABLE}")
-    compile_ahead(load)
     loaded = load()
     for name in [what, *(["plates"] if plates else [])]:
         warmed_up(name)

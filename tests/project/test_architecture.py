@@ -60,7 +60,7 @@ print([main(words) for words in {calls}])
 """
 # Modules without a test file at their place, or packages of them, and which file tests them.
 TESTED_ELSEWHERE = {
-    "kernels.compile.undisturbed": "kernels/compile/fast/test_linking.py",
+    "kernels.compile.undisturbed": "kernels/compile/test_jit.py",
     "kernels.compile.reference": "kernels/solve/test_first_guess.py",
     "kernels.compile.verbs": "kernels/solve/test_chain.py",
     "kernels.geometry.space.vectors": "kernels/geometry/space/test_surface.py",
@@ -291,7 +291,7 @@ def test_names_say_what_a_thing_is():
     modules = [m for m in SOURCES if m.split(".")[-1] in {"utils", "helpers", "common", "misc"}]
     names = [f"{m}.{f.name}" for m in PROGRAM for f in functions(m) if f.name.startswith(empty)]
     assert modules == []
-    assert set(names) <= {"kernels.compile.fast.abi.get_argument_type"}  # as numba asks for it
+    assert names == []
 
 
 def test_every_module_has_its_tests_at_its_place():

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kernels.compile.jit import jit_exact, jit_owning, separate
+from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.simd import LANES
 from kernels.linear import minimum_degree
 from kernels.linear.condensed import block_matrix, condense
@@ -269,7 +269,6 @@ def _scattered(layout, row_start, kind, home, start, row):
     return Scattered(first, source[:t].copy(), target[:t].copy())
 
 
-@separate
 @jit_owning
 def analyse(layout, walls, couplings):
     """Return a `System` with room for ``couplings`` (c, k): points that share a term, repeats

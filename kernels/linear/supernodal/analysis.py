@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kernels.compile.jit import jit_exact, jit_owning, separate
+from kernels.compile.jit import jit_exact, jit_owning
 from kernels.linear import minimum_degree
 from kernels.linear.supernodal.dissection import dissect, neighbours
 from kernels.linear.supernodal.matrix import COLUMNS, ROWS, Matrix, rounded_up
@@ -166,7 +166,6 @@ def _unknown_rows(below, rows, begin):
     return offset, lower, row
 
 
-@separate
 @jit_owning
 def analyse(sizes, pairs, points):
     """Return a zero `Matrix`.

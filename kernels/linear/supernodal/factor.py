@@ -3,7 +3,7 @@
 Pivots that are zero within round-off are treated as in `condensed.block_ldlt`.
 """
 
-from kernels.compile.jit import jit, jit_exact, separate
+from kernels.compile.jit import jit, jit_exact
 from kernels.linear.pivots import ROUNDED, SOFT, THROUGH, regularised
 from kernels.linear.supernodal.dense import divide, pack, subtract
 from kernels.linear.supernodal.fronts import assemble, strip
@@ -123,7 +123,6 @@ def _read_diagonal(matrix, weights, shift):
             matrix.own[place] = entry + shift * weights[matrix.unknown[place]]
 
 
-@separate
 @jit_exact
 def factor(matrix, scale, weights, shift, rounded):
     """Factor A + shift diag(weights) = L D L^T; ``values`` keeps A.

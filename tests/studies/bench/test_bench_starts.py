@@ -36,6 +36,5 @@ def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
     )
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda *_: True)
     monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda _: None)
-    monkeypatch.setattr("kernels.compile.precompile.compile_ahead", lambda _: None)
     real_simulate()
     assert "for this run alone: CRUMPLE_CACHE_DIR, else" in capsys.readouterr().err

@@ -1,13 +1,12 @@
-"""What the stock compiler keeps, and what it must not."""
+"""What is kept of compiled kernels, and what must not be."""
 
-import gc
 from typing import NamedTuple
 
 import numba
 import numpy as np
 import pytest
 
-from kernels.compile import stock
+from kernels.compile.kernel import Kernel, is_of_kernels
 from kernels.compile.reference import by_reference
 from kernels.solve.problem import Found
 
@@ -35,7 +34,7 @@ def second(pair):
 
 
 def compiled(function):
-    return stock.Kernel(function, fastmath=False, owning=True)
+    return Kernel(function, fastmath=False, owning=True)
 
 
 def kept(folder):
@@ -55,9 +54,9 @@ def test_what_is_compiled_for_tuples_from_elsewhere_is_not_kept(cache):
 def test_tuples_of_kernels_are_known():
     array = np.zeros(1)
     found = Found(*[array] * len(Found._fields))
-    assert stock.is_of_kernels(found)
-    assert stock.is_of_kernels(by_reference(found))
-    assert not stock.is_of_kernels(found._replace(u=Pair(array, 1.0)))
+    assert is_of_kernels(found)
+    assert is_of_kernels(by_reference(found))
+    assert not is_of_kernels(found._replace(u=Pair(array, 1.0)))
 
 
 def test_kernels_call_kernels(cache):
@@ -70,11 +69,3 @@ def test_kernels_call_kernels(cache):
     assert inner.linked.signatures
     assert "entry" not in vars(inner)
     assert kept(cache) == 1
-
-
-def test_the_collector_rests_while_all_is_compiled_ahead():
-    seen = []
-    assert gc.isenabled()
-    stock.compile_ahead(lambda: seen.append(gc.isenabled()))
-    assert seen == [False]
-    assert gc.isenabled()

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numba.extending import overload
 
-from kernels.compile.fast import linking
+from kernels.compile import linking
 from kernels.compile.jit import jit, jit_owning
 from kernels.compile.undisturbed import undisturbed
 
@@ -63,7 +63,7 @@ def test_linked_kernels_take_no_tuple_apart_in_vain():
         return dot(Pair(array, array))
 
     assert squared(np.arange(3.0)) == 5.0
-    (compiled,) = dot.overloads.values()
+    (compiled,) = dot.linked.overloads.values()
     code = str(compiled.library._final_module)
     assert "load double" in code
     assert "insertvalue" not in code

@@ -1,4 +1,4 @@
-"""Kernels of the stock compiler: `numba.njit`, and what Numba documents for extensions.
+"""What a decorated function becomes: a `Kernel`, which other kernels and Python can call.
 
 Code for Python takes hundreds of arrays out of named tuples, which is more to compile than most
 kernels are. So a kernel is two functions of Numba: one that kernels call, without such code, and
@@ -8,12 +8,22 @@ one for Python, made at its first call. Only the latter is kept: it contains all
 import functools
 
 import numba
+from numba.core.options import DefaultOptions
 from numba.extending import typeof_impl
 
+from kernels.compile.choice import FAST, compiler
 from kernels.compile.reference import Referenced, referred
 from kernels.compile.undisturbed import undisturbed
 
 PACKAGE = __name__.rsplit(".", 2)[0] + "."
+
+if compiler() == FAST:
+    from kernels.compile.linking import Compiler
+    from kernels.compile.sealed import SealedCache
+
+    HOW = {"pipeline_class": Compiler}
+else:
+    HOW, SealedCache = {}, None
 
 
 def is_of_kernels(value):
@@ -29,7 +39,11 @@ def is_of_kernels(value):
 
 
 class Kernel:
-    """A function for other kernels to call, and for Python: that is its `entry`."""
+    """A function for other kernels to call, and for Python: that is its `entry`.
+
+    One that is not ``owning`` counts no references, which costs four times the arithmetic of an
+    assembly: it may read and fill arrays but must not make any.
+    """
 
     def __init__(self, function, fastmath, owning):
         self._options = {
@@ -37,19 +51,39 @@ class Kernel:
             "error_model": "numpy",
             "fastmath": fastmath,
             "no_cfunc_wrapper": True,
-        }
-        self.linked = numba.njit(no_cpython_wrapper=True, **self._options)(function)
+        } | HOW  # fmt: skip
+        if not owning and hasattr(DefaultOptions, "_nrt"):
+            self._options["_nrt"] = False
+        self.linked = self._dispatcher(function, no_cpython_wrapper=True)
         functools.update_wrapper(self, function)
+
+    def _dispatcher(self, function, **more):
+        """Numba's dispatcher.
+
+        A constant argument gets no version of its own, which Numba would compile for every one.
+        """
+        dispatcher = numba.njit(**self._options, **more)(function)
+        typed = dispatcher.get_call_template
+        dispatcher.get_call_template = lambda args, kws: typed(
+            [numba.types.unliteral(kind) for kind in args], kws
+        )
+        return dispatcher
 
     @functools.cached_property
     def entry(self):
         """The dispatcher for calls from Python, whose machine code is kept."""
-        return numba.njit(cache=True, **self._options)(self.__wrapped__)
+        entry = self._dispatcher(self.__wrapped__, cache=True)
+        if SealedCache is not None:
+            entry._cache = SealedCache(self.__wrapped__)
+        entry.compile = undisturbed(entry.compile)
+        return entry
 
     @functools.cached_property
     def passing(self):
         """The dispatcher for calls from Python whose machine code must not be kept."""
-        return numba.njit(**self._options)(self.__wrapped__)
+        passing = self._dispatcher(self.__wrapped__)
+        passing.compile = undisturbed(passing.compile)
+        return passing
 
     def __call__(self, *args):
         """Call it from Python."""
@@ -63,8 +97,3 @@ class Kernel:
 @typeof_impl.register(Kernel)
 def _typeof(kernel, context):
     return typeof_impl(kernel.linked, context)
-
-
-def compile_ahead(run):
-    """Run it once, undisturbed: what it needs is compiled at its calls."""
-    undisturbed(run)()

@@ -7,8 +7,8 @@ from pathlib import Path
 import numba
 import pytest
 
-from kernels.compile.fast.sealed import SealedFiles, seal
 from kernels.compile.jit import jit
+from kernels.compile.sealed import SealedFiles, seal
 from tests.support.kernels import packages
 
 DAMAGE = {

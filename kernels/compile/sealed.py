@@ -10,13 +10,9 @@ import io
 import uuid
 from pathlib import Path
 
-from numba.core import types
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
-from kernels.compile.reference import Reference
-
 SEAL_BYTES = 16
-PACKAGE = __name__.rsplit(".", 3)[0] + "."
 
 
 def seal(content):
@@ -31,18 +27,6 @@ def is_sealed(path):
     except OSError:
         return False
     return content[-SEAL_BYTES:] == seal(content[:-SEAL_BYTES])
-
-
-def is_of_kernels(kind):
-    """Whether what an argument type stands for is in the sources that name the folder: the verbs of
-    a named tuple from elsewhere may change, and nobody would see it.
-    """
-    if isinstance(kind, Reference):
-        return is_of_kernels(kind.kind)
-    if not isinstance(kind, types.BaseTuple):
-        return True
-    home = getattr(kind, "instance_class", tuple).__module__
-    return home.startswith(("builtins", PACKAGE)) and all(map(is_of_kernels, kind))
 
 
 class SealedFiles(IndexDataCacheFile):
@@ -73,35 +57,24 @@ class SealedFiles(IndexDataCacheFile):
 
 
 class SealedCache(FunctionCache):
-    """Cache of one function. What cannot be read or written costs a compilation, never a result.
+    """Cache of one function. What cannot be read or written costs a compilation, never a result."""
 
-    ``kind``: of its code, if there are several.
-    """
-
-    def __init__(self, function, kind=""):
+    def __init__(self, function):
         super().__init__(function)
         self._cache_file = SealedFiles(
             cache_path=self._cache_path,
-            filename_base=self._impl.filename_base + kind,
+            filename_base=self._impl.filename_base,
             source_stamp=self._impl.locator.get_source_stamp(),
         )
 
     def load_overload(self, sig, target_context):
         """Kept code for a signature, or None."""
-        if not all(map(is_of_kernels, sig)):
-            return None
         try:
             return super().load_overload(sig, target_context)
         except Exception:  # noqa: BLE001  (whatever unpickling or linking foreign code can raise)
             return None
 
     def save_overload(self, sig, data):
-        """Keep the code of a signature, if it can be.
-
-        It cannot on a full disk, or where numba cannot pickle it: the call from Python of some
-        separate kernels.
-        """
-        if not all(map(is_of_kernels, sig)):
-            return
-        with contextlib.suppress(OSError, TypeError):
+        """Keep the code of a signature, if the disk has room for it."""
+        with contextlib.suppress(OSError):
             super().save_overload(sig, data)
