@@ -223,9 +223,9 @@ def parser() -> Parser:
 
 def _add_run(verbs: Any) -> None:
     """Add the verb that simulates."""
-    known = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
+    epilog = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
     run = verbs.add_parser(
-        "run", help="simulate a sweep", description=RUN, epilog=known, formatter_class=AS_WRITTEN
+        "run", help="simulate a sweep", description=RUN, epilog=epilog, formatter_class=AS_WRITTEN
     )
     offer(run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     run.add_argument(
@@ -495,16 +495,18 @@ def _named(text: str, end: str) -> str:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
-    known = parser()
-    complete(known)
-    arguments, unknown = known.parse_known_args(argv)
+    argument_parser = parser()
+    complete(argument_parser)
+    arguments, unknown = argument_parser.parse_known_args(argv)
     if unknown:
-        known.verbs[arguments.verb].refuse(unknown)
+        argument_parser.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs
     from sweep.cli.refusals import refusals
 
     if arguments.verb not in verbs.VERBS:
-        known.verbs[arguments.verb].error("ALL of sweep/cli/verbs.py has no function for it")
+        argument_parser.verbs[arguments.verb].error(
+            "ALL of sweep/cli/verbs.py has no function for it"
+        )
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash

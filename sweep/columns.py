@@ -434,15 +434,15 @@ def describe_history(name: str) -> Column:
 
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
-    known = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
+    names = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
     derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION)
-    return not (name in known or any(pattern.fullmatch(name) for pattern in derived))
+    return not (name in names or any(pattern.fullmatch(name) for pattern in derived))
 
 
 def describe_column(name: str) -> Column:
     """Meaning of a column of a summary or a ranking: fixed, derived from a name, or a grid key."""
-    if found := (COLUMNS | STORED_COLUMNS | RANKING_COLUMNS).get(name):
-        return found
+    if column := (COLUMNS | STORED_COLUMNS | RANKING_COLUMNS).get(name):
+        return column
     if match := ERROR.fullmatch(name):
         units = describe_column(match[1]).units
         meaning = f"estimated discretisation error of {match[1]}, no bound; NaN: no estimate"

@@ -73,15 +73,15 @@ def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     return f"{why}; allowed: an id, such as that of the {word} design: {named_case(row, summary)}"
 
 
-def _scene(labels: list[str], wanted: str | None, usual: str) -> str:
+def _scene(labels: list[str], query: str | None, usual: str) -> str:
     """The label of a scene: the usual one, or the one with this number or with these words."""
-    if wanted is None:
+    if query is None:
         return usual or labels[0]
-    if wanted.isdecimal() and 0 < int(wanted) <= len(labels):
-        return labels[int(wanted) - 1]
-    matches = [label for label in labels if wanted.lower() in label.lower()]
-    if len(matches) == 1 or wanted in matches:
-        return wanted if wanted in matches else matches[0]
+    if query.isdecimal() and 0 < int(query) <= len(labels):
+        return labels[int(query) - 1]
+    matches = [label for label in labels if query.lower() in label.lower()]
+    if len(matches) == 1 or query in matches:
+        return query if query in matches else matches[0]
     choices = "; ".join(f"{k}: {label}" for k, label in enumerate(labels, 1))
     why = f"in {len(matches)} scenes" if matches else "in no scene"
-    raise CaseError(f'--scene "{wanted}": {why}; allowed: a number or words of {choices}')
+    raise CaseError(f'--scene "{query}": {why}; allowed: a number or words of {choices}')

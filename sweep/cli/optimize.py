@@ -46,7 +46,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
     search = Search(space, question, out, how)
     search.run()
     failed = _show_best(search)
-    if arguments.pareto and search.found and search.found.by_id:
+    if arguments.pareto and search.assessment and search.assessment.by_id:
         _show_front(search, arguments.pareto)
     say_all(_to_print(search))
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
@@ -111,8 +111,8 @@ def _with_force(config: Config, question: Question) -> Config:
         return config  # a force of the panel is looked up in the curves
     force = in_si(question.allowed_force, "N")
     recipe = config.recipe
-    known = recipe.base[FORCES].value if FORCES in recipe.base else ()
-    forces = tuple(dict.fromkeys([*known, force]))
+    recipe_forces = recipe.base[FORCES].value if FORCES in recipe.base else ()
+    forces = tuple(dict.fromkeys([*recipe_forces, force]))
     base = recipe.base | {FORCES: Written(forces, str(forces), FORCES)}
     return replace(config, recipe=replace(recipe, base=base))
 
@@ -139,21 +139,21 @@ def _show_best(search: Search) -> int:
     from sweep.running.searching.search import MOST_TRIED
     from sweep.store.read import read_summary
 
-    found, question = search.found, search.question
+    assessment, question = search.assessment, search.question
     if not search.cases:
         budget = f" of at most {question.budgets[0]}" if question.budget else ""
         panel = " that fits the panel" if question.panel else ""
         tried = f"none of {MOST_TRIED:,} points of [search] gives a design{budget}{panel}"
         raise OptimizeError(f"{tried}; allowed: more mass, a larger panel, or a wider search")
-    if found is None or not (found.by_id or found.missed):
+    if assessment is None or not (assessment.by_id or assessment.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))
-    if found.doubtful:
-        say(f"Excluded: {found.doubtful} designs whose results rank marks with ! or x.")
-    if not found.by_id:
+    if assessment.doubtful:
+        say(f"Excluded: {assessment.doubtful} designs whose results rank marks with ! or x.")
+    if not assessment.by_id:
         _show_nearest(search)
         return 0
-    best = finalists(search.cases[case_id] for case_id in found.by_id)
+    best = finalists(search.cases[case_id] for case_id in assessment.by_id)
     again = {case.case_id: perturbed(case) for case in best}
     run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
     summary, beside = search.rows(), file_beside(search.out, "spread")
@@ -172,11 +172,11 @@ def _show_nearest(search: Search) -> None:
     from sweep.report.tables.sheets import ranking_sheets
     from sweep.running.searching.finalists import finalists
 
-    assert search.found is not None
+    assert search.assessment is not None
     summary, question = search.rows(), search.question._replace(top=None)
     say(f"None of {len(search.cases)} designs fulfils all requirements.")
     print_sheets(ranking_sheets(answer(summary, question), summary))
-    whole, missed = answer(summary, question._replace(require=None)), search.found.missed
+    whole, missed = answer(summary, question._replace(require=None)), search.assessment.missed
     chosen = [case.case_id for case in finalists(search.cases[case_id] for case_id in missed)]
     print_sheets([nearest_sheet(whole, {one: missed[one] for one in chosen}, summary)])
 
@@ -185,32 +185,32 @@ def _show_front(search: Search, other: str) -> None:
     from sweep.ranking.assessment import front, thinned
     from sweep.report.tables.search_sheets import front_sheet
 
-    assert search.found is not None
+    assert search.assessment is not None
     summary = search.rows()
-    rows = thinned(front(summary, search.question, other), (other, search.found.column))
+    rows = thinned(front(summary, search.question, other), (other, search.assessment.column))
     print_sheets([front_sheet(rows, summary, other)])
 
 
 def _to_print(search: Search) -> Iterator[str]:
     """The command that exports the first design, or the one that comes nearest."""
-    found = search.found
-    first = next(iter({**found.by_id, **found.missed}), None) if found else None
+    assessment = search.assessment
+    first = next(iter({**assessment.by_id, **assessment.missed}), None) if assessment else None
     if first is None or search.cases[first].lattice.endless:
         return
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
     panel = search.question.panel or ()
     if panel:
         words += ["--panel", *(p if isinstance(p, str) else text_in(p, "mm", 6) for p in panel)]
-    which = "first" if found and found.by_id else "nearest"
+    which = "first" if assessment and assessment.by_id else "nearest"
     yield f"to print the {which}: {shlex.join(words)}"
 
 
 def _next_command(out: str, question: Question) -> str:
     """The command that ranks the results as the search did."""
     words = ["crumple", "rank", str(out)]
-    asked = {name: getattr(question, name) for name in ("budget", "panel", "by", "allowed_force")}
-    asked |= {"per": question.per if question.per == "panel" else None}
-    for name, given in (asked | dict(question.require or {})).items():
+    options = {name: getattr(question, name) for name in ("budget", "panel", "by", "allowed_force")}
+    options |= {"per": question.per if question.per == "panel" else None}
+    for name, given in (options | dict(question.require or {})).items():
         values = [given] if isinstance(given, str) else [] if given is None else given
         if not isinstance(values, float) and all(isinstance(value, str) for value in values):
             words += [f"--{name.replace('_', '-')}", *values] if values else []

@@ -60,8 +60,8 @@ def _required(arguments: Namespace) -> dict[str, Any]:
     from sweep.ranking.requirement_table import MEASURES
 
     given = {name: getattr(arguments, name) for name in MEASURES}
-    wished = stored_table(arguments.file, "require") | {k: v for k, v in given.items() if v}
-    return {name: value for name, value in wished.items() if value not in (None, "none")}
+    requirements = stored_table(arguments.file, "require") | {k: v for k, v in given.items() if v}
+    return {name: value for name, value in requirements.items() if value not in (None, "none")}
 
 
 def stored_table(file: str, table: str) -> dict[str, Any]:

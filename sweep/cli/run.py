@@ -109,7 +109,7 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) 
         say("No number of the best designs is uncertain.")
         return 0
     run_corners(corners, out, *how)
-    ids = {design: [(c.name, c.case_id) for c in found] for design, found in corners.items()}
-    found = spreads(ranking, read_summary(file_beside(out, "spread")), ids, question)
-    print_sheets(spread_sheets(found, summary))
-    return sum(spread.failed for spread in found)
+    ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
+    results = spreads(ranking, read_summary(file_beside(out, "spread")), ids, question)
+    print_sheets(spread_sheets(results, summary))
+    return sum(spread.failed for spread in results)

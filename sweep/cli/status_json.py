@@ -52,8 +52,8 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
 
 def missing_cases(summary: DataFrame, about: Mapping[str, Any]) -> int:
     """How many cases the last run was asked for that the file does not hold: it was interrupted."""
-    held = len(summary) - int(about["other_cases"])
-    return max(int(about["asked_cases"]) - held, 0)
+    count = len(summary) - int(about["other_cases"])
+    return max(int(about["asked_cases"]) - count, 0)
 
 
 def _text(about: Mapping[str, Any], name: str) -> str | None:

@@ -57,11 +57,11 @@ class Case(BaseModel):
 
         `RefusedError` says what contradicts what, or which keys a table of its kind has.
         """
-        wanted = {name: _values(values) for name, values in tables.items()}
-        if other := next((name for name in wanted if name not in TABLES), None):
+        contents = {name: _values(values) for name, values in tables.items()}
+        if other := next((name for name in contents if name not in TABLES), None):
             raise RefusedError(other, None, f"the tables {', '.join(TABLES)}")
-        case = complete(wanted).sound()
-        for name, values in wanted.items():
+        case = complete(contents).sound()
+        for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
         return case.model_copy(update={"axes": dict(axes or {})})
 
@@ -161,41 +161,39 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     The loading is checked even if the material and the lattice are refused.
     """
     draft = Draft({} if made is None else made)
-    wanted = {name: _frozen(given.get(name, {})) for name in TABLES}
-    press = dict(wanted["loading"])
-    along, integrator = is_along(press), dict(wanted["solver"]).get("integrator")
-    material = draft.add("material", materials.material, wanted["material"], along)
+    pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
+    press = dict(pairs["loading"])
+    along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
+    material = draft.add("material", materials.material, pairs["material"], along)
     density = material.density if material else None
     lattice = None
-    if density or "mass" not in dict(wanted["lattice"]):
-        lattice = draft.add("lattice", lattice_of, wanted["lattice"], density or 1.0, along)
-    pressed = _pressed(lattice, dict(wanted["lattice"]), along)
-    relaxes = material.relaxes if material else materials.relaxes(dict(wanted["material"]))
-    loading = draft.add(
-        "loading", loadings.loading, wanted["loading"], pressed, integrator, relaxes
-    )
+    if density or "mass" not in dict(pairs["lattice"]):
+        lattice = draft.add("lattice", lattice_of, pairs["lattice"], density or 1.0, along)
+    pressed = _pressed(lattice, dict(pairs["lattice"]), along)
+    relaxes = material.relaxes if material else materials.relaxes(dict(pairs["material"]))
+    loading = draft.add("loading", loadings.loading, pairs["loading"], pressed, integrator, relaxes)
     if loading is not None and material is not None:
-        _numerics(draft, wanted, pressed, loading, material)
+        _numerics(draft, pairs, pressed, loading, material)
     return draft
 
 
 def _numerics(
     draft: Draft,
-    wanted: Mapping[str, Pairs],
+    pairs: Mapping[str, Pairs],
     pressed: Pressed,
     loading: Loading,
     material: Material,
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
-    asked, relaxes = dict(wanted["contact"]), material.relaxes
-    diagonal, by_position = _diagonal(draft.tables), asked.get("model") == "position_based"
+    contact_table, relaxes = dict(pairs["contact"]), material.relaxes
+    diagonal, by_position = _diagonal(draft.tables), contact_table.get("model") == "position_based"
     where = loading, pressed.height, diagonal, by_position
-    solver = draft.add("solver", steps.solver, wanted["solver"], material.remembers, *where)
+    solver = draft.add("solver", steps.solver, pairs["solver"], material.remembers, *where)
     if solver is None:
         return
-    contact = (wanted["contact"], loading, pressed.structure, solver.integrator)
+    contact = (pairs["contact"], loading, pressed.structure, solver.integrator)
     if draft.add("contact", contacts.contact, *contact):
-        draft.add("damping", dampings.damping, wanted["damping"], loading, relaxes)
+        draft.add("damping", dampings.damping, pairs["damping"], loading, relaxes)
         draft.add("solver", steps.in_the_plane, solver, material, loading)
 
 

@@ -23,11 +23,11 @@ class ConfigError(ValueError):
 
 def _shown(faults: list[Fault]) -> list[str]:
     """One line each for `SHOWN` faults; the first fault of every key goes before further ones."""
-    seen: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     repeats = []  # number of earlier faults of the same key
     for fault in faults:
-        repeats.append(seen[fault.key])
-        seen[fault.key] += 1
+        repeats.append(counts[fault.key])
+        counts[fault.key] += 1
     chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
     more = len(faults) - len(chosen)
     counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []

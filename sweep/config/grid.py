@@ -124,7 +124,7 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], int]:
             unused = still_unused(unused, draft.given, draft.case) if unused else unused
     if refused and not (recipe.search and cases):
         count = max(count, *map(len, refused.values()))
-        raise ConfigError([_merged(found, count, recipe) for found in refused.values()])
+        raise ConfigError([_merged(refusals, count, recipe) for refusals in refused.values()])
     if unprintable and not cases:
         raise ConfigError([_merged(unprintable, count, recipe)])
     if not cases:
@@ -276,15 +276,15 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
         return sentence
     scale = float(match[1]) / written.value
     in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")
-    return in_si.sub(lambda found: f"{float(found[1]) * scale:.4g} {match[2]}", sentence)
+    return in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
 
 
-def _merged(found: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
+def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
     """One fault for all cases that share it, with the line of the first and what only they have."""
-    (key, line), _ = found[0]
+    (key, line), _ = refusals[0]
     if count > 1:
-        shared = _shared(key, [chosen for _, chosen in found], recipe)
-        line += f" ({len(found):,} of {count:,} combinations{shared})"
+        shared = _shared(key, [chosen for _, chosen in refusals], recipe)
+        line += f" ({len(refusals):,} of {count:,} combinations{shared})"
     return Fault(key, line)
 
 

@@ -103,9 +103,9 @@ class Key:
 @cache
 def case_keys() -> dict[str, Key]:
     """The keys of a case by their dotted names, including aliases."""
-    known = {name: key for table in TABLES for name, key in table_keys(table).items()}
-    return known | {
-        alias: replace(known[targets[0]], targets=targets) for alias, targets in ALIASES.items()
+    keys = {name: key for table in TABLES for name, key in table_keys(table).items()}
+    return keys | {
+        alias: replace(keys[targets[0]], targets=targets) for alias, targets in ALIASES.items()
     }
 
 
@@ -123,9 +123,9 @@ def table_keys(table: str) -> dict[str, Key]:
     return keys | {name: _key(name, choices) for name, choices in chosen.items()}
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
+def nearest(name: str, candidates: Iterable[str]) -> str:
     """The known name most similar to this one; names that begin with it come first."""
-    names = list(known)
+    names = list(candidates)
     begun = [other for other in names if other.startswith(name)]
     return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
 

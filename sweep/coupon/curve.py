@@ -49,12 +49,12 @@ class Loading:
         """Stresses (k,) at the points, in Pa, with which a law of this memory has the first loading
         of the record; and the stress (n,) of that law in all rows.
         """
-        at_points, found = self.record, self.replay(self.record, memory)
+        at_points, stress = self.record, self.replay(self.record, memory)
         for _ in range(ROUNDS):
-            model = _rising(self.fitting @ (self.sign * found[self.rows]))
+            model = _rising(self.fitting @ (self.sign * stress[self.rows]))
             at_points = _rising(at_points * self.record / model)
-            found = self.replay(at_points, memory)
-        return at_points, found
+            stress = self.replay(at_points, memory)
+        return at_points, stress
 
     def replay(self, at_points: Floats, memory: dict[str, float]) -> Floats:
         """The stress (n,) in all rows of a material with these stresses at the points."""
@@ -109,12 +109,12 @@ def tension(strain: Floats, stress: Floats) -> Floats:
 
 def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:
     """The rows of all loadings in which the strain is greater than ever before."""
-    found, most = [np.arange(rows[1] + 1)], strain[rows[1]]
+    loadings, most = [np.arange(rows[1] + 1)], strain[rows[1]]
     for low, high in zip(rows[2::2], rows[3::2], strict=False):
         loading = np.arange(low, high + 1)
-        found.append(loading[strain[loading] > most])
+        loadings.append(loading[strain[loading] > most])
         most = max(most, strain[high])
-    return np.concatenate(found)
+    return np.concatenate(loadings)
 
 
 def _sure_points(strain: Floats, stress: Floats) -> Floats:
@@ -142,8 +142,8 @@ def _hats(strain: Floats, points: Floats) -> Floats:
 
 def _rising(stress: Floats) -> Floats:
     """Stresses that rise from point to point."""
-    found = np.array(stress)
-    found[0] = max(found[0], RISE * found[-1])
-    for k in range(1, found.size):
-        found[k] = max(found[k], (1.0 + RISE) * found[k - 1])
-    return found
+    values = np.array(stress)
+    values[0] = max(values[0], RISE * values[-1])
+    for k in range(1, values.size):
+        values[k] = max(values[k], (1.0 + RISE) * values[k - 1])
+    return values

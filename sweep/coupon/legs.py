@@ -15,14 +15,14 @@ def turns(coupon: Coupon) -> list[int]:
     """First row, rows at which the strain turns, and last row."""
     strain = coupon.sign * coupon.strain
     slack = TURN * strain.max()
-    found, extreme, way = [0], 0, 1.0
+    rows, extreme, way = [0], 0, 1.0
     for row in range(1, strain.size):
         if way * (strain[row] - strain[extreme]) > 0.0:
             extreme = row
         elif way * (strain[extreme] - strain[row]) > slack:
-            found.append(extreme)
+            rows.append(extreme)
             extreme, way = row, -way
-    return [*found, extreme] if extreme > found[-1] else found
+    return [*rows, extreme] if extreme > rows[-1] else rows
 
 
 def leg_name(rows: list[int], row: int) -> str:

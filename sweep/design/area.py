@@ -22,10 +22,10 @@ def united_area(loops: Floats) -> float:
     low, high = loops.min(axis=1), loops.max(axis=1)
     order = np.argsort(low[:, 1])
     polygons = loops[order], low[order], high[order]
-    found = np.empty(16 * len(loops))
-    while (count := slabs.heights(*polygons, found)) > len(found):
-        found = np.empty(count)
-    return float(slabs.area(*polygons, np.sort(found[:count])))
+    heights = np.empty(16 * len(loops))
+    while (count := slabs.heights(*polygons, heights)) > len(heights):
+        heights = np.empty(count)
+    return float(slabs.area(*polygons, np.sort(heights[:count])))
 
 
 def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:

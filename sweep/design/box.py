@@ -61,12 +61,12 @@ def _outlines(
     geometry: Geometry, points: Floats, walls: Indices
 ) -> list[tuple[NDArray[np.bool_], float]]:
     """For each side with an outline: which walls lie on it (w,), and their thickness."""
-    found = []
+    outlines = []
     for axis, thickness in enumerate(geometry.outline):
         if thickness > 0.0:
             for side in (0.0, geometry.box[axis]):
-                found.append((on_outline(points, walls, side, axis), thickness))
-    return found
+                outlines.append((on_outline(points, walls, side, axis), thickness))
+    return outlines
 
 
 def opening(geometry: Geometry) -> float:

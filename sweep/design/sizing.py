@@ -50,7 +50,7 @@ def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | 
 
 @lru_cache(maxsize=4096)
 def thickness_for(
-    geometry: Geometry, wanted: float, thickest: float, depth: float, density: float
+    geometry: Geometry, target: float, thickest: float, depth: float, density: float
 ) -> tuple[float, float, float]:
     """Wall thickness (m) for a mass (kg), and the least and greatest mass that are possible.
 
@@ -64,13 +64,13 @@ def thickness_for(
     high = thickest
     low = THIN * high
     light, heavy = weight(low), weight(high)
-    if not light < wanted < heavy:
+    if not light < target < heavy:
         return float("nan"), light, heavy
-    below, above = light - wanted, heavy - wanted
+    below, above = light - target, heavy - target
     middle = low
     for _ in range(60):
         middle = (low * above - high * below) / (above - below)
-        excess = weight(middle) - wanted
+        excess = weight(middle) - target
         if abs(excess) <= CLOSE * heavy:
             break
         if excess < 0.0:

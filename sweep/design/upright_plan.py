@@ -73,9 +73,9 @@ def quads_along(plan: Plan, most: int | Indices) -> Indices:
     thick, but of a wall that is itself shorter there is one.
     """
     share = plan.length / plan.span
-    wanted = np.ceil(share * np.asarray(most) - ROUND_OFF)
+    count = np.ceil(share * np.asarray(most) - ROUND_OFF)
     fit = np.floor(plan.length / plan.thickness * (1.0 + ROUND_OFF))
-    return np.asarray(np.clip(wanted, 1, np.maximum(fit, 1)), np.int64)
+    return np.asarray(np.clip(count, 1, np.maximum(fit, 1)), np.int64)
 
 
 def layers_of(plan: Plan, along: Indices, height: float) -> int:

@@ -24,11 +24,11 @@ def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
     `time_s` if the case takes no time.
     """
     stress = history["reaction_top_N"] / (row["outer_width_m"] * row["depth_m"])
-    found = history.copy()
+    frame = history.copy()
     if not _takes_time(history, row):
-        del found["time_s"]
-    found.insert(found.columns.get_loc(AFTER) + 1, "stress_Pa", stress)
-    return found
+        del frame["time_s"]
+    frame.insert(frame.columns.get_loc(AFTER) + 1, "stress_Pa", stress)
+    return frame
 
 
 def _takes_time(history: DataFrame, row: Mapping[str, Any]) -> bool:

@@ -78,9 +78,9 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     import shapely.affinity
 
     filled, (width, depth) = filled_panel(design, sides), design.footprint
-    for asked, count, one in zip(sides, filled[:2], (width, depth), strict=True):
+    for side, count, one in zip(sides, filled[:2], (width, depth), strict=True):
         if count < 1:
-            raise ExportError(too_small(asked, one))
+            raise ExportError(too_small(side, one))
     across, behind = int(filled.across), int(filled.behind)
     right, up = max(shape.bounds[2], TO_MM * width), max(shape.bounds[3], TO_MM * depth)
     gap, rows = TO_MM * BESIDE, behind if design.along else 1

@@ -111,10 +111,10 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     rows = rows.assign(method=_methods(rows))
     done = rows[rows["status"] == Status.CONVERGED]
     values = _values(file, done)
-    found = {
+    by_method = {
         method: _references(group, values, refined) for method, group in done.groupby("method")
     }
-    finest, references = _chosen(found, refined)
+    finest, references = _chosen(by_method, refined)
     errors = DataFrame(
         {
             name: {i: rms(values[name][i] - ref.value) / ref.scale for i in done.index}
@@ -127,7 +127,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     settings = rows.join(errors.assign(worst=worst))
     orders = {
         method: {name: ref.orders for name, ref in each.items()}
-        for method, (_, each) in found.items()
+        for method, (_, each) in by_method.items()
     }
     return Study(
         settings.assign(front=front(settings, "worst")), finest, references, orders, resolved
@@ -135,15 +135,15 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
 
 
 def _chosen(
-    found: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
+    by_method: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
     """The references of the best method, with more doubt if equal methods have other limits."""
-    merits = {method: _merit(*each, refined) for method, each in found.items()}
+    merits = {method: _merit(*each, refined) for method, each in by_method.items()}
     best = min(merits, key=lambda method: merits[method])
-    equals = [m for m in found if merits[m][:EQUALS] == merits[best][:EQUALS]]
-    finest, references = found[best]
+    equals = [m for m in by_method if merits[m][:EQUALS] == merits[best][:EQUALS]]
+    finest, references = by_method[best]
     return finest, {
-        name: _doubted(ref, [found[method][1][name] for method in equals])
+        name: _doubted(ref, [by_method[method][1][name] for method in equals])
         for name, ref in references.items()
     }
 
@@ -189,8 +189,8 @@ def _extrapolated(series: dict[str, Series], values: dict[int, Floats], finest: 
     """The finest value, extrapolated to its limit along every series of sizes."""
     value, doubt, orders = values[finest], 0.0 if series else np.inf, {}
     for key, of_key in series.items():
-        found = limit(of_key.tolist(), [values[i] for i in of_key.index])
-        value, doubt, orders[key] = value + found.correction, doubt + found.doubt, found.order
+        fit = limit(of_key.tolist(), [values[i] for i in of_key.index])
+        value, doubt, orders[key] = value + fit.correction, doubt + fit.doubt, fit.order
     scale = float(np.ptp(value) if len(value) > 1 else np.abs(value[0])) or np.nan
     return Reference(value, scale, doubt / scale, orders)
 
@@ -241,8 +241,8 @@ def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, F
         "energy": {i: np.array([energy(rows.loc[i], curves[i])]) for i in rows.index},
         "peak": {i: np.array([peak(rows.loc[i], curves[i])]) for i in rows.index},
         "path": {
-            i: np.concatenate([np.interp(at, place, curve) for curve in found] or [[np.nan]])
-            for i, (place, found) in paths.items()
+            i: np.concatenate([np.interp(at, place, curve) for curve in values] or [[np.nan]])
+            for i, (place, values) in paths.items()
         },
     }
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sweep.ranking.question import Question
 
 ROUND_OFF = 1e-9
-Known = dict[tuple[str, float], tuple[float, float]]
+Cache = dict[tuple[str, float], tuple[float, float]]
 """Energy (J) and stroke (m) of a case by its id and a force (N)."""
 
 
@@ -30,13 +30,13 @@ def with_allowed(
     file: str | PathLike[str],
     summary: DataFrame,
     question: Question,
-    known: Known | None = None,
+    cache: Cache | None = None,
 ) -> DataFrame:
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
-    question : of the ranking. The columns are needed if it has an allowed force; NaN
-    in rows that are no finished crush. known : what was found before, and is not read again; new
-    values are added.
+    question : of the ranking. The columns are needed if it has an allowed force; NaN in rows that
+    are no finished crush. cache : values of earlier calls, which are not read again; new values
+    are added.
     """
     from sweep.store.read import read_runs
 
@@ -45,20 +45,20 @@ def with_allowed(
     if force is None or (of_panel and panel is None):
         return summary
     limit = in_si(force, "N")
-    wanted = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
-    rows = summary[wanted]
+    crushes = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
+    rows = summary[crushes]
     count = np.ones(len(rows))
     if of_panel and panel is not None:
         count = panel_in(rows, panel).specimens
     at = zip(rows["case_id"], limit / count, strict=True)
     keys = [(str(case_id), float(force)) for case_id, force in at]
-    known = {} if known is None else known
-    new = [key for key in keys if key not in known]
+    cache = {} if cache is None else cache
+    new = [key for key in keys if key not in cache]
     cases = read_runs(file, [case_id for case_id, _ in new], shapes=False)
-    known |= {key: reached(case.history, key[1]) for key, case in zip(new, cases, strict=True)}
-    found = [known[key] for key in keys]
+    cache |= {key: reached(case.history, key[1]) for key, case in zip(new, cases, strict=True)}
+    values = [cache[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
-    added.loc[wanted, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(found).reshape(-1, 2)
+    added.loc[crushes, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(values).reshape(-1, 2)
     return added
 
 

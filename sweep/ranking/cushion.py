@@ -80,8 +80,8 @@ def absorbed_below(crush: Crush, stresses: Floats) -> Floats:
     following = np.minimum(row + 1, len(crush.work) - 1)
     rise = crush.greatest[following] - crush.greatest[row]
     share = np.divide(stresses - crush.greatest[row], rise, np.zeros(len(row)), where=rise > 0.0)
-    found = crush.work[row] + share * (crush.work[following] - crush.work[row])
-    return np.where(row >= 0, found, np.nan)
+    energy = crush.work[row] + share * (crush.work[following] - crush.work[row])
+    return np.where(row >= 0, energy, np.nan)
 
 
 def cushion_curve(crush: Crush, drop_height: float) -> tuple[Floats, Floats]:

@@ -88,13 +88,13 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     for column in (error_column, correction_column):
-        if (known := column(energy)) in finished:
+        if (energy_bar := column(energy)) in finished:
             borne = finished[column(str(force.name))]
-            added[column(per_gram)] = finished[known] / grams
+            added[column(per_gram)] = finished[energy_bar] / grams
             added[column("passed_on_N")] = borne
             if count is not None:
                 whole = finished.get(column("peak_force_N"), borne * float("nan"))
-                added[column("panel_energy_J")] = count * finished[known]
+                added[column("panel_energy_J")] = count * finished[energy_bar]
                 added[column("panel_force_N")] = count * _of_crush(finished, borne, whole)
     names = Compared(mass, energy, per_gram, until)
     if filled is not None:
@@ -140,11 +140,11 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
         raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
     gap = frame["direction"].map(BEHIND)
-    found = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
-    for asked, count, one in zip(sides, found[:2], ("outer_width_m", "depth_m"), strict=True):
+    counts = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
+    for side, count, one in zip(sides, counts[:2], ("outer_width_m", "depth_m"), strict=True):
         if (count < 1).any():
-            raise RankError(too_small(asked, frame[one].max()))
-    return found._replace(across=found.across.astype(int), behind=found.behind.astype(int))
+            raise RankError(too_small(side, frame[one].max()))
+    return counts._replace(across=counts.across.astype(int), behind=counts.behind.astype(int))
 
 
 def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
@@ -228,7 +228,7 @@ def _energy_column(frame: DataFrame, force: float) -> str:
         return name
     if AT_ALLOWED in frame:
         return AT_ALLOWED
-    held = [match[1] for key in frame if (match := ABSORBED_AT.fullmatch(key))]
-    known = ", ".join(f"{text} N" for text in held) or "none"
+    forces = [match[1] for key in frame if (match := ABSORBED_AT.fullmatch(key))]
+    allowed = ", ".join(f"{text} N" for text in forces) or "none"
     others = "other forces need the curves of the results: rank the file itself"
-    raise RankError(f"no energies up to {force:g} N in this table; allowed: {known}; {others}")
+    raise RankError(f"no energies up to {force:g} N in this table; allowed: {allowed}; {others}")

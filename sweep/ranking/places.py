@@ -29,13 +29,13 @@ def shared_places(values: Series, corrections: Series | None = None) -> Series:
     is 0. Otherwise the value starts a new place, whose number is 1 + the number of values before
     it.
     """
-    known = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
-    found: list[int] = []
+    shifts = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
+    places: list[int] = []
     best = first = np.nan
-    for value, correction in zip(values, known, strict=True):
+    for value, correction in zip(values, shifts, strict=True):
         if abs(value - best) <= abs(correction - first):
-            found.append(found[-1])
+            places.append(places[-1])
         else:
             best, first = value, correction
-            found.append(len(found) + 1)
-    return Series(found, index=values.index, dtype=int)
+            places.append(len(places) + 1)
+    return Series(places, index=values.index, dtype=int)

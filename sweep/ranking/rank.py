@@ -125,8 +125,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     crossed : True if walls crossed one another.
     beyond_curve : True if a wall was stretched beyond the measured curve in the run.
     """
-    asked = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
-    check_units(asked | dict(require or {}))
+    quantities = {"budget": budget, "panel": panel, "allowed_force": allowed_force}
+    check_units(quantities | dict(require or {}))
     question = Question(budget, panel, by, top, allowed_force, require, per)
     return answer(source, question).table
 
@@ -161,14 +161,15 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
         np.inf
     ]
-    found = {scene_label(rows): rows for rows in by_scene(compared)}
+    scene_rows = {scene_label(rows): rows for rows in by_scene(compared)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
-        label: judge(rows, names, required, per, masses, allowed) for label, rows in found.items()
+        label: judge(rows, names, required, per, masses, allowed)
+        for label, rows in scene_rows.items()
     }
     scenes = [
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
-        for label, rows in found.items()
+        for label, rows in scene_rows.items()
     ]
     parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in masses]
     return Ranking(
@@ -183,10 +184,12 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         pointed=int((finished["solid_joint_share"] < 1.0).sum()),
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
-        lightest_g={label: rows[names.mass].min() for label, rows in found.items() if len(rows)},
+        lightest_g={
+            label: rows[names.mass].min() for label, rows in scene_rows.items() if len(rows)
+        },
         lightest={
             label: rows.sort_values([names.mass, "case_id"]).iloc[:1]
-            for label, rows in found.items()
+            for label, rows in scene_rows.items()
             if len(rows)
         },
         per=per,
@@ -229,11 +232,11 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows.sort_values(order, ascending=upwards)
     error = rows.get(error_column(by))
     place = places_by(rows, by)
-    known = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
+    columns = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
-    known |= {"sharing": sharing, "contenders": len(rows)}
-    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **known)
+    columns |= {"sharing": sharing, "contenders": len(rows)}
+    rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **columns)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]
@@ -251,8 +254,8 @@ def _column(frame: DataFrame, by: str) -> str:
     allowed = [name for name in numbers if describe_column(name).better]
     if by in allowed:
         return by
-    known = by in numbers
-    why = "neither more nor less of it makes a design better" if known else "no such column"
+    is_column = by in numbers
+    why = "neither more nor less of it makes a design better" if is_column else "no such column"
     nearest = difflib.get_close_matches(by, allowed, n=NEAREST, cutoff=0.5)
     near = f"; the nearest are {', '.join(nearest)}" if nearest else ""
     usual = ", ".join(name for name in USUAL if name in allowed)

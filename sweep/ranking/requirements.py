@@ -95,10 +95,10 @@ def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
 
 def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
     """Refuse a requirement that none of these kinds of loading is asked for."""
-    known = set(modes)
+    kinds = set(modes)
     for name in required:
         asked_of = MEASURES[name].asked_of
-        if known and not known.intersection(asked_of):
+        if kinds and not kinds.intersection(asked_of):
             needed = " or ".join(NEEDED[mode] for mode in asked_of)
             raise RankError(f"{name} needs {needed}, and there is none")
 
@@ -117,23 +117,25 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
 class Judged(NamedTuple):
     """The rows of one scene with what each of them has of the requirements, and meets.
 
-    mass: name of the column that budgets limit. asked: limits (SI) of the requirements that this
-    kind of loading is asked for; left_out: the others. found (rows, asked): values. shares (rows,
-    asked): as of `misses`. fulfil (rows,).
+    mass: name of the column that budgets limit. limits: the limits (SI) of the requirements that
+    apply to this kind of loading; left_out: the other requirements. measures (rows, limits):
+    measured values. shares (rows, limits): from `misses`. fulfil (rows,).
     """
 
     rows: DataFrame
     mass: str
-    asked: Mapping[str, float]
+    limits: Mapping[str, float]
     left_out: tuple[str, ...]
-    found: DataFrame
+    measures: DataFrame
     shares: DataFrame
     fulfil: Series
 
     def within(self, budget_g: float) -> Judged:
         """The same of the rows within a budget."""
         kept = self.rows[self.mass] <= greatest_mass(budget_g)
-        parts = {name: getattr(self, name)[kept] for name in ("rows", "found", "shares", "fulfil")}
+        parts = {
+            name: getattr(self, name)[kept] for name in ("rows", "measures", "shares", "fulfil")
+        }
         return self._replace(**parts)
 
 
@@ -151,13 +153,13 @@ def judge(
     energy of a crush is counted; NaN without one.
     """
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
-    asked = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
-    found = measured(rows, names, per)
-    values = DataFrame({name: found[name] for name in asked}, index=rows.index)
-    shares = misses(rows, found, asked)
+    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
+    measures = measured(rows, names, per)
+    values = DataFrame({name: measures[name] for name in mode_limits}, index=rows.index)
+    shares = misses(rows, measures, mode_limits)
     fulfil = rows["mass_g"].notna() & (shares == 0.0).all(axis=1)
-    left_out = tuple(name for name in required if name not in asked)
-    judged = Judged(rows, names.mass, asked, left_out, values, shares, fulfil)
+    left_out = tuple(name for name in required if name not in mode_limits)
+    judged = Judged(rows, names.mass, mode_limits, left_out, values, shares, fulfil)
     if not required or rows.empty:
         return fulfil, ()
     rectangle = _rectangle(rows, required, per, allowed)
@@ -177,13 +179,13 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         designs=len(part.rows),
         fulfil=int(part.fulfil.sum()),
         doubtful=int(part.fulfil.sum()) - soundly,
-        failed={name: int((part.shares[name] != 0.0).sum()) for name in part.asked},
-        unknown={name: int(part.found[name].isna().sum()) for name in part.asked},
+        failed={name: int((part.shares[name] != 0.0).sum()) for name in part.limits},
+        unknown={name: int(part.measures[name].isna().sum()) for name in part.limits},
         open=_open(part, energy, force),
-        best={k: _best(part.found[k], sound, MEASURES[k].least) for k in part.asked},
+        best={k: _best(part.measures[k], sound, MEASURES[k].least) for k in part.limits},
         left_out=part.left_out,
         nearest=nearest,
-        missed={name: float(part.found.loc[nearest.index[0], name]) for name in shares},
+        missed={name: float(part.measures.loc[nearest.index[0], name]) for name in shares},
         misses=shares,
         lightest=every[~doubtful(every)].sort_values(order)[:1],
         energy=energy,
@@ -215,18 +217,18 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
 
 
 def misses(
-    rows: DataFrame, found: Mapping[str, Series], required: Mapping[str, float]
+    rows: DataFrame, measures: Mapping[str, Series], required: Mapping[str, float]
 ) -> DataFrame:
     """By what share of its limit each row misses each requirement, (rows, required).
 
-    0 where the requirement is met, but for round-off, or this kind of loading is not asked for it;
-    NaN where the value is unknown. found : of `measured`.
+    0 where the requirement is met, but for round-off, or it does not apply to this loading;
+    NaN where the value is unknown. measures : from `measured`.
     """
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
-        share = MEASURES[name].share_missed(found[name].astype(float), limit)
-        asked = rows["loading_mode"].isin(MEASURES[name].asked_of)
-        shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(asked, 0.0)
+        share = MEASURES[name].share_missed(measures[name].astype(float), limit)
+        in_mode = rows["loading_mode"].isin(MEASURES[name].asked_of)
+        shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(in_mode, 0.0)
     return shares
 
 
@@ -244,8 +246,8 @@ def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
 def _best(values: Series, sound: Series, least: bool) -> Best:
     """The best value of the designs to be trusted, else of all; NaN if none has one."""
     trusted = values[sound].dropna()
-    known = values if trusted.empty else trusted
-    return Best(float(known.max() if least else known.min()), trusted.empty)
+    candidates = values if trusted.empty else trusted
+    return Best(float(candidates.max() if least else candidates.min()), trusted.empty)
 
 
 def _open(part: Judged, energy: float, force: float) -> int:
@@ -254,11 +256,11 @@ def _open(part: Judged, energy: float, force: float) -> int:
     No longer crush of a design absorbs the energy (J) that is required if the allowed force (N)
     over all of its height, or over the greatest stroke, would not.
     """
-    if "min_absorbed" not in part.asked:
+    if "min_absorbed" not in part.limits:
         return 0
     others = (part.shares.drop(columns="min_absorbed") == 0.0).all(axis=1)
     short = part.shares["min_absorbed"] > 0.0
-    stroke = part.rows["height_m"].clip(upper=part.asked.get("max_stroke", np.inf))
+    stroke = part.rows["height_m"].clip(upper=part.limits.get("max_stroke", np.inf))
     impossible = force * stroke < energy
     return int((part.rows["ends_early"] & short & others & ~impossible).sum())
 
@@ -267,7 +269,7 @@ def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
     """The row of the nearest design, and its misses; no row if nothing is known or asked."""
     worst = nearest_first(part.rows, part.mass, part.shares)
     index = worst[np.isfinite(worst) & (worst > 0.0)].index[:1]
-    shares = {name: float(part.shares.loc[i, name]) for i in index for name in part.asked}
+    shares = {name: float(part.shares.loc[i, name]) for i in index for name in part.limits}
     return part.rows.loc[index], {name: share for name, share in shares.items() if share > 0.0}
 
 

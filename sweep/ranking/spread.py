@@ -96,8 +96,8 @@ def spreads(
     compared, names = merits(finished, question)
     missed = misses(compared, measured(compared, names, question.per), ranking.required) != 0.0
     compared = compared.join(missed.add_prefix(MISSED))
-    known = ranking.table[ranking.table["case_id"].isin(corners)]
-    groups = known.groupby(["budget_g", "scene"], dropna=False, sort=False)
+    table = ranking.table[ranking.table["case_id"].isin(corners)]
+    groups = table.groupby(["budget_g", "scene"], dropna=False, sort=False)
     by_id = compared.set_index("case_id")
     return [_spread(rows, corners, by_id, names.mass) for _, rows in groups]
 
@@ -114,11 +114,11 @@ def _spread(rows: DataFrame, corners: Corners, compared: DataFrame, mass: str) -
     budget = rows["budget_g"].iloc[0]
     for design, place in zip(ids, rows["place"], strict=True):
         for name, case_id in corners[design]:
-            found = compared.loc[case_id] if case_id in compared.index else None
-            values.loc[design, name] = np.nan if found is None else found[column]
-            masses.loc[design, name] = np.nan if found is None else found[mass]
-            if found is not None:
-                missed += [(int(place), name, what) for what in _not_kept(found, mass, budget)]
+            row = compared.loc[case_id] if case_id in compared.index else None
+            values.loc[design, name] = np.nan if row is None else row[column]
+            masses.loc[design, name] = np.nan if row is None else row[mass]
+            if row is not None:
+                missed += [(int(place), name, what) for what in _not_kept(row, mass, budget)]
     places = values.rank(ascending=less_is_better(column), method="min")
     failed = int(values.isna().to_numpy().sum())
     return Spread(rows, column, values, places, failed, masses, tuple(missed))
@@ -132,5 +132,5 @@ def _not_kept(row: Series, mass: str, budget: float) -> list[str]:
 
 def ends(values: Series) -> tuple[str, str] | None:
     """The corners with the least and the greatest value; None without any value."""
-    known = values.dropna()
-    return None if known.empty else (str(known.idxmin()), str(known.idxmax()))
+    numbers = values.dropna()
+    return None if numbers.empty else (str(numbers.idxmin()), str(numbers.idxmax()))

@@ -86,8 +86,8 @@ def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], 
     files if no case has converged.
     """
     summary = read_summary(file)
-    found = studies(file, summary[summary["case_id"].isin(list(case_ids))])
-    titled = {scene_title(study, file.stem): study for study in found}
+    all_studies = studies(file, summary[summary["case_id"].isin(list(case_ids))])
+    titled = {scene_title(study, file.stem): study for study in all_studies}
     sheets = [sheet for title, study in titled.items() for sheet in accuracy_sheets(study, title)]
     if not sheets:
         return [], []

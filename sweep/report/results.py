@@ -81,8 +81,8 @@ class Results:
         """
         given = {name: question.get(name) for name in ("budget", "panel", "allowed_force")}
         check_units(given | dict(question.get("require") or {}))
-        asked = Question(**self._question._asdict() | question)
-        return answer(with_allowed(self.path, self.table, asked), asked).table
+        full_question = Question(**self._question._asdict() | question)
+        return answer(with_allowed(self.path, self.table, full_question), full_question).table
 
     def case(self, case: int | str) -> Case:
         """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.

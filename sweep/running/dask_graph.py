@@ -45,12 +45,12 @@ class Stop:
     """
 
     def __init__(self) -> None:
-        self.asked = False
+        self.flag = False
         self._running: dict[int, np.ndarray] = {}
 
     def ask(self) -> None:
         """End all running cases and start no further ones."""
-        self.asked = True
+        self.flag = True
         for control in list(self._running.values()):
             control[0] = 1
 
@@ -59,7 +59,7 @@ class Stop:
         """The array `control` of one case, while the case runs."""
         control = np.zeros(2, dtype=np.int64)
         self._running[id(control)] = control
-        control[0] = self.asked
+        control[0] = self.flag
         try:
             yield control
         finally:
@@ -85,7 +85,7 @@ def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> N
 
     def work() -> None:
         """Batches, each taken when the last has ended: with the newest estimate of the pace."""
-        while not stop.asked and (batch := plan.take()):
+        while not stop.flag and (batch := plan.take()):
             results, seconds = run_batch(simulate, batch, stop)
             plan.learn(batch, seconds)
             with one_at_a_time:
@@ -108,11 +108,11 @@ def run_batch(
     started = time.perf_counter()
     results = []
     for case in batch:
-        if stop.asked:
+        if stop.flag:
             break
         with stop.control() as control:
             result = _attempt(simulate, case, control)
-        if not (stop.asked and result.status is Status.STOPPED):
+        if not (stop.flag and result.status is Status.STOPPED):
             results.append(result)
     return results, time.perf_counter() - started
 
@@ -144,14 +144,14 @@ def check_scheduler(scheduler: str) -> None:
     from distributed.utils import LoopRunner
 
     try:
-        found = LoopRunner().run_sync(_identify, scheduler)
+        kind = LoopRunner().run_sync(_identify, scheduler)
     except (ValueError, TypeError) as error:
         allowed = "a Dask scheduler such as tcp://host:8786"
         raise GraphError(f'"{scheduler}": {error}; allowed: {allowed}') from error
     except Exception as error:
         raise GraphError(f"no Dask scheduler answers at {scheduler}") from error
-    if found != "Scheduler":
-        raise GraphError(f"{scheduler} is a Dask {found}; needed: its scheduler")
+    if kind != "Scheduler":
+        raise GraphError(f"{scheduler} is a Dask {kind}; needed: its scheduler")
 
 
 async def _identify(address: str) -> str:
@@ -174,7 +174,7 @@ def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
         raise GraphError(f"the Dask scheduler at {scheduler}: {_one_line(error)}") from error
     with client:
         limit = time.monotonic() + PATIENCE
-        while not (client.nthreads() or stop.asked):
+        while not (client.nthreads() or stop.flag):
             if time.monotonic() > limit:
                 line = f"no worker joined the Dask scheduler at {scheduler} within {PATIENCE} s"
                 raise GraphError(line)
@@ -210,7 +210,7 @@ class _BatchesOnCluster:
     def results(self) -> Iterator[list[Result]]:
         """Results of each batch when it finishes, until all have finished or a stop."""
         self._submit()
-        while self.running and not self.stop.asked:
+        while self.running and not self.stop.flag:
             try:
                 future = self.finished.get(timeout=MOMENT)
             except Empty:
@@ -261,7 +261,7 @@ def _run_alone(simulate: Simulate, suspect: list[Case], stop: Stop) -> list[Resu
         except BrokenProcessPool:
             message = "its worker process died, even with no other case; try a smaller model"
             died = failed_result(suspect[0], Status.WORKER_DIED, message)
-            return [] if stop.asked else [died]
+            return [] if stop.flag else [died]
     return results
 
 

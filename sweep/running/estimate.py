@@ -80,23 +80,23 @@ def dry_run(
     if not waiting:
         return f"{counts}\nnothing is left to run"
     plates = any(case.along for case in waiting)
-    found = estimate(waiting, real_simulate(plates=plates))
-    wall = found.cpu / min(workers, len(waiting))
+    forecast = estimate(waiting, real_simulate(plates=plates))
+    wall = forecast.cpu / min(workers, len(waiting))
     lines = [
         counts,
-        f"estimate for {counted(len(waiting), 'case')}, after running {found.pilots} of them "
-        f"({found.seconds:.1f} s); it may be off by a factor of two:",
-        f"  processor time  {duration(found.cpu)}",
+        f"estimate for {counted(len(waiting), 'case')}, after running {forecast.pilots} of them "
+        f"({forecast.seconds:.1f} s); it may be off by a factor of two:",
+        f"  processor time  {duration(forecast.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",
-        f"  disk            {text_in(found.disk, 'MB', 2)}",
+        f"  disk            {text_in(forecast.disk, 'MB', 2)}",
         "nothing was written",
     ]
-    if found.stopped:
-        first = f"{found.stopped} of them stopped after {LONGEST:g} s; later steps may be slower"
+    if forecast.stopped:
+        first = f"{forecast.stopped} of them stopped after {LONGEST:g} s; later steps may be slower"
         lines.insert(2, f"  {first}")
-    if found.failures:
-        count = f"{len(found.failures)} of the pilot cases did not converge"
-        lines.insert(-1, f"  {count}: {found.failures[0]}")
+    if forecast.failures:
+        count = f"{len(forecast.failures)} of the pilot cases did not converge"
+        lines.insert(-1, f"  {count}: {forecast.failures[0]}")
     return "\n".join(lines)
 
 
@@ -135,7 +135,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
         run_plan(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
-    if stop.asked:
+    if stop.flag:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}
 

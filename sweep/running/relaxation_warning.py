@@ -46,12 +46,12 @@ def loading_time(case: Case) -> float:
             return duration
 
 
-def _sentence(found: list[tuple[float, float]], count: int, how: str) -> list[str]:
+def _sentence(times: list[tuple[float, float]], count: int, how: str) -> list[str]:
     """A sentence about cases with these durations and times, s; none without cases."""
-    if not found:
+    if not times:
         return []
-    time, limit = found[0]
+    time, limit = times[0]
     return [
-        f"{len(found)} of {count} cases last {how} material.relaxation time "
+        f"{len(times)} of {count} cases last {how} material.relaxation time "
         f"({time:.2g} s and {limit:.2g} s): the material loses next to nothing in them"
     ]

@@ -23,16 +23,16 @@ def run(
     config : from `load_config`, or the path of a TOML file, or the name of an example. out : the
     results file, by default results/NAME.h5. Progress is shown, in a notebook as one line.
     """
-    known = config if isinstance(config, Config) else load_config(config)
-    check_question(known)
-    path = Path(out or f"results/{known.name}.h5")
-    run_sweep(known, path, workers, rerun=rerun)
-    ids = [case.case_id for case in known.cases]
+    config = config if isinstance(config, Config) else load_config(config)
+    check_question(config)
+    path = Path(out or f"results/{config.name}.h5")
+    run_sweep(config, path, workers, rerun=rerun)
+    ids = [case.case_id for case in config.cases]
     question = {
-        "budget": list(known.rank.budgets) or None,
-        "panel": known.rank.panel,
-        "require": known.require.model_dump(),
-        "per": known.rank.per,
+        "budget": list(config.rank.budgets) or None,
+        "panel": config.rank.panel,
+        "require": config.require.model_dump(),
+        "per": config.rank.per,
     }
     return Results(path, ids, question)
 

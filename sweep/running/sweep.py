@@ -46,10 +46,10 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     stop = Stop()
     if scheduler is not None:
         check_scheduler(scheduler)
-    with ExitStack() as held:
+    with ExitStack() as stack:
         try:
             about = describe_run(config_text(config))
-            writer = held.enter_context(Writer(out, axes, about))
+            writer = stack.enter_context(Writer(out, axes, about))
         except WriteError as error:
             if cases.keys() - finished_ids(out, rerun):
                 raise
@@ -78,7 +78,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 ):
                     run_plan(plan, chosen, sink, stop, scheduler)
     kept = len(cases.keys() & finished_ids(out, rerun))
-    if stop.asked and kept < len(cases):
+    if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
     return len(cases) - _converged(out, cases)

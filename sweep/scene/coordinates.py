@@ -77,12 +77,12 @@ def held(numbering: Numbering, platen: str | None) -> Indices:
     return np.concatenate([*clamped, low, high])
 
 
-def leaders(numbering: Numbering, held: Indices, tied: Indices) -> Indices:
+def leaders(numbering: Numbering, supports: Indices, tied: Indices) -> Indices:
     """The coordinate that each one follows, (size,).
 
-    Itself, or that of the upper platen if it is among ``tied``, or -1 if it is among ``held``.
+    Itself, or that of the upper platen if it is among ``tied``, or -1 if it is among ``supports``.
     """
     leader = np.arange(numbering.size)
     leader[tied] = numbering.high
-    leader[held] = -1
+    leader[supports] = -1
     return leader

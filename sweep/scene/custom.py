@@ -141,7 +141,9 @@ def _arms(network: Network, structure: Structure, case: Case) -> Arms:
     """The ends of the walls; a wall is a beam up to a support or a pin."""
     if case.solver.joints == "points":
         return point_joints(len(network.walls))
-    supported = [node for node, _ in structure.held] + [part.node for part in structure.prescribed]
+    supported = [node for node, _ in structure.restraints] + [
+        part.node for part in structure.prescribed
+    ]
     plain = np.array([*supported, *structure.pins], np.int64)
     return find_arms(network, network.walls, (), plain)
 
@@ -159,7 +161,7 @@ def _leaders(structure: Structure, numbering: Ground) -> Ints:
     """
     leader = np.arange(numbering.size)
     leader[[numbering.low, numbering.ceiling]] = -1
-    for node, direction in structure.held:
+    for node, direction in structure.restraints:
         leader[numbering.coordinate(node, direction)] = -1
     for node in structure.pins:
         leader[numbering.coordinate(node, "rotation")] = -1

@@ -67,10 +67,10 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
     """As `find_joint`, whose arguments it has as tuples."""
     opened, in_row = np.array(around), np.array(glued)
     if in_row.any() and np.count_nonzero(~in_row) == 1:
-        for openings, known in on_glued_rows().items():
+        for openings, matrix in on_glued_rows().items():
             if any(_off(turned, openings) < NEAR for turned, _ in _turned(opened)):
                 shape = len(opened), 1, 1
-                return _kept(np.tile(known, shape), np.full(len(opened), LENGTHS[0]))
+                return _kept(np.tile(matrix, shape), np.full(len(opened), LENGTHS[0]))
     fits = [
         (_off(turned, drawn(turned[0])), kind, turned[0], tuple(arms))
         for turned, arms in _turned(opened)
@@ -84,10 +84,10 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
     length = np.empty(len(arms))
     for place, arm in enumerate(arms):
         part = "all" if kind not in AXIS else "axis" if place == AXIS[kind] else "side"
-        found = _arm(kind, part, float(angle))
-        if found is None:
+        values = _arm(kind, part, float(angle))
+        if values is None:
             return None
-        compliance[arm], length[arm] = found
+        compliance[arm], length[arm] = values
     return _kept(compliance, length)
 
 
@@ -171,12 +171,12 @@ def _off(opened: Floats, openings: tuple[float, ...]) -> float:
 @lru_cache(maxsize=1)
 def table() -> dict[tuple[str, str], tuple[Floats, Floats]]:
     """Angles (k,) and values (6, k) of `COLUMNS` by kind of joint and arm, from `joints.csv`."""
-    rows, found = _rows("joints.csv"), {}
+    rows, by_arm = _rows("joints.csv"), {}
     for key in {(row["kind"], row["arm"]) for row in rows}:
         mine = [row for row in rows if (row["kind"], row["arm"]) == key]
         angles = np.array([float(row["angle"]) for row in mine])
-        found[key] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
-    return found
+        by_arm[key] = angles, np.array([[float(row[name]) for row in mine] for name in COLUMNS])
+    return by_arm
 
 
 @lru_cache(maxsize=1)
@@ -184,12 +184,12 @@ def on_glued_rows() -> dict[tuple[float, ...], Floats]:
     """C (4, 3) of an arm that stands upright on a row whose outer face is glued, by the openings
     round their joint.
     """
-    found: dict[tuple[float, ...], list[list[float]]] = {}
+    matrices: dict[tuple[float, ...], list[list[float]]] = {}
     for row in _rows("joints_on_glued_rows.csv"):  # MM, MV, VV, NN of each
         openings = tuple(float(angle) for angle in row["openings"].split())
         values = [float(row[power]) for power in ("constant", "nu", "nu2")]
-        found.setdefault(openings, []).append(values)
-    return {openings: np.array(values) for openings, values in found.items()}
+        matrices.setdefault(openings, []).append(values)
+    return {openings: np.array(values) for openings, values in matrices.items()}
 
 
 def _rows(name: str) -> list[dict[str, str]]:

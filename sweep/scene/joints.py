@@ -80,24 +80,24 @@ def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints)
         in_row |= np.isin(joints, row).all(axis=1)
     arms = point_joints(count)
     length_of, compliance_of = arms.length.reshape(-1), arms.compliance.reshape(-1, 4, 3)
-    known = np.zeros(2 * count, np.bool_)
+    has_joint = np.zeros(2 * count, np.bool_)
     for ends in _by_joint(joints.ravel(), bearings.ravel()):
         t = thickness[ends // 2]
         bearing = bearings.ravel()[ends]
         opened = np.diff(bearing, append=bearing[0] + 360.0)
         straight = len(ends) == 2 and abs(opened[0] - 180.0) < STRAIGHT
         if len(ends) == 1 or straight or joints.ravel()[ends[0]] in plain:
-            known[ends] = True
+            has_joint[ends] = True
             continue
-        found = find_joint(opened, in_row[ends // 2])
-        if found is None:
+        joint = find_joint(opened, in_row[ends // 2])
+        if joint is None:
             continue
-        found = unequal(found, opened, t)
-        known[ends] = True
+        joint = unequal(joint, opened, t)
+        has_joint[ends] = True
         standing = ~in_row[ends // 2]
-        compliance_of[ends[standing]] = found.compliance[standing]
-        length_of[ends[standing]] = (found.length * t)[standing]
-    arms.sheared[:] = known.reshape(-1, 2).all(axis=1)
+        compliance_of[ends[standing]] = joint.compliance[standing]
+        length_of[ends[standing]] = (joint.length * t)[standing]
+    arms.sheared[:] = has_joint.reshape(-1, 2).all(axis=1)
     arms.length[~arms.sheared] = 0.0
     _fit(arms, length)
     return arms

@@ -56,16 +56,16 @@ class CycleRows(NamedTuple):
 
 def cycle_rows(phases: list[Phase]) -> list[CycleRows]:
     """The rows of every cycle; row 0 is the state before the first step."""
-    found, done = list[CycleRows](), 0
+    cycles, done = list[CycleRows](), 0
     for number in range(1, phases[-1].cycle + 1):
         own = [phase for phase in phases if phase.cycle == number]
-        loading, held, unloading = (
+        loading, hold, unloading = (
             sum(phase.stage.steps for phase in own if phase.role == role) for role in ROLES
         )
         turned = done + loading
-        found.append(CycleRows(done, turned, turned + held, turned + held + unloading))
-        done = found[-1].ended
-    return found
+        cycles.append(CycleRows(done, turned, turned + hold, turned + hold + unloading))
+        done = cycles[-1].ended
+    return cycles
 
 
 def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:

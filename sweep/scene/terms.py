@@ -162,9 +162,9 @@ def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
     moving = np.flatnonzero(layout.leader >= 0)
     leader = layout.leader[moving]
     moved = np.bincount(leader, layout.ratio[moving] * mass[moving], mass.size)
-    found = np.zeros(mass.size)
-    found[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
-    return found
+    flags = np.zeros(mass.size)
+    flags[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
+    return flags
 
 
 def contact_stiffness(case: Case) -> float:

@@ -14,15 +14,15 @@ def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> d
     """
     if len(cycles) == 1:
         return {"second_cycle_share": nan}
-    found = dict[str, float]()
+    columns = dict[str, float]()
     for number, (begun, loaded, _, ended) in enumerate(cycles, 1):
         absorbed = _gained(work, begun, loaded)
         peak = force[begun : ended + 1].max() if ended < len(force) else nan
         lost = min(_gained(work, begun, ended), absorbed)  # pulling back is no loss
         values = absorbed, lost, float(peak)
-        found |= zip(cycle_columns(number), values, strict=True)
-    first, second = (found[cycle_columns(number)[0]] for number in (1, 2))
-    return found | {"second_cycle_share": second / first}
+        columns |= zip(cycle_columns(number), values, strict=True)
+    first, second = (columns[cycle_columns(number)[0]] for number in (1, 2))
+    return columns | {"second_cycle_share": second / first}
 
 
 def _gained(work: Floats, begun: int, ended: int) -> float:

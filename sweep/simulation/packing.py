@@ -49,8 +49,8 @@ def weights(strain: Floats, gained: Floats, band: float = BAND) -> Floats:
     """
     above = np.clip(gained - (1.0 - band) * gained.max(), 0.0, None)
     steps = np.diff(strain, prepend=strain[0]) + np.diff(strain, append=strain[-1])
-    found = above * steps  # trapezoidal rule
-    return found / found.sum() if found.sum() > 0.0 else np.eye(len(strain))[-1]
+    weight = above * steps  # trapezoidal rule
+    return weight / weight.sum() if weight.sum() > 0.0 else np.eye(len(strain))[-1]
 
 
 def span(strain: Floats, gained: Floats, within: float = ALIKE) -> float:

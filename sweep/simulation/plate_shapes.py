@@ -109,5 +109,5 @@ def surface_crossings(position: Floats, mesh: PlateMesh) -> int:
     triangles = unfolded(mesh).triangles
     edges, _ = surface.edges_of(triangles, position.shape[1])
     unsure = np.empty((0, 2), np.int64)
-    found = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]
-    return int(max(found))
+    counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]
+    return int(max(counts))

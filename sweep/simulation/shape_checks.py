@@ -32,19 +32,19 @@ CHUNK = 1 << 16  # pairs in one call of shapely
 
 def strains_of(x: Floats, terms: PlanarScene) -> tuple[Floats, Floats]:
     """`element_strains` and `surface_strains` of the stored shapes x (f, n)."""
-    found = deformations(x, terms.walls)
-    strains = element_strains(found, terms.stretch)
-    return strains, surface_strains(found, strains, terms.bend)
+    deformation = deformations(x, terms.walls)
+    strains = element_strains(deformation, terms.stretch)
+    return strains, surface_strains(deformation, strains, terms.bend)
 
 
-def element_strains(found: Deformations, stretch: Stretch) -> Floats:
+def element_strains(deformation: Deformations, stretch: Stretch) -> Floats:
     """Nominal strain of every element in every stored shape, (f, m), that of its arc."""
-    length, one, two = found
+    length, one, two = deformation
     same, mixed = stretch.arc
     return np.asarray(length / stretch.l0 - 1.0 + same * (one**2 + two**2) + mixed * one * two)
 
 
-def surface_strains(found: Deformations, strains: Floats, bend: Bend) -> Floats:
+def surface_strains(deformation: Deformations, strains: Floats, bend: Bend) -> Floats:
     """Nominal strain of the most stretched surface of every element, (f, m).
 
     strains: `element_strains`. Elements that do not bend through their section, such as solid
@@ -52,7 +52,7 @@ def surface_strains(found: Deformations, strains: Floats, bend: Bend) -> Floats:
     """
     if bend.volume.size == 0:
         return strains
-    _, one, two = found
+    _, one, two = deformation
     across, along = bend.spread[0] * (two - one), bend.spread[1] * (one + two)
     bent = SURFACE * np.maximum(np.abs(across + along), np.abs(across - along))
     m, stretched = bend.section.m, np.maximum(1.0 + strains, LEAST)

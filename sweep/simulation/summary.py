@@ -209,36 +209,36 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """Columns from the force-displacement curve of the loading; only a crush can pack."""
     work, force = loading["work_in_J"], transmitted(case, loading)
     row, share = len(work) - 1, np.eye(len(work))[-1]
-    found = dict.fromkeys(OF_A_CRUSH, np.nan)
+    columns = dict.fromkeys(OF_A_CRUSH, np.nan)
     if isinstance(case.loading, Crush):
-        row, share, found = packing_columns(case, loading)
+        row, share, columns = packing_columns(case, loading)
     peak = np.maximum.accumulate(force)
-    found |= {
+    columns |= {
         "absorbed_energy_at_densification_J": float(work[row]),
         "absorbed_energy_until_packed_J": float(share @ work),
         "peak_force_at_densification_N": float(peak[row]),
         "peak_force_until_packed_N": float(share @ peak),
     }
-    found |= ratios(case, loading, found)
-    return found | {
+    columns |= ratios(case, loading, columns)
+    return columns | {
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
     }
 
 
-def ratios(case: Case, loading: dict[str, Floats], found: dict[str, float]) -> dict[str, float]:
+def ratios(case: Case, loading: dict[str, Floats], columns: dict[str, float]) -> dict[str, float]:
     """Ideality and cushion factor of a crush until packed (Miltz & Gruenbaum 1981), and mean force
     / greatest force of the whole loading; NaN under a dead load, or without any force.
 
-    found: columns until packed; `packing_strain` is NaN unless the mode is displacement.
+    columns: values until packed; `packing_strain` is NaN unless the mode is displacement.
     """
     height = case.height or np.nan
     strain = loading["strain"].max()
-    work, peak = found["absorbed_energy_until_packed_J"], found["peak_force_until_packed_N"]
+    work, peak = columns["absorbed_energy_until_packed_J"], columns["peak_force_until_packed_N"]
     greatest = transmitted(case, loading).max()
     driven = isinstance(case.loading, Crush | Impact)
     brought = greatest * strain * height if driven else np.nan
-    packed = peak * found["packing_strain"] * height
+    packed = peak * columns["packing_strain"] * height
     return {
         "ideality": work / packed if packed > 0.0 else np.nan,
         "cushion_factor": peak * height / work if packed > 0.0 and work > 0.0 else np.nan,

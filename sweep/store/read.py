@@ -148,9 +148,9 @@ def read_runs(
         for case_id in case_ids:
             if case_id not in where:
                 raise StoreError(f"{path} holds no case {case_id}.")
-            found = partial(_arrays, *where[case_id])
-            frames = _frames(found(FRAME_GROUPS)) if shapes else {}
-            yield StoredRun(case_id, _history(found(["histories"])), frames)
+            arrays = partial(_arrays, *where[case_id])
+            frames = _frames(arrays(FRAME_GROUPS)) if shapes else {}
+            yield StoredRun(case_id, _history(arrays(["histories"])), frames)
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
@@ -169,8 +169,8 @@ def _frames(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 def folded_batches(path: Path) -> int:
     """Number of the last batch in the results file itself; newer batches are in parts."""
-    with ExitStack() as held:
-        return open_sealed(path, held).attributes["folded"] if path.exists() else 0
+    with ExitStack() as stack:
+        return open_sealed(path, stack).attributes["folded"] if path.exists() else 0
 
 
 def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
@@ -181,18 +181,18 @@ def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
         table, others = newest(blocks), blocks[-1].attributes["other_cases"]
         if blocks[-1].attributes.get("config") != config:
             return False
-    wanted = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
-    same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in wanted.items())
-    return wanted.keys() == table.keys() and all(same) and others == beyond(table, axes)
+    columns = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
+    same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in columns.items())
+    return columns.keys() == table.keys() and all(same) and others == beyond(table, axes)
 
 
 @contextmanager
 def _union(path: Path) -> Iterator[list[Block]]:
     """All sealed blocks of a results file, oldest first; they stay open inside the block."""
     for _ in range(ATTEMPTS):
-        with ExitStack() as held:
+        with ExitStack() as stack:
             try:
-                blocks = _open_all(path, held)
+                blocks = _open_all(path, stack)
             except FileNotFoundError:
                 continue  # the writer has just merged or folded parts of the list
             yield blocks
@@ -200,10 +200,10 @@ def _union(path: Path) -> Iterator[list[Block]]:
     raise StoreError(f"{path} changes faster than it can be read.")
 
 
-def _open_all(path: Path, held: ExitStack) -> list[Block]:
+def _open_all(path: Path, stack: ExitStack) -> list[Block]:
     # The parts are opened first: if a fold deletes them before the file is opened, it holds them.
-    parts = [(part.last, open_sealed(part.path, held)) for part in list_parts(path)]
-    whole = [open_sealed(path, held)] if path.exists() else []
+    parts = [(part.last, open_sealed(part.path, stack)) for part in list_parts(path)]
+    whole = [open_sealed(path, stack)] if path.exists() else []
     folded = whole[0].attributes["folded"] if whole else 0
     blocks = whole + [block for last, block in parts if last > folded]
     if not blocks:
@@ -211,11 +211,11 @@ def _open_all(path: Path, held: ExitStack) -> list[Block]:
     return blocks
 
 
-def open_sealed(path: Path, held: ExitStack) -> Block:
-    """A sealed file as a block, open until `held` closes."""
+def open_sealed(path: Path, stack: ExitStack) -> Block:
+    """A sealed file as a block, open until `stack` closes."""
     with _undamaged(path):
         # A sealed file never changes, so it needs no lock, which would block other readers.
-        file = held.enter_context(h5py.File(path, "r", locking=False))
+        file = stack.enter_context(h5py.File(path, "r", locking=False))
         if (written := file.attrs["format"]) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")
@@ -279,9 +279,9 @@ class _Columns(Mapping[str, np.ndarray]):
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
     with _union(path) as blocks:
         for block in reversed(blocks):
-            found = np.flatnonzero(block.summary["case_id"] == case_id)
-            if found.size:
-                return _arrays(block, found[-1], groups)
+            rows = np.flatnonzero(block.summary["case_id"] == case_id)
+            if rows.size:
+                return _arrays(block, rows[-1], groups)
     raise StoreError(f"{path} holds no case {case_id}.")
 
 

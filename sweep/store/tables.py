@@ -60,9 +60,9 @@ def arrange(table: Columns) -> Columns:
     return {name: table[name] for name in sorted(table, key=_place)}
 
 
-def rows_in_order(ids: Iterable[str], wanted: Iterable[str]) -> np.ndarray:
-    """Row numbers that bring `ids` into the order of `wanted`; other ids follow in their order."""
-    place = {case_id: number for number, case_id in enumerate(wanted)}
+def rows_in_order(ids: Iterable[str], order: Iterable[str]) -> np.ndarray:
+    """Row numbers that bring `ids` into this `order`; other ids follow in their order."""
+    place = {case_id: number for number, case_id in enumerate(order)}
     return np.argsort([place.get(case_id, len(place)) for case_id in ids], kind="stable")
 
 

@@ -50,27 +50,27 @@ class Writer:
     ) -> None:
         self.path = Path(path)
         self._about = About(axes or {}, attributes or {})
-        self._found: list[Part] = []
+        self._parts: list[Part] = []
         self._sealed: list[Part] = []
         self._growing: Growing | None = None
-        self._held = ExitStack()
+        self._stack = ExitStack()
 
     def __enter__(self) -> Self:
         if self.path.suffix != ".h5":  # its folder of parts would be that of NAME.h5
             raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
-        with _writing(self.path), ExitStack() as held:
+        with _writing(self.path), ExitStack() as stack:
             make_folder(self.path.parent)
-            held.enter_context(_only_writer(self.path))
+            stack.enter_context(_only_writer(self.path))
             folded = folded_batches(self.path)
             clear_leftovers(self.path, folded)
-            found = list_parts(self.path)
-            self._count(max([folded, *(part.last for part in found)]))
-            self._found = [self._merged(found)] if too_many(found) else found
-            self._held = held.pop_all()
+            parts = list_parts(self.path)
+            self._count(max([folded, *(part.last for part in parts)]))
+            self._parts = [self._merged(parts)] if too_many(parts) else parts
+            self._stack = stack.pop_all()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._held.close()
+        self._stack.close()
 
     def append(self, results: Sequence[Result]) -> None:
         """Seal a batch as a part, which then survives a kill."""
@@ -91,18 +91,18 @@ class Writer:
 
         last: results that go into the file directly, without a part of their own.
         """
-        parts = [*self._found, *self._sealed]
+        parts = [*self._parts, *self._sealed]
         with _writing(self.path):
             if last:
                 self._grown().add(self._block(last), np.arange(len(last)))
             if parts or last or not self._is_labelled():
                 growing, self._growing = self._grown(), None  # cannot be used again after a failure
-                with ExitStack() as held:
-                    growing.add_older(self._older(held))
+                with ExitStack() as stack:
+                    growing.add_older(self._older(stack))
                     growing.seal(self._about)
             discard(parts)
             remove_folder(self.path)
-        self._found, self._sealed = [], []
+        self._parts, self._sealed = [], []
 
     def _block(self, results: Sequence[Result]) -> Block:
         return block_of(results, self._about.attributes.get("git_revision", ""))
@@ -116,13 +116,13 @@ class Writer:
 
     def _grown(self) -> Growing:
         if self._growing is None:
-            self._growing = self._held.enter_context(closing(Growing(self.path, packed=True)))
+            self._growing = self._stack.enter_context(closing(Growing(self.path, packed=True)))
         return self._growing
 
-    def _older(self, held: ExitStack) -> list[Block]:
-        """Blocks of the file and the parts that this writer found; open until `held` closes."""
+    def _older(self, stack: ExitStack) -> list[Block]:
+        """Blocks of the file and the parts that this writer reads; open until `stack` closes."""
         whole = [self.path] if self.path.exists() else []
-        return [open_sealed(path, held) for path in (*whole, *(p.path for p in self._found))]
+        return [open_sealed(path, stack) for path in (*whole, *(p.path for p in self._parts))]
 
     def _merge(self) -> None:
         while parts := parts_to_merge(self._sealed):
@@ -130,8 +130,8 @@ class Writer:
 
     def _merged(self, parts: list[Part]) -> Part:
         merged = new_part(self.path, parts[0].first, parts[-1].last)
-        with ExitStack() as held:
-            blocks = [open_sealed(part.path, held) for part in parts]
+        with ExitStack() as stack:
+            blocks = [open_sealed(part.path, stack) for part in parts]
             seal_blocks(merged.path, blocks, self._about, packed=True)
         discard(parts)
         return merged

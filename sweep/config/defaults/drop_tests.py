@@ -64,11 +64,11 @@ def limits(name: str) -> list[tuple[float, float]]:
 def drops() -> dict[str, list[tuple[float, float]]]:
     """The rows of all tests by name; none for tests whose striker or anvil is shaped."""
     text = (Path(__file__).parent / "drop_tests.csv").read_text("utf-8")
-    found: dict[str, list[tuple[float, float]]] = {}
+    tests: dict[str, list[tuple[float, float]]] = {}
     for row in csv.DictReader(line for line in text.splitlines() if line[0] != "#"):
-        rows = found.setdefault(row["test"], [])
+        rows = tests.setdefault(row["test"], [])
         rows += [(float(row["below_kg"]), float(row["height_m"]))] if row["height_m"] else []
-    return found
+    return tests
 
 
 def in_words() -> str:

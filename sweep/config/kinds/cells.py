@@ -99,14 +99,14 @@ class Cells(Laid):
     @property
     def counts(self) -> tuple[int, int]:
         """Numbers of joints and of walls between joints."""
-        known = trait(self.kind, "counts")
-        return known(self.cells_x, self.cells_y) if known else super().counts
+        rule = trait(self.kind, "counts")
+        return rule(self.cells_x, self.cells_y) if rule else super().counts
 
     @property
     def opening(self) -> float:
         """Clear width of the narrowest whole cell between centre lines, m."""
-        if known := trait(self.kind, "opening"):
-            return float(known(self.width / self.cells_x, self.height / self.cells_y))
+        if rule := trait(self.kind, "opening"):
+            return float(rule(self.width / self.cells_x, self.height / self.cells_y))
         from sweep.design.box import opening
 
         return opening(self.geometry)
@@ -156,8 +156,8 @@ def _filled(made: Cells, share: float, given: Given) -> Cells:
     from sweep.design.sizing import cells_for
 
     width = made.line
-    wished = f"as lattice.infill is {100 * share:g} %; give one of them"
-    _check_follows("wall_thickness", width, f"{width:g} m, {wished}", given)
+    reason = f"as lattice.infill is {100 * share:g} %; give one of them"
+    _check_follows("wall_thickness", width, f"{width:g} m, {reason}", given)
     thin = made.model_copy(update={"wall_thickness": width})
     count = cells_for(thin.geometry, share, MAX_NODES)
     if count is None:
@@ -166,7 +166,7 @@ def _filled(made: Cells, share: float, given: Given) -> Cells:
         raise RefusedError("lattice.infill", share, allowed)
     follows = dict(zip(("cells_x", "cells_y"), count, strict=True))
     for key, value in follows.items():
-        _check_follows(key, value, f"{value}, {wished}", given)
+        _check_follows(key, value, f"{value}, {reason}", given)
     return thin.model_copy(update=follows)
 
 
@@ -219,8 +219,8 @@ def _check_period(made: Cells) -> None:
     endless = 'if lattice.boundary is "periodic"'
     for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
         if getattr(made, key) != value:
-            wanted = "none" if value is None else f"{value:g}"
-            raise RefusedError(f"lattice.{key}", getattr(made, key), f"{wanted} {endless}")
+            text = "none" if value is None else f"{value:g}"
+            raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
     key = "cells_x" if made.orientation == "flat" else "cells_y"
     if trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
         allowed = f"an even number {endless}, as every other row of {made.kind} is shifted"

@@ -11,8 +11,8 @@ from sweep.config.kinds.sliced import Sliced
 
 def _kind(value: Any) -> str:
     """The kind of a lattice, or of its values."""
-    held = value if isinstance(value, dict) else getattr(value, "__dict__", {})
-    return "custom" if "structure" in held else "sliced" if "slicer" in held else "cells"
+    fields = value if isinstance(value, dict) else getattr(value, "__dict__", {})
+    return "custom" if "structure" in fields else "sliced" if "slicer" in fields else "cells"
 
 
 Lattice = Annotated[

@@ -145,11 +145,11 @@ def relaxes(given: Given) -> bool:
     return given.get("loss") is not None or bool(given.get("relaxation_times"))
 
 
-def _completed(asked: Given) -> dict[str, Any]:
+def _completed(inputs: Given) -> dict[str, Any]:
     """The values with those of the record, and the defaults that follow from both."""
-    by_numbers = "modulus" in asked and "name" not in asked
-    record = None if by_numbers else read_record(locate(asked.get("name", "ninjaflex")))
-    given = _with_memory(dict(asked), record)
+    by_numbers = "modulus" in inputs and "name" not in inputs
+    record = None if by_numbers else read_record(locate(inputs.get("name", "ninjaflex")))
+    given = _with_memory(dict(inputs), record)
     if record is not None:
         given = dict(record.plasticity) | given
     if not relaxes(given):
@@ -161,7 +161,7 @@ def _completed(asked: Given) -> dict[str, Any]:
     given = _with_plasticity(given)
     if record is None:
         return _by_numbers(given)
-    return _of_record(record, _with_law(given), asked)
+    return _of_record(record, _with_law(given), inputs)
 
 
 def _by_numbers(given: dict[str, Any]) -> dict[str, Any]:
@@ -178,15 +178,15 @@ def _with_law(given: dict[str, Any]) -> dict[str, Any]:
     return {"bend": "linear", **given} if linear else given
 
 
-def _of_record(record: Record, given: dict[str, Any], asked: Given) -> dict[str, Any]:
+def _of_record(record: Record, given: dict[str, Any], inputs: Given) -> dict[str, Any]:
     """The values with the numbers and the curve of a record."""
     numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(given) else []))
-    known = {key: getattr(record, key) for key in numbers}
+    record_values = {key: getattr(record, key) for key in numbers}
     laws = [given.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
     if given["hardening"] is None and by_curve(*laws):
-        known |= {"curve_strain": record.strain, "curve_stress": record.stress}
-    uncertain = _uncertain(record, asked, {**known, **given})
-    return {**known, **given, "name": record.name, "uncertain": uncertain}
+        record_values |= {"curve_strain": record.strain, "curve_stress": record.stress}
+    uncertain = _uncertain(record, inputs, {**record_values, **given})
+    return {**record_values, **given, "name": record.name, "uncertain": uncertain}
 
 
 def _check_relaxation(made: Material) -> None:
@@ -278,11 +278,11 @@ def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]
 
 
 def _uncertain(
-    record: Record, asked: Given, known: dict[str, Any]
+    record: Record, inputs: Given, values: dict[str, Any]
 ) -> tuple[tuple[str, float, float], ...]:
     """The ranges of the record's numbers that a material uses, without those that it is given."""
-    used = [key for key in record.ranges if key not in asked]
-    used = [key for key in used if known.get(key) is not None or key == "friction"]
+    used = [key for key in record.ranges if key not in inputs]
+    used = [key for key in used if values.get(key) is not None or key == "friction"]
     return tuple((key, *record.ranges[key]) for key in used)
 
 

@@ -151,20 +151,20 @@ def _spacing(made: Sliced, share: float) -> dict[str, Any]:
     return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
 
 
-def _share_for(made: Sliced, wanted: float, per_area: float) -> float:
+def _share_for(made: Sliced, mass: float, per_area: float) -> float:
     """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
     pattern = made.printed_as
     most = 0.5 * pattern.opening * pattern.directions / pattern.wall
     first = made.model_copy(update=_spacing(made, LEAST_SHARE))
-    share, *bounds = share_for(first.geometry, wanted / per_area, (1.0 - 1e-9) * most)
+    share, *bounds = share_for(first.geometry, mass / per_area, (1.0 - 1e-9) * most)
     if isnan(share):
         light, heavy = (per_area * area for area in bounds)
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
-        if light < wanted < heavy:
+        if light < mass < heavy:
             allowed = "another mass: there a line along a side appears; or another fill_angle"
-        raise RefusedError("lattice.mass", wanted, allowed)
+        raise RefusedError("lattice.mass", mass, allowed)
     return share
 
 
@@ -188,7 +188,7 @@ def _checked_pattern(given: Given) -> str:
 def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
     """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
     why, nearest = NO_PRISMS.get(pattern.lower().replace(" ", ""), ("", "grid"))
-    nearest = next((own for own, known in patterns.items() if known == nearest), "grid")
+    nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
 
 

@@ -56,8 +56,8 @@ class Table(BaseModel):
 
     def given(self) -> dict[str, Any]:
         """The values from which this table follows, by key."""
-        held = {name: value for name, value in self if name not in self.derived}
-        return {name: value for name, value in held.items() if value is not None}
+        values = {name: value for name, value in self if name not in self.derived}
+        return {name: value for name, value in values.items() if value is not None}
 
     def value(self, key: str) -> Any:
         """The value of a key; None if this kind does not have it."""

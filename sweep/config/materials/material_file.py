@@ -105,7 +105,7 @@ def read_record(path: Path) -> Record:
 def _record(
     name: str, strain: Numbers, stress: Numbers, numbers: dict[str, Stated], texts: tuple[str, ...]
 ) -> Record:
-    known = {key: number.value for key, number in numbers.items() if number.value is not None}
+    values = {key: number.value for key, number in numbers.items() if number.value is not None}
     ranges = {
         key: (low, high)
         for key, (_, low, high) in numbers.items()
@@ -115,12 +115,12 @@ def _record(
         name=name,
         strain=strain,
         stress=stress,
-        density=known["density"],
-        poisson=known["poisson"],
-        modulus=known["modulus"] if "modulus" in known else secant_modulus(strain, stress),
-        reference_time=known.get("reference_time", REFERENCE_TIME),
-        memory={key: known[key] for key in MEMORY if key in known},
-        plasticity={key: known[key] for key in PLASTICITY if key in known},
+        density=values["density"],
+        poisson=values["poisson"],
+        modulus=values["modulus"] if "modulus" in values else secant_modulus(strain, stress),
+        reference_time=values.get("reference_time", REFERENCE_TIME),
+        memory={key: values[key] for key in MEMORY if key in values},
+        plasticity={key: values[key] for key in PLASTICITY if key in values},
         ranges=ranges,
         comments=texts,
     )

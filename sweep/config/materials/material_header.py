@@ -47,8 +47,8 @@ class Stated(NamedTuple):
 
 def stated(lines: list[str]) -> dict[str, Stated]:
     """The numbers of a header by their names in a case; ValueError if one cannot be read."""
-    found = [match for line in lines if (match := _LINE.fullmatch(line.strip()))]
-    return {KEYS[match[1]]: _number(match[1], match[2].strip()) for match in found}
+    matches = [match for line in lines if (match := _LINE.fullmatch(line.strip()))]
+    return {KEYS[match[1]]: _number(match[1], match[2].strip()) for match in matches}
 
 
 def _number(key: str, text: str) -> Stated:
@@ -71,15 +71,15 @@ def _number(key: str, text: str) -> Stated:
 
 def comments(lines: list[str]) -> tuple[str, ...]:
     """The text of a header without its numbers, each comment on a line of its own."""
-    found: list[str] = []
+    texts: list[str] = []
     for line in lines:
         if not line.startswith("#") or _LINE.fullmatch(line.strip()):
             continue
-        if line.startswith("#  ") and found:
-            found[-1] += f" {line[1:].strip()}"
+        if line.startswith("#  ") and texts:
+            texts[-1] += f" {line[1:].strip()}"
         else:
-            found.append(line[1:].strip())
-    return tuple(found)
+            texts.append(line[1:].strip())
+    return tuple(texts)
 
 
 def source(texts: tuple[str, ...]) -> str:

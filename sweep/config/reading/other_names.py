@@ -79,9 +79,9 @@ def with_words(key: str, allowed: str) -> str:
     return allowed
 
 
-def meant(name: str, known: Iterable[str]) -> tuple[str, str]:
+def meant(name: str, candidates: Iterable[str]) -> tuple[str, str]:
     """The known key that an unknown one means, and a clause that says so."""
-    names = list(known)
+    names = list(candidates)
     key, note = KEYS.get(name.rpartition(".")[2].lower(), ("", ""))
     near = key if key in names else nearest(name, names)
     return near, f"the nearest is {near}" + (f": {note}" if note and near == key else "")

@@ -94,7 +94,7 @@ class Reader:
             "exclude": {*TABLES, "exclude", "grid", "zip"},
         }.get(_table(fault.key), set(TABLES) - {"material"})
         depends_on = depends_on | ({"material"} if fault.key in BY_MATERIAL else set())
-        return not depends_on & {_table(known.key) for known in self.faults}
+        return not depends_on & {_table(other.key) for other in self.faults}
 
     def _name(self, name: object) -> str:
         if isinstance(name, str) and _NAME.fullmatch(name):
@@ -233,26 +233,26 @@ class Reader:
             values = [self._value(name, value, "[[exclude]]") for value in raws]
             if raws == []:
                 self._refuse(name, raw, "is empty; allowed: at least one value", "[[exclude]]")
-            held = [value.value for value in values if value]
+            contents = [value.value for value in values if value]
             if name == "material.name":
-                held = [Path(value).name.removesuffix(".csv") for value in held]
+                contents = [Path(value).name.removesuffix(".csv") for value in contents]
             if name == "lattice.file":
-                held = [Path(value).name for value in held]
-            if held and len(held) == len(raws):
-                excluded[name] = tuple(rounded(value) for value in held)
+                contents = [Path(value).name for value in contents]
+            if contents and len(contents) == len(raws):
+                excluded[name] = tuple(rounded(value) for value in contents)
         return excluded if len(excluded) == len(table) else {}
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
         """A value in SI; if it is wrong, None, and one fault is added."""
         questions = {} if where else table_keys("rank") | table_keys("require")
-        known = case_keys() | questions
-        if name not in known:
-            self._unknown(name, raw, known, where)
+        keys = case_keys() | questions
+        if name not in keys:
+            self._unknown(name, raw, keys, where)
             return None
         if raw == "" and where == "[[zip]]":
             return Written(None, '""')
         try:
-            return Written(self._checked(known[name], raw), in_words(raw), name)
+            return Written(self._checked(keys[name], raw), in_words(raw), name)
         except RecordError as error:
             self._refuse(name, raw, str(error).removeprefix(f"{Path(raw).name}: "), where)
             return None
@@ -261,12 +261,12 @@ class Reader:
                 self._refuse(name, raw, line, where)
             return None
         except ValueError as error:
-            allowed = with_words(known[name].targets[0], known[name].allowed)
+            allowed = with_words(keys[name].targets[0], keys[name].allowed)
             self._refuse(name, raw, f"{error}; allowed: {allowed}", where)
             return None
 
-    def _unknown(self, name: str, raw: Any, known: Iterable[str], where: str = "") -> None:
-        near, clause = meant(name, known)
+    def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
+        near, clause = meant(name, keys)
         self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:

@@ -69,20 +69,20 @@ def _unused_part(lattice: CustomStructure, case: Case) -> str:
 def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the given value of a key has no effect in a case; empty if it has an effect."""
     table, name = key.split(".")
-    held = getattr(getattr(case, table), name, None)
+    case_value = getattr(getattr(case, table), name, None)
     if key == "material.memory":
         return _why_no_memory(given)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
     if case.along and key in IDLE_ALONG:
         return f'loading.direction is "{case.loading.direction}"'
-    if held == given[key] or _used_otherwise(key, held, given, case):
+    if case_value == given[key] or _used_otherwise(key, case_value, given, case):
         return ""
     implied = getattr(case, table).implies(name, given[key])
     return "" if implied else _reason(key, given, case)
 
 
-def _used_otherwise(key: str, held: object, given: Mapping[str, Any], case: Case) -> bool:
+def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case: Case) -> bool:
     """True if a value has an effect although the case has another value, or none.
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
@@ -91,7 +91,7 @@ def _used_otherwise(key: str, held: object, given: Mapping[str, Any], case: Case
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "solver.time_step":
-        return held is not None and "solver.load_steps" not in given
+        return case_value is not None and "solver.load_steps" not in given
     return key == "material.name" or (key == "loading.speed" and isinstance(case.loading, Crush))
 
 

@@ -79,7 +79,7 @@ def _constraints(structure: Structure, body: list[int], points: Floats) -> Float
     driven = {(part.node, part.direction) for part in structure.prescribed}
     rows += [
         _motion(points[node], direction, meeting[node][0], n)
-        for node, direction in structure.held | driven
+        for node, direction in structure.restraints | driven
     ]
     for a, b in (spring.nodes for spring in structure.springs):
         apart = points[b] - points[a]

@@ -115,7 +115,7 @@ class Structure(Part):
         return (given,) * len(self.nodes_mm)
 
     @property
-    def held(self) -> set[tuple[int, str]]:
+    def restraints(self) -> set[tuple[int, str]]:
         """Nodes and directions that supports fix."""
         return {(support.node, direction) for support in self.supports for direction in support.fix}
 

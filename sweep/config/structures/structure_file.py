@@ -38,7 +38,7 @@ def read_structure(path: Path) -> Structure:
         text = path.read_text(encoding="utf-8")
         if not isinstance(json.loads(text), dict):
             raise StructureError(["not a JSON object; allowed: { ... } with nodes_mm and walls"])
-        found = Structure.model_validate_json(text)
+        structure = Structure.model_validate_json(text)
     except ValidationError as error:
         raise StructureError(list(_misfits(error))) from None
     except OSError as error:
@@ -49,19 +49,19 @@ def read_structure(path: Path) -> Structure:
         raise StructureError([f"not JSON ({error})"]) from None
     except RecursionError:
         raise StructureError(["not JSON (nested too deeply)"]) from None
-    lines = list(faults(found))
+    lines = list(faults(structure))
     if lines:
         raise StructureError(lines)
-    return found
+    return structure
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:
     """One line for each fault of form; a value of two allowed forms gets that of the closer one."""
     closest: dict[object, tuple[int, str]] = {}
-    found = error.errors()
-    inside = {wrong["loc"][:depth] for wrong in found for depth in range(len(wrong["loc"]))}
-    unknown = {wrong["loc"][:-1] for wrong in found if wrong["type"] == "extra_forbidden"}
-    for wrong in found:
+    errors = error.errors()
+    inside = {wrong["loc"][:depth] for wrong in errors for depth in range(len(wrong["loc"]))}
+    unknown = {wrong["loc"][:-1] for wrong in errors if wrong["type"] == "extra_forbidden"}
+    for wrong in errors:
         follows = wrong["type"] == "missing" and wrong["loc"][:-1] in unknown
         if wrong["loc"] in inside or follows:
             continue
@@ -129,13 +129,13 @@ def _unknown_nodes(structure: Structure) -> Iterator[str]:
 def _lists(structure: Structure) -> Iterator[str]:
     """Faults of lists with too many or too few entries."""
     walls, nodes = len(structure.walls), len(structure.nodes_mm)
-    for key, given, wanted, what in (
+    for key, given, count, what in (
         ("wall_thickness_mm", structure.thickness_mm, walls, "wall"),
         ("subdivide", structure.pieces, walls, "wall"),
         ("initial_velocity_mm_s", structure.velocity_mm_s, nodes, "node"),
     ):
-        if len(given) != wanted:
-            allowed = f"one value, or one for each {what}, {wanted} here"
+        if len(given) != count:
+            allowed = f"one value, or one for each {what}, {count} here"
             yield _fault(
                 (key,), getattr(structure, key), f"{len(given)} values; allowed: {allowed}"
             )
@@ -149,18 +149,18 @@ def _drives(structure: Structure) -> Iterator[str]:
     driven: set[tuple[int, str]] = set()
     for k, part in enumerate(structure.prescribed):
         turned = part.direction == "rotation"
-        wanted, other = ("angle_rad", "displacement_mm")[:: 1 if turned else -1]
-        if getattr(part, wanted) is None or getattr(part, other) is not None:
-            wrong = f"does not fit; allowed: {wanted}, and no {other}, with this direction"
+        quantity, other = ("angle_rad", "displacement_mm")[:: 1 if turned else -1]
+        if getattr(part, quantity) is None or getattr(part, other) is not None:
+            wrong = f"does not fit; allowed: {quantity}, and no {other}, with this direction"
             yield _fault(("prescribed", k, "direction"), part.direction, wrong)
         coordinate = part.node, part.direction
-        if coordinate in structure.held or coordinate in driven:
+        if coordinate in structure.restraints or coordinate in driven:
             wrong = "held or moved already; allowed: one support or one prescribed move of each"
             yield _fault(("prescribed", k, "direction"), part.direction, wrong)
         driven.add(coordinate)
     turning = {(load.node, "rotation") for load in structure.loads if load.moment_Nmm}
     for k, node in enumerate(structure.pins):
-        if (node, "rotation") in structure.held | driven | turning:
+        if (node, "rotation") in structure.restraints | driven | turning:
             wrong = "has no rotation to fix, move or load; allowed: nodes without these"
             yield _fault(("pins", k), node, wrong)
 

@@ -66,9 +66,9 @@ def infill(sliced: Sliced, box: tuple[float, float]) -> Floats:
     drawn = unit * (drawn - pattern.middle)
     angle = sliced.angle + pattern.turn
     turn = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
-    found: Floats = drawn @ turn + half
-    found.flags.writeable = False
-    return found
+    lines: Floats = drawn @ turn + half
+    lines.flags.writeable = False
+    return lines
 
 
 @lru_cache(maxsize=64)

@@ -110,8 +110,8 @@ SLICERS = {name: program.patterns for name, program in PROGRAMS.items()}
 
 def family_of(name: str) -> str:
     """The family of a slicer's pattern, empty for parallel lines; other names unchanged."""
-    known = {own: pattern for patterns in SLICERS.values() for own, pattern in patterns.items()}
-    return PATTERNS[known[name]].family if name in known else name
+    names = {own: pattern for patterns in SLICERS.values() for own, pattern in patterns.items()}
+    return PATTERNS[names[name]].family if name in names else name
 
 
 class Likeness(NamedTuple):

@@ -45,16 +45,16 @@ def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Cr
     """
     look, related = looks(designs), bool((designs["material_modulus_Pa"] > 0.0).all())
     for ax, rows in scene_axes(fig, designs):
-        found = [(row, _scaled(crush, row, related)) for row, crush in _crushed(rows, crushes)]
-        for row, crush in found:
+        curves = [(row, _scaled(crush, row, related)) for row, crush in _crushed(rows, crushes)]
+        for row, crush in curves:
             _curve(ax, crush.greatest, crush.work, look, rows.loc[[row.name]], shoulder(crush))
-        stresses, most = envelope([crush for _, crush in found])
+        stresses, most = envelope([crush for _, crush in curves])
         ax.plot(stresses, most, **ENVELOPE)
         ax.set(xscale="log", yscale="log")
-        if found:
-            bottom = min(crush.work[-1] for _, crush in found) / SHOWN
+        if curves:
+            bottom = min(crush.work[-1] for _, crush in curves) / SHOWN
             ax.set_ylim(bottom=bottom)
-            ax.set_xlim(MARGIN * min(c.greatest[c.work >= bottom].min() for _, c in found))
+            ax.set_xlim(MARGIN * min(c.greatest[c.work >= bottom].min() for _, c in curves))
         ax.set_xlabel("greatest stress / modulus" if related else "greatest stress, kPa")
         ax.set_ylabel("energy per volume / modulus" if related else "energy per volume, kJ/m³")
     legend(fig, [*look.legend(lines=True), _entry("shoulder"), PLAIN | ENVELOPE | MOST])

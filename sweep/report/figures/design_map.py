@@ -148,10 +148,10 @@ def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:
     """Value ± error as a thin line behind each design with a known error."""
-    known = error.notna()
-    if known.any():
+    mask = error.notna()
+    if mask.any():
         low, high = (end.clip(*(share * y for share in ENDS)) for end in (y - error, y + error))
-        ax.vlines(x[known], low[known], high[known], color=color, lw=0.8, zorder=0)
+        ax.vlines(x[mask], low[mask], high[mask], color=color, lw=0.8, zorder=0)
 
 
 def scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFrame]]:

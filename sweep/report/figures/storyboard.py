@@ -126,8 +126,8 @@ def _turn(strain: NDArray[np.float64]) -> int:
 
 def _even(strain: NDArray[np.float64], count: int) -> list[int]:
     """Frames nearest to evenly spaced strains up to the greatest."""
-    wanted = np.linspace(strain[0], strain.max(), count)
-    frames: list[int] = np.abs(strain[:, None] - wanted).argmin(0).tolist()
+    targets = np.linspace(strain[0], strain.max(), count)
+    frames: list[int] = np.abs(strain[:, None] - targets).argmin(0).tolist()
     return frames
 
 

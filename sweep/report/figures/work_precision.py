@@ -27,10 +27,10 @@ COLORS = (BLUE, VERMILION, ORANGE, PURPLE, SKY, GREY)
 SIGNS = "osD^vP"
 
 
-def work_precision(fig: Figure, found: dict[str, Study]) -> None:
-    """One row of panels per scene, one panel per measure. found : title -> study."""
-    strips = fig.subfigures(len(found), 1, squeeze=False)[:, 0]
-    for strip, (title, study) in zip(strips, found.items(), strict=True):
+def work_precision(fig: Figure, studies: dict[str, Study]) -> None:
+    """One row of panels per scene, one panel per measure. studies : by title."""
+    strips = fig.subfigures(len(studies), 1, squeeze=False)[:, 0]
+    for strip, (title, study) in zip(strips, studies.items(), strict=True):
         strip.suptitle(title, x=0.01, ha="left", fontsize="medium")
         _scene(strip, study)
 

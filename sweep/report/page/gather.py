@@ -123,8 +123,8 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 def _counted(finished: DataFrame) -> list[Counted]:
     """Energies that are known for all cases: until packed, and up to the forces of the columns."""
-    held = [match[1] for name in finished if (match := ABSORBED_AT.fullmatch(str(name)))]
-    forces = [None, *sorted(float(text) for text in held)]
+    texts = [match[1] for name in finished if (match := ABSORBED_AT.fullmatch(str(name)))]
+    forces = [None, *sorted(float(text) for text in texts)]
     return [Counted(force, *merits(finished, Question(allowed_force=force))) for force in forces]
 
 
@@ -132,7 +132,7 @@ def _cases(
     counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
 ) -> dict[str, dict[str, Any]]:
     """What ranks every finished case, and what its row of the table says, by its id."""
-    found = {}
+    cases = {}
     for number, part in enumerate(scenes):
         least = LEAST.get(part["loading_mode"].iloc[0])
         energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
@@ -165,8 +165,8 @@ def _cases(
         }
         for values in zip(*columns.values(), strict=True):
             case = dict(zip(columns, values, strict=True))
-            found[case["id"]] = case
-    return found
+            cases[case["id"]] = case
+    return cases
 
 
 def _exact(values: Iterable[float]) -> list[float | None]:
@@ -176,9 +176,9 @@ def _exact(values: Iterable[float]) -> list[float | None]:
 
 def _with_bars(rows: DataFrame, name: str) -> list[tuple[float | None, ...]]:
     """Value, error and correction of a column, row by row; None if unknown."""
-    known = [rows.get(column) for column in (name, error_column(name), correction_column(name))]
+    columns = [rows.get(column) for column in (name, error_column(name), correction_column(name))]
     unknown = [None] * len(rows)
-    return list(zip(*(unknown if c is None else _exact(c) for c in known), strict=True))
+    return list(zip(*(unknown if c is None else _exact(c) for c in columns), strict=True))
 
 
 def _measures(rows: DataFrame) -> dict[str, Series]:
@@ -213,10 +213,12 @@ def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Ques
     """Ids of all cases; those whose shapes are kept first: winners, else the nearest, then those
     that may win.
     """
-    asked = question._replace(by=None, top=3, allowed_force=None)
-    found = answer(finished, asked)
-    winners = found.table.sort_values("place", kind="stable")["case_id"]
-    nearest = [k for scene in found.outcomes.values() for o in scene for k in o.nearest["case_id"]]
+    usual = question._replace(by=None, top=3, allowed_force=None)
+    ranking = answer(finished, usual)
+    winners = ranking.table.sort_values("place", kind="stable")["case_id"]
+    nearest = [
+        k for scene in ranking.outcomes.values() for o in scene for k in o.nearest["case_id"]
+    ]
     fronts = [front for each in counted for front in _fronts(finished, each)]
     return list(dict.fromkeys([*winners, *nearest, *fronts, *finished["case_id"]]))
 
@@ -311,8 +313,8 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
         (work_until(limit, *full), work_until(limit, *thin))
         for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
     ]
-    counted = [(true, found) for true, found in works if true > SMALL * full[1][-1]]
-    return max((abs(found / true - 1.0) for true, found in counted), default=0.0)
+    counted = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
+    return max((abs(value / true - 1.0) for true, value in counted), default=0.0)
 
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:
@@ -346,16 +348,16 @@ def _failures(summary: DataFrame) -> Iterator[dict[str, str]]:
 
 def _config(about: Mapping[str, Any]) -> dict[str, Any]:
     """The config stored in a file; empty if there is none."""
-    found = json.loads(about.get("config") or "{}")
-    return found if isinstance(found, dict) else {}
+    config = json.loads(about.get("config") or "{}")
+    return config if isinstance(config, dict) else {}
 
 
 def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]]:
     """Where the numbers come from, as pairs of words."""
     versions = summary["model_version"].value_counts().sort_index().items()
-    known = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
+    packages = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
     model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)
     pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
     pairs += [("version of the model", model)]
-    pairs += [(name, short(version)) for name, version in known.items()]
+    pairs += [(name, short(version)) for name, version in packages.items()]
     return pairs

@@ -68,9 +68,9 @@ def _peaks(distance: Floats, kept: Indices) -> Floats:
     return np.maximum.reduceat(distance, kept[:-1])
 
 
-def _first_of_each(found: Indices, chord: Indices) -> Indices:
-    """The first of the found points on each chord."""
-    return found[np.unique(chord[found], return_index=True)[1]]
+def _first_of_each(points: Indices, chord: Indices) -> Indices:
+    """The first of the points on each chord."""
+    return points[np.unique(chord[points], return_index=True)[1]]
 
 
 def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:

@@ -40,11 +40,11 @@ def trails(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> lis
     free = dict.fromkeys(range(len(edges)))
     ends = [(e, side) for e in free for side in (0, 1) if (e, side) not in follows]
     closed = [(e, 0) for e in range(len(edges))]
-    found = []
+    walks = []
     for e, side in [*ends, *closed]:
         if e in free:
-            found.append(Trail(float(thickness[e]), _walk(e, side, edges, follows, free)))
-    return found
+            walks.append(Trail(float(thickness[e]), _walk(e, side, edges, follows, free)))
+    return walks
 
 
 def _pairs(

@@ -67,8 +67,8 @@ def tables(summary: DataFrame, question: Question) -> str:
     if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
     sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))
-    known = _paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
-    return f"{_winners(ranking.table, summary)}{sheets}{known}"
+    notes = _paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+    return f"{_winners(ranking.table, summary)}{sheets}{notes}"
 
 
 def _winners(table: DataFrame, summary: DataFrame) -> str:

@@ -76,8 +76,8 @@ def answers(study: Study) -> list[str]:
     for name in study.references:
         if name not in study.resolved:
             uncertain = f"is uncertain by {_doubt(study, name)}"
-            known = uncertain if np.isfinite(study.references[name].doubt) else "is unknown"
-            lines.append(f"Not resolved: {measure_noun(study, name)}, whose limit {known}.")
+            clause = uncertain if np.isfinite(study.references[name].doubt) else "is unknown"
+            lines.append(f"Not resolved: {measure_noun(study, name)}, whose limit {clause}.")
     if study.resolved:
         lines += [line for target in TARGETS for line in _cheapest(study, target)]
     failed = study.settings[study.settings["status"] != Status.CONVERGED]
@@ -95,12 +95,12 @@ def _reference(study: Study) -> str:
 
 def _cheapest(study: Study, target: float) -> Iterator[str]:
     """The cheapest settings below a target: in all measures known so well, and in energy alone."""
-    known = [name for name in study.resolved if study.references[name].doubt < target]
-    if not known:
+    names = [name for name in study.resolved if study.references[name].doubt < target]
+    if not names:
         yield f"Errors below {percents(target)} are not resolved: the reference is too uncertain."
         return
-    rows, where = study.settings, f"below {percents(target)} in {_listed(study, known)}"
-    worst = rows[known].max(axis=1, skipna=False)
+    rows, where = study.settings, f"below {percents(target)} in {_listed(study, names)}"
+    worst = rows[names].max(axis=1, skipna=False)
     good = rows[worst < target].sort_values("cpu_s")
     cheap = rows[rows["energy"] < target].sort_values("cpu_s")
     if good.empty:
@@ -108,7 +108,7 @@ def _cheapest(study: Study, target: float) -> Iterator[str]:
         yield f"No setting is {where}; {setting(study, best)} reaches {percents(worst.min())}."
     else:
         yield f"The cheapest setting {where} is {_with_cost(study, good.iloc[0])}."
-    if "energy" in known and not cheap.index[:1].isin(good.index[:1]).all():
+    if "energy" in names and not cheap.index[:1].isin(good.index[:1]).all():
         yield f"For {measure_noun(study, 'energy')} alone it is {_with_cost(study, cheap.iloc[0])}."
 
 
@@ -150,8 +150,8 @@ def _orders(study: Study) -> Sheet:
     rows = []
     for method, measures in study.orders.items():
         for key in measures["energy"]:
-            found = [measures[name][key] for name in measures]
-            texts = [NOTHING if np.isnan(order) else f"{order:.2f}" for order in found]
+            orders = [measures[name][key] for name in measures]
+            texts = [NOTHING if np.isnan(order) else f"{order:.2f}" for order in orders]
             rows.append([method, HEADS[key], *texts])
     return Sheet("observed orders", ["method", "refined in", *study.references], rows)
 

@@ -36,12 +36,12 @@ NOTE = (
 
 def material_sheet(records: Iterable[Record]) -> Sheet:
     """A row for each material, with the ranges of its numbers."""
-    known = list(records)
+    materials = list(records)
     keys = {
         head: key
         for head, key in SHOWN.items()
         if key not in (*MEMORY, *PLASTICITY)
-        or any(key in (*record.memory, *record.plasticity) for record in known)
+        or any(key in (*record.memory, *record.plasticity) for record in materials)
     }
     rows = [
         [
@@ -50,7 +50,7 @@ def material_sheet(records: Iterable[Record]) -> Sheet:
             source(record.comments) or NOTHING,
             ", ".join(map(_first_word, assumed(record.comments))) or NOTHING,
         ]
-        for record in known
+        for record in materials
     ]
     heads, others = ["material", *keys, "source", "assumed"], "crumple materials NAME"
     return Sheet("", heads, rows, notes=(NOTE,), spare=("poisson", "after s"), elsewhere=others)

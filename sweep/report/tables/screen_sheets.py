@@ -35,10 +35,8 @@ def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) 
     for (_, scene), rows in table.groupby(["budget_g", "scene"], dropna=False, sort=False):
         column, budget = str(rows["ranked_by"].iloc[0]), rows["budget_g"].iloc[0]
         within = f", up to {budget:g} g" if budget > 0.0 else ""
-        known = (
-            compared[column] if column in compared else compared.index.to_series() * float("nan")
-        )
-        both = rows.assign(full=rows["case_id"].map(known).astype(float))
+        full = compared[column] if column in compared else compared.index.to_series() * float("nan")
+        both = rows.assign(full=rows["case_id"].map(full).astype(float))
         design = design_text(rows, estimates)
         texts = zip(*design.values(), strict=True) if design else [()] * len(rows)
         yield Sheet(
@@ -61,13 +59,13 @@ def _values(estimate: float, full: float) -> list[str]:
 
 def _agreement(estimate: Series, full: Series) -> Iterator[str]:
     """How well estimates agree with whole models, of the designs that have both."""
-    known = full.notna()
-    if not known.any():
+    both = full.notna()
+    if not both.any():
         return
-    ratio = (full / estimate)[known]
-    text = f"{known.sum()} of {len(full)} designs ran as a whole: full / estimate "
+    ratio = (full / estimate)[both]
+    text = f"{both.sum()} of {len(full)} designs ran as a whole: full / estimate "
     text += f"{ratio.min():.2f} to {ratio.max():.2f}"
-    if known.sum() >= FEWEST:
-        order = estimate[known].rank().corr(full[known].rank())
+    if both.sum() >= FEWEST:
+        order = estimate[both].rank().corr(full[both].rank())
         text += f", rank correlation {order:.2f}"
     yield f"{text}."

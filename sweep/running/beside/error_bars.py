@@ -113,9 +113,9 @@ def companions_beside(
     designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
 ) -> dict[str, Case]:
     """Companions of all designs by their id, without those that are cases of the sweep itself."""
-    found = {c.case.case_id: c.case for design in designs for c in companions(design)}
+    by_id = {c.case.case_id: c.case for design in designs for c in companions(design)}
     there = finished_ids(out, rerun._replace(failed=False)) | {case.case_id for case in designs}
-    return {case_id: case for case_id, case in found.items() if case_id not in there}
+    return {case_id: case for case_id, case in by_id.items() if case_id not in there}
 
 
 def add_error_bars(
@@ -184,8 +184,8 @@ def _has_bar(name: str) -> bool:
 def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:
     """Median of the changes as shares of the values, where both are known; 0 without any."""
     shares = [abs(change[name] / own[name]) for name in change if own[name] != 0.0]
-    known = [share for share in shares if isfinite(share)]
-    return median(known) if known else 0.0
+    numbers = [share for share in shares if isfinite(share)]
+    return median(numbers) if numbers else 0.0
 
 
 def _converged(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:

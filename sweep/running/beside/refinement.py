@@ -46,12 +46,12 @@ def mesh(lattice: Lattice, times: float) -> dict[str, Any]:
     return change | layers(lattice, round(lattice.layers / ratio))
 
 
-def layers(lattice: Lattice, wished: int, thicker: float = 1.0) -> dict[str, int]:
+def layers(lattice: Lattice, count: int, thicker: float = 1.0) -> dict[str, int]:
     """Layers of quads of plates whose walls are so many times as thick: at most as many as leave
     quads as high as walls are thick.
     """
     most = most_layers(thicker * network_of(lattice).wall_thickness, lattice.depth)
-    return {"layers": max(min(wished, most), 1)}
+    return {"layers": max(min(count, most), 1)}
 
 
 def _steps(solver: Solver, times: float) -> dict[str, Any]:

@@ -82,12 +82,12 @@ def run_columns(
     what = f"screen of {len(designs)} designs: {len(alone)} unit columns"
     run_beside(alone, beside, what, How(workers, scheduler, rerun, simulate))
     rows = read_summary(beside)
-    found = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
+    by_id = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
     return DataFrame(
         [
-            _scaled(found.loc[column.case_id].to_dict(), design, column.lattice)
+            _scaled(by_id.loc[column.case_id].to_dict(), design, column.lattice)
             for design, column in zip(designs, columns.values(), strict=True)
-            if column.case_id in found.index
+            if column.case_id in by_id.index
         ]
     )
 

@@ -48,14 +48,14 @@ def corners(design: Case) -> list[Corner]:
     friction = ranges.pop("friction", FRICTION)
     if isinstance(design.contact, Barrier) and "contact.friction" not in design.axes:
         ranges["friction"] = friction
-    found = [
+    candidates = [
         Corner(f"{name} {end}", _moved(design, name, value))
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
     ]
     if design.along and design.lattice.imperfection > 0.0:
-        found += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
-    return [corner for corner in found if corner.case_id != design.case_id]
+        candidates += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
+    return [corner for corner in candidates if corner.case_id != design.case_id]
 
 
 def _bowed(design: Case, seed: int) -> Case:
@@ -96,12 +96,12 @@ def corners_of(
     """The corners of the `best` cases by their ids: those of a sweep, which has their labels and
     time limit as they are now, and others as `out` holds them.
     """
-    known = {case.case_id: case for case in cases}
-    return {case_id: corners(known.get(case_id) or read_case(out, case_id)) for case_id in best}
+    by_id = {case.case_id: case for case in cases}
+    return {case_id: corners(by_id.get(case_id) or read_case(out, case_id)) for case_id in best}
 
 
 def run_corners(
-    found: Mapping[str, Sequence[Corner]],
+    by_design: Mapping[str, Sequence[Corner]],
     out: str | os.PathLike[str],
     workers: int = 2,
     scheduler: str | None = None,
@@ -109,7 +109,7 @@ def run_corners(
     simulate: Simulate | None = None,
 ) -> None:
     """Run the corners of designs in `out` that are missing; arguments as those of `run_sweep`."""
-    others = {c.case_id: c.case for several in found.values() for c in several}
-    what = f"spread of {len(found)} designs: {len(others)} cases"
+    others = {c.case_id: c.case for several in by_design.values() for c in several}
+    what = f"spread of {len(by_design)} designs: {len(others)} cases"
     how = How(workers, scheduler, rerun, simulate)
     run_beside(others, file_beside(out, "spread"), what, how)

@@ -64,8 +64,8 @@ class DesignSpace:
     @cached_property
     def _size(self) -> Interval | None:
         """The axis that the budget limits."""
-        found = (self.config.recipe.search.get(key) for key in SIZES)
-        return next((axis for axis in found if isinstance(axis, Interval)), None)
+        axes = (self.config.recipe.search.get(key) for key in SIZES)
+        return next((axis for axis in axes if isinstance(axis, Interval)), None)
 
     def _sized(self, chosen: Values, share: float) -> Written | None:
         """The wall thickness, or the mass, at a share of what the other chosen values allow."""

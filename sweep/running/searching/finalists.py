@@ -27,13 +27,13 @@ ALIKE = 0.05  # relative difference in all numbers up to which two designs are o
 
 def finalists(best: Iterable[Case], count: int = COUNT) -> list[Case]:
     """The first designs that differ from one another by a choice, or by more than `ALIKE`."""
-    found: list[Case] = []
+    designs: list[Case] = []
     for case in best:
-        if len(found) == count:
+        if len(designs) == count:
             break
-        if not any(_alike(case.axes, other.axes) for other in found):
-            found.append(case)
-    return found
+        if not any(_alike(case.axes, other.axes) for other in designs):
+            designs.append(case)
+    return designs
 
 
 def _alike(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
@@ -54,16 +54,16 @@ def perturbed(design: Case) -> list[Corner]:
     """
     fine = _with(design, _elements(design.lattice, 2))
     base = fine or _with(design, _elements(design.lattice, 1)) or design
-    found = {FINE: fine}
+    variants = {FINE: fine}
     if not isinstance(base.lattice, CustomStructure):
-        wished = (2 if fine else 1) * (design.lattice.layers or 0)
+        count = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
-            height = layers(base.lattice, wished, by) if wished else {}
-            found[name] = _with(base, _walls(base.lattice, by) | height)
+            height = layers(base.lattice, count, by) if count else {}
+            variants[name] = _with(base, _walls(base.lattice, by) | height)
         amount = base.lattice.imperfection
         bows = BOWS if amount else {}
-        found |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
-    return [Corner(name, case) for name, case in found.items() if case]
+        variants |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
+    return [Corner(name, case) for name, case in variants.items() if case]
 
 
 def _walls(lattice: Cells | Sliced, by: float) -> dict[str, Any]:

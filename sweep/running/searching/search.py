@@ -31,7 +31,7 @@ from sweep.columns import in_words, less_is_better
 from sweep.config.case import Case
 from sweep.numbers import text_in, three_digits
 from sweep.ranking.assessment import Assessment, assess
-from sweep.ranking.curves import Known, with_allowed
+from sweep.ranking.curves import Cache, with_allowed
 from sweep.ranking.question import Question
 from sweep.running.dask_graph import Simulate
 from sweep.running.progress import announce
@@ -61,7 +61,7 @@ class Settings(NamedTuple):
 class Search:
     """A search into the results file `out`; question: what its ranking is asked.
 
-    cases: the designs so far by id. found: their values and misses.
+    cases: the designs so far by id. assessment: their values and misses.
     """
 
     space: DesignSpace
@@ -70,8 +70,8 @@ class Search:
     settings: Settings
     simulate: Simulate | None = None
     cases: dict[str, Case] = field(default_factory=dict)
-    found: Assessment | None = None
-    _known: Known = field(default_factory=dict)
+    assessment: Assessment | None = None
+    _cache: Cache = field(default_factory=dict)
     _idle: int = 0
     _before: int = 0  # designs before the present generation
 
@@ -79,8 +79,8 @@ class Search:
     def mode(self) -> str:
         """The loading mode of the first design that exists; "" if none of the start does."""
         points = self._start(self.settings.seed * 1000)
-        found = next((case for point in points if (case := self.space.case(point))), None)
-        return found.loading.mode if found else ""
+        first = next((case for point in points if (case := self.space.case(point))), None)
+        return first.loading.mode if first else ""
 
     @property
     def left(self) -> int:
@@ -96,7 +96,7 @@ class Search:
                 break
         if self.cases:
             self._simulate()
-        return self.found
+        return self.assessment
 
     def _evolve(self, seed: int) -> None:
         """One population, from its Sobol start until it has converged or is stopped."""
@@ -142,9 +142,9 @@ class Search:
 
         A design without a value, or that misses a requirement, costs inf.
         """
-        ids, found = self._assessed(points)
-        values = found.by_id if found else {}
-        sign = found.sign if found else 1.0
+        ids, assessment = self._assessed(points)
+        values = assessment.by_id if assessment else {}
+        sign = assessment.sign if assessment else 1.0
         return np.array([sign * values.get(case_id, sign * inf) for case_id in ids])
 
     def violations(self, points: np.ndarray) -> np.ndarray:
@@ -152,8 +152,8 @@ class Search:
 
         That of a design without a value is inf.
         """
-        ids, found = self._assessed(points.reshape(self.space.dimension, -1))
-        fulfil, missed = (found.by_id, found.missed) if found else ({}, {})
+        ids, assessment = self._assessed(points.reshape(self.space.dimension, -1))
+        fulfil, missed = (assessment.by_id, assessment.missed) if assessment else ({}, {})
         values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
         return np.array(values if points.ndim == 1 else [values])
 
@@ -170,7 +170,7 @@ class Search:
             if chosen.keys() - finished_ids(self.out, RENEW):
                 self._simulate()
             self._assess()
-        return [design.case_id if design else "" for design in designs], self.found
+        return [design.case_id if design else "" for design in designs], self.assessment
 
     def _simulate(self) -> None:
         """Run the designs so far that the file does not hold."""
@@ -181,26 +181,26 @@ class Search:
 
     def _assess(self) -> None:
         """Value the designs so far, and report the best."""
-        self.found = assess(self.rows(), self.question)
+        self.assessment = assess(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
-        announce(f"{counted}: {_best(self.found)}")
+        announce(f"{counted}: {_best(self.assessment)}")
 
     def rows(self) -> DataFrame:
         """The rows of the designs so far, with energies up to an allowed force of the panel."""
         summary = read_summary(self.out)
         mine = summary[summary["case_id"].isin(self.cases)].reset_index(drop=True)
-        return with_allowed(self.out, mine, self.question, self._known)
+        return with_allowed(self.out, mine, self.question, self._cache)
 
 
-def _best(found: Assessment) -> str:
+def _best(assessment: Assessment) -> str:
     """How good the best design so far is, in words."""
-    if found.by_id:
-        value = three_digits(next(iter(found.by_id.values())))
-        column = in_words(found.column)
+    if assessment.by_id:
+        value = three_digits(next(iter(assessment.by_id.values())))
+        column = in_words(assessment.column)
         noun, _, unit = column.partition(", in ")
-        most = "least" if less_is_better(found.column) else "most"
+        most = "least" if less_is_better(assessment.column) else "most"
         return f"the {most} {noun} is {value} {unit}".rstrip()
-    least = min(found.missed.values(), default=inf)
+    least = min(assessment.missed.values(), default=inf)
     if least < inf:
         return f"none fulfils all requirements; the nearest misses them by {text_in(least, '%', 3)}"
     return "none can be ranked"

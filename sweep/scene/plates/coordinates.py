@@ -47,19 +47,19 @@ def leaders(mesh: PlateMesh, platen: str) -> Indices:
     numbering = Numbering(mesh.n_nodes)
     leader = np.arange(numbering.size)
     ends = np.concatenate([mesh.bottom, mesh.top])
-    held = [
+    supports = [
         np.array([numbering.low]),
         numbering.rotation(np.flatnonzero(mesh.flat), NORMAL),
         *_mirrored(mesh, numbering),
     ]
     if platen in BONDED:
         vertical = np.where(mesh.flat[ends], UP, VERTICAL)
-        held += [numbering.position(ends, axis) for axis in (0, 1)]
-        held += [numbering.position(mesh.bottom, 2), numbering.rotation(ends, vertical)]
+        supports += [numbering.position(ends, axis) for axis in (0, 1)]
+        supports += [numbering.position(mesh.bottom, 2), numbering.rotation(ends, vertical)]
         leader[numbering.position(mesh.top, 2)] = numbering.high
     if platen == "clamped":
-        held += [numbering.rotation(ends, axis) for axis in range(3)]
-    leader[np.concatenate(held)] = -1
+        supports += [numbering.rotation(ends, axis) for axis in range(3)]
+    leader[np.concatenate(supports)] = -1
     return leader
 
 
@@ -67,12 +67,12 @@ def _mirrored(mesh: PlateMesh, numbering: Numbering) -> list[Indices]:
     """Coordinates that the mirror planes of `lattice.symmetry` "quarter" hold; walls cross these
     planes at right angles.
     """
-    held = []
+    coordinates = []
     for axis in (0, 1):
         nodes = np.flatnonzero(mesh.on[:, axis])
-        held += [numbering.position(nodes, axis)]
-        held += [numbering.rotation(nodes, UP), numbering.rotation(nodes, NORMAL)]
-    return held
+        coordinates += [numbering.position(nodes, axis)]
+        coordinates += [numbering.rotation(nodes, UP), numbering.rotation(nodes, NORMAL)]
+    return coordinates
 
 
 def heights(mesh: PlateMesh, platen: str) -> tuple[float, float]:
@@ -97,6 +97,6 @@ def masses(mesh: PlateMesh, total: float, striker: float) -> Floats:
     Rotations have none, as the solver re-bases them; the upper platen has that of the ``striker``.
     """
     share = total * mesh.volume / mesh.volume.sum()
-    found = np.zeros((mesh.n_nodes, PER_NODE))
-    found[:, :3] = share[:, None]
-    return np.concatenate([found.ravel(), [0.0, striker]])
+    mass = np.zeros((mesh.n_nodes, PER_NODE))
+    mass[:, :3] = share[:, None]
+    return np.concatenate([mass.ravel(), [0.0, striker]])

@@ -197,9 +197,9 @@ def _frames(plan: Plan, axis: Floats, wall_of: Ints) -> tuple[Floats, np.ndarray
     first = wall_of.copy()
     flat = inside.copy()
     for column in np.flatnonzero(~inside):
-        found = axis[(plan.walls == column).any(axis=1)]
+        directions = axis[(plan.walls == column).any(axis=1)]
         first[column] = np.flatnonzero((plan.walls == column).any(axis=1))[0]
-        sine = found[:, 0] * found[0, 1] - found[:, 1] * found[0, 0]
+        sine = directions[:, 0] * directions[0, 1] - directions[:, 1] * directions[0, 0]
         flat[column] = np.abs(sine).max() <= STRAIGHT
     along = np.column_stack([axis[first], np.zeros(len(first))])
     up = np.broadcast_to(UP, along.shape)

@@ -26,10 +26,10 @@ class Unfolded:
 
     def positions(self, part: Floats) -> Floats:
         """Positions (f, N, 3) in m from those of the part, (f, n, 3)."""
-        found = part[:, self.node]
+        whole = part[:, self.node]
         if np.isfinite(self.planes).all():
-            found[..., :2] = np.where(self.at, 2.0 * self.planes - found[..., :2], found[..., :2])
-        return found
+            whole[..., :2] = np.where(self.at, 2.0 * self.planes - whole[..., :2], whole[..., :2])
+        return whole
 
 
 def unfolded(mesh: PlateMesh) -> Unfolded:

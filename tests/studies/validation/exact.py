@@ -49,7 +49,7 @@ class Frame:
         for part in of.loads:
             size = [*part.force_N, MM * part.moment_Nmm / self.unit]
             self.load[part.node] += np.array(size) / self.force
-        self.move = dict.fromkeys(of.held, 0.0)
+        self.move = dict.fromkeys(of.restraints, 0.0)
         for part in of.prescribed:
             turns = part.direction == "rotation"
             move = part.angle_rad if turns else MM * part.displacement_mm / self.unit

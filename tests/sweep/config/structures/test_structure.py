@@ -45,5 +45,5 @@ def test_extent_is_that_of_the_nodes():
 def test_what_is_held_is_told_by_node_and_direction():
     fixed = [{"node": 0, "fix": ("x", "y")}, {"node": 2, "fix": ("y",)}]
     found = Structure.model_validate({"nodes_mm": NODES, "walls": WALLS, "supports": tuple(fixed)})
-    assert found.held == {(0, "x"), (0, "y"), (2, "y")}
-    assert structure().held == set()
+    assert found.restraints == {(0, "x"), (0, "y"), (2, "y")}
+    assert structure().restraints == set()

@@ -40,7 +40,7 @@ def searched(tmp_path):
 def test_a_narrow_peak_of_one_pattern_is_found(searched, seed):
     """The peak takes 1/3 x 1/5 x 1/10 of the cube."""
     search, log = searched(seed=seed)
-    (best, value), *_ = search.found.by_id.items()
+    (best, value), *_ = search.assessment.by_id.items()
     kind, cells, walls = BEST
     lattice = search.cases[best].lattice
     assert (lattice.kind, lattice.cells_x) == (kind, cells)
@@ -59,7 +59,7 @@ def test_same_seed_runs_nothing_again_and_continues(searched):
     for require in (None, {"max_mass": "1 kg"}):
         again, none = searched(evaluations=60, require=require)
         assert none == []
-        assert again.found.by_id == search.found.by_id
+        assert again.assessment.by_id == search.assessment.by_id
     _, others = searched(evaluations=20, seed=2)
     assert len({*others} - {*first, *more}) > 10
 
@@ -79,11 +79,11 @@ def test_file_holds_every_design_and_what_was_sought(searched, tmp_path):
 def test_failed_and_doubtful_designs_are_worth_nothing(searched):
     text = TOML.replace('"diamond"', '"brick"')
     search, _ = searched(evaluations=60, text=text)
-    kinds = {search.cases[case_id].lattice.kind for case_id in search.found.by_id}
+    kinds = {search.cases[case_id].lattice.kind for case_id in search.assessment.by_id}
     assert kinds == {"square", "hex"}
     assert any(case.lattice.kind == "brick" for case in search.cases.values())
-    assert search.found.doubtful > 0
-    thin = [search.cases[case_id].lattice.wall_thickness for case_id in search.found.by_id]
+    assert search.assessment.doubtful > 0
+    thin = [search.cases[case_id].lattice.wall_thickness for case_id in search.assessment.by_id]
     assert min(thin) >= THIN
 
 
@@ -91,14 +91,14 @@ def test_all_failed_is_no_exception(searched):
     text = TOML.replace('["square", "hex", "diamond"]', '["brick"]')
     search, _ = searched(evaluations=20, text=text)
     assert len(search.cases) == 20
-    assert search.found.by_id == {}
+    assert search.assessment.by_id == {}
 
 
 def test_least_is_sought_where_less_is_better(searched):
     search, _ = searched(evaluations=60, by="mass_g")
-    value = next(iter(search.found.by_id.values()))
+    value = next(iter(search.assessment.by_id.values()))
     assert value == pytest.approx(1e3 * THIN, abs=0.01)
-    assert value == min(search.found.by_id.values())
+    assert value == min(search.assessment.by_id.values())
 
 
 def test_few_designs_end_the_search(searched):
@@ -111,21 +111,23 @@ def test_few_designs_end_the_search(searched):
 def test_best_of_those_that_fulfil_a_requirement_is_found(searched, seed):
     """Walls of 0.71 mm are the best, and weigh 0.71 g. Other patterns are 0.6 as good."""
     search, _ = searched(seed=seed, require={"max_mass": "0.65 g"})
-    (best, value), *_ = search.found.by_id.items()
+    (best, value), *_ = search.assessment.by_id.items()
     walls = 1e3 * search.cases[best].lattice.wall_thickness
     assert 0.64 < walls <= 0.65
     assert value == energy(search.cases[best])
     assert value > 0.55 * exp(-((0.06 / 0.047) ** 2))
-    assert all(1e3 * search.cases[i].lattice.wall_thickness <= 0.65 for i in search.found.by_id)
+    assert all(
+        1e3 * search.cases[i].lattice.wall_thickness <= 0.65 for i in search.assessment.by_id
+    )
 
 
 def test_search_approaches_requirements_that_none_fulfils(searched):
     """Both together: 1 J is absorbed at 0.71 mm only, which weighs 0.71 g."""
     need = {"max_mass": "0.65 g", "min_absorbed": "1 J"}
     search, _ = searched(require=need)
-    assert search.found.by_id == {}
-    nearest, missed = next(iter(search.found.missed.items()))
-    assert missed == min(search.found.missed.values())
+    assert search.assessment.by_id == {}
+    nearest, missed = next(iter(search.assessment.missed.items()))
+    assert missed == min(search.assessment.missed.values())
     kind, cells, _ = BEST
     lattice = search.cases[nearest].lattice
     assert (lattice.kind, lattice.cells_x) == (kind, cells)
