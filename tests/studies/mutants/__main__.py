@@ -1,8 +1,8 @@
 """Put a wrong sign into the kernels, many times, and look which test turns red: `make mutants`.
 
 python -m tests.studies.mutants FOLDER [EACH]: so many mutants of every file, by default one. The
-table is printed and written into the folder. The exit status is 1 if a mutant survives: a test is
-missing then, or the sign is of no consequence.
+table is printed as it is found, and written into the folder. The exit status is 1 if a mutant
+survives: a test is missing then, or the sign is of no consequence.
 """
 
 import os
@@ -12,15 +12,11 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import track
-
-from sweep.report.tables.sheet import Sheet
 from tests.studies.mutants.flips import sample
 from tests.studies.mutants.trial import Copy, StudyError
-from tests.studies.tables import publish
+from tests.studies.tables import head, line, tell
 
-HEADS = ["file", "line", "in", "wrong", "first red test", "s", "as"]
+HEADS = ("file", "line", "in", "wrong", "first red test", "s", "as")
 
 
 def tried(mutants):
@@ -37,30 +33,30 @@ def tried(mutants):
             finally:
                 copies.put(copy)
 
-        found = pool.map(one, mutants)
-        return list(track(found, "mutants", len(mutants), console=Console(stderr=True)))
+        yield from pool.map(one, mutants)
 
 
-def sheet(verdicts):
-    """The table, the survivors first."""
-    rows = []
-    for mutant, red, seconds, compiled in sorted(verdicts, key=lambda verdict: verdict.red or ""):
+def table(verdicts, survivors):
+    """Lines, each as soon as its mutant is tried; mutants that survive are added to a list."""
+    killed = 0
+    yield from head(HEADS)
+    for mutant, red, seconds, compiled in verdicts:
+        killed += red is not None
+        survivors += [] if red else [mutant]
         how = "machine code" if compiled else "plain Python"
-        told = [red or "none: it survives", f"{seconds:.1f}", how]
-        rows.append([mutant.path, str(mutant.line), mutant.function, mutant.change, *told])
-    killed = sum(verdict.red is not None for verdict in verdicts)
-    note = f"{killed} of {len(verdicts)} turn a test red."
-    return Sheet("Mutants", HEADS, rows, notes=(note,))
+        found = [red or "none: it survives", f"{seconds:.1f}", how]
+        yield line([mutant.path, mutant.line, mutant.function, mutant.change, *found])
+    yield f"\n{killed} of {killed + len(survivors)} turn a test red."
 
 
 def main(folder, each=1):
     """Print and write the table; return whether a mutant survives."""
+    survivors = []
     try:
-        verdicts = tried(list(sample(each)))
+        tell(table(tried(sample(each)), survivors), folder / "mutants.md")
     except StudyError as error:
         sys.exit(str(error))
-    publish([sheet(verdicts)], folder / "mutants.md")
-    return any(verdict.red is None for verdict in verdicts)
+    return len(survivors) > 0
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.studies.mutants.__main__ import main, sheet
+from tests.studies.mutants.__main__ import main, table
 from tests.studies.mutants.flips import FLIPPED, ROOT, mutants, mutated, sample
 from tests.studies.mutants.trial import ENDLESS, Copy, StudyError, Verdict
 
@@ -84,11 +84,14 @@ def test_a_test_that_is_red_anyway_kills_nothing(copy, monkeypatch):
     (copy.folder / SPRING).write_text(source, "utf-8")
 
 
-def test_the_table_has_survivors_first():
-    table = sheet([KILLED, SURVIVES, HANGS])
-    assert table.columns[4] == ["none: it survives", ENDLESS, "tests/test_it.py::test_it"]
-    assert table.columns[5] == ["60.0", "900.0", "1.2"]
-    assert table.notes == ("2 of 3 turn a test red.",)
+def test_the_table_counts_survivors():
+    survivors = []
+    *_, one, two, three, note = table([KILLED, SURVIVES, HANGS], survivors)
+    assert one.endswith(" | tests/test_it.py::test_it | 1.2 | plain Python |")
+    assert two.endswith(" | none: it survives | 60.0 | machine code |")
+    assert three.endswith(f" | {ENDLESS} | 900.0 | machine code |")
+    assert note == "\n2 of 3 turn a test red."
+    assert survivors == [ENERGY]
 
 
 @pytest.mark.parametrize(("verdict", "failed"), [(KILLED, False), (SURVIVES, True)])
