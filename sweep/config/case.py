@@ -36,6 +36,12 @@ from sweep.config.structures.structure_file import faults
 
 T = TypeVar("T")
 TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
+# Of two keys that say the same, the first replaces the second.
+EITHER = (
+    ("loading", "strain", "stroke"),
+    ("loading", "stroke", "strain"),
+    ("lattice", "mass", "wall_thickness"),
+)
 
 
 class Case(BaseModel):
@@ -57,9 +63,8 @@ class Case(BaseModel):
 
         `RefusedError` says what contradicts what, or which keys a table of its kind has.
         """
+        _check_tables(tables)
         contents = {name: _values(values) for name, values in tables.items()}
-        if other := next((name for name in contents if name not in TABLES), None):
-            raise RefusedError(other, None, f"the tables {', '.join(TABLES)}")
         case = complete(contents).sound()
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
@@ -90,14 +95,26 @@ class Case(BaseModel):
     def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
 
-        axes: labels beside those it has. A loading of another mode has only the new values.
+        axes: labels beside those it has. Another material has only the new values; a loading of
+        another mode too, and its numerics are chosen anew. Of two keys that say the same, as
+        strain and stroke, the new one counts.
         """
+        _check_tables(tables)
         values = {name: getattr(self, name).given() for name in TABLES}
-        if tables.get("loading", {}).get("mode", self.loading.mode) != self.loading.mode:
-            values["loading"] = {}
-        values |= {name: values[name] | dict(change) for name, change in tables.items()}
+        changes = {name: dict(change) for name, change in tables.items()}
+        loading, material = changes.get("loading", {}), changes.get("material", {})
+        if material.get("name", self.material.name) != self.material.name:
+            values["material"] = {}
+        if loading.get("mode", self.loading.mode) != self.loading.mode:
+            values |= {name: {} for name in ("loading", "contact", "damping", "solver")}
+        if {"height", "depth"} & {*changes.get("lattice", {})} or "direction" in loading:
+            values["loading"].pop("stroke", None)
+        for table, key, other in EITHER:
+            if changes.get(table, {}).get(key) is not None:
+                values[table].pop(other, None)
+        values |= {name: values[name] | change for name, change in changes.items()}
         case = complete({name: _values(table) for name, table in values.items()}).sound()
-        for name, change in tables.items():
+        for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
         return case.model_copy(update={"axes": self.axes | dict(axes or {})})
 
@@ -222,6 +239,15 @@ def _values(table: Given | Table) -> dict[str, Any]:
     """The values of a table that are not None."""
     values = table.given() if isinstance(table, Table) else table
     return {key: value for key, value in values.items() if value is not None}
+
+
+def _check_tables(tables: Mapping[str, Given | Table]) -> None:
+    """Refuse a table that no case has, and what is no table."""
+    for name, values in tables.items():
+        if name not in TABLES:
+            raise RefusedError(name, values, f"the tables {', '.join(TABLES)}")
+        if not isinstance(values, Mapping | Table):
+            raise RefusedError(name, values, "values by key")
 
 
 def _check_keys(table: Table, name: str, values: Given) -> None:

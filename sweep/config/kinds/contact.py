@@ -78,7 +78,7 @@ def contact(
     floor = structure is not None and structure.floor_y_mm is not None
     if model == "none" and loading.platen != "contact" and not floor:
         return NoContact()
-    acts = chosen(given, Barrier) | {"model": "none" if model == "none" else "barrier"}
+    acts = chosen(given, Barrier) | {"model": "barrier" if model == "auto" else model}
     if integrator == ARCS:
         return Barrier.model_validate(acts | {"friction": 0.0, "slip_speed": None})
     if loading.quasi_static or not acts.get("friction", 0.3):

@@ -50,6 +50,10 @@ def loading(
 def mode_of(given: Given) -> str:
     """The mode, which keys that only one mode has imply if it is not given."""
     if "mode" in given:
+        words = [mode_word(kind) for kind in BY_MODE]
+        if given["mode"] not in (*words, "custom"):
+            allowed = ", ".join(map('"{}"'.format, words))
+            raise RefusedError("loading.mode", given["mode"], allowed)
         return str(given["mode"])
     implied = _implied(given)
     if len(implied) > 1:

@@ -66,3 +66,42 @@ def test_changed_case_is_resolved_anew():
     assert case.changed() == case
     with pytest.raises(RefusedError, match="a key of DeadLoad"):
         case.changed(loading=dict(strain=0.5))
+
+
+def test_another_material_brings_its_own_numbers():
+    case = Case.of(loading=dict(strain=0.5))
+    other = Case.of(loading=dict(strain=0.5), material=dict(name="cheetah"))
+    assert other.material.modulus != case.material.modulus
+    assert case.changed(material=dict(name="cheetah")) == other
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        dict(loading=dict(strain=0.3)),
+        dict(loading=dict(stroke=0.004)),
+        dict(lattice=dict(height=0.02)),
+        dict(lattice=dict(mass=1e-3)),
+        dict(loading=dict(mode="impact", energy=1.0, striker_mass=0.1)),
+    ],
+)
+def test_the_new_one_of_two_keys_that_say_the_same_counts(change):
+    given = dict(loading=dict(strain=0.5))
+    if "mode" in change.get("loading", {}) or "stroke" in change.get("loading", {}):
+        given = {}
+    assert Case.of(loading=dict(strain=0.5)).changed(**change) == Case.of(**given | change)
+
+
+@pytest.mark.parametrize(
+    ("tables", "line"),
+    [
+        (dict(latice={}), "latice"),
+        (dict(lattice="square"), "lattice = square"),
+        (dict(loading=dict(mode="shear")), 'loading.mode = shear; allowed: "force", "disp'),
+        (dict(contact=dict(model="x")), "contact.model = x; allowed: 'barrier' or 'none'"),
+    ],
+)
+def test_what_no_case_has_is_refused(tables, line):
+    for make in (Case.of, Case.of().changed):
+        with pytest.raises(RefusedError, match=line):
+            make(**tables)
