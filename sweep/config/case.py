@@ -173,7 +173,7 @@ class Draft:
 
 
 def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> Draft:
-    """The case of the values of each table, in SI. made: as of `Draft`, of one sweep.
+    """The case of the values of each table, in SI. made: the tables of a sweep so far, see `Draft`.
 
     The loading is checked even if the material and the lattice are refused.
     """

@@ -24,7 +24,8 @@ CUSTOM = "custom"
 
 def _known(kind: str) -> str:
     if kind not in (*families(), CUSTOM):
-        raise PydanticCustomError("literal_error", "no family of infill")
+        names = ", ".join((*families(), CUSTOM))
+        raise PydanticCustomError("literal_error", "{names}", {"names": names})
     return kind
 
 
@@ -93,7 +94,7 @@ class Cells(Laid):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """As of `Specimen`; of an endless lattice, the size of the period."""
+        """Outer width and height, m; of an endless lattice, those of the period."""
         return (self.width, self.height) if self.endless else super().outer_size
 
     @property
@@ -113,7 +114,7 @@ class Cells(Laid):
 
     @property
     def thickest(self) -> float:
-        """As of `Laid`, of the mean wall of a gradient."""
+        """See `Laid.thickest`; of a gradient, that of the mean wall."""
         if self.grading == 1.0:
             return super().thickest
         from sweep.design.box import gradient

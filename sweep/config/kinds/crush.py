@@ -60,7 +60,7 @@ class Crush(Table):
 
 
 def crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
-    """The crush of these values; height (m): that is pressed."""
+    """The crush of these values; height (m): of what is pressed."""
     if given.get("platen") == "none":
         raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "displacement"')
     speed = _speed(given, height)

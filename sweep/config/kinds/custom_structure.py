@@ -36,7 +36,7 @@ class CustomStructure(Specimen):
     structure: Structure
 
     def given(self) -> dict[str, Any]:
-        """As of `Table.given`."""
+        """The values from which this follows: `kind` is "custom"."""
         return super().given() | {"kind": CUSTOM}
 
     @property

@@ -52,7 +52,7 @@ class Sliced(Laid):
     cells_y: Few
 
     def given(self) -> dict[str, Any]:
-        """As of `Table.given`, without the share if it follows from the mass."""
+        """The values from which this follows: not the share if it follows from the mass."""
         values = super().given()
         return values if self.mass is None else {k: v for k, v in values.items() if k != "infill"}
 
@@ -170,6 +170,8 @@ def _share_for(made: Sliced, mass: float, per_area: float) -> float:
 
 def _checked_pattern(given: Given) -> str:
     """The pattern, by its name in `PATTERNS`; refused is what is no prism of the slicer."""
+    if given["slicer"] not in SLICERS:
+        raise RefusedError("lattice.slicer", given["slicer"], ", ".join(SLICERS))
     patterns, pattern = SLICERS[given["slicer"]], given.get("pattern")
     key, names = "lattice.pattern", ", ".join(map('"{}"'.format, patterns))
     if pattern is None:
