@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import TABLES, Case, Draft, complete
+from sweep.config.case import Case, Draft, complete
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
-from sweep.config.kinds.table import RefusedError, rounded
+from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import KEYS
 from sweep.config.question import Rank, Require
