@@ -82,6 +82,12 @@ def still_moving_down(where: str) -> Failure:
     return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
 
 
+def still_pushed_back(where: str) -> Failure:
+    """The striker of a case that has finished still gains speed upwards."""
+    why = "the lattice still pushes the striker back"
+    return Status.STOPPED, f"{why} {where}; try a longer loading.duration"
+
+
 def energy_unresolved(case: Case, share: float) -> Failure:
     """The integrator has removed or created a share of the energy of an impact."""
     what = f"the time integrator removed or created {percent(share)} % of the energy"

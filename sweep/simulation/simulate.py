@@ -38,6 +38,7 @@ from sweep.simulation.failures import (
     energy_unresolved,
     momentum_unresolved,
     still_moving_down,
+    still_pushed_back,
     stopped,
     timed_out,
     unbalanced,
@@ -46,7 +47,13 @@ from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.summary import BOOK, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
-from sweep.simulation.time_resolution import LARGEST, Curves, momentum_share
+from sweep.simulation.time_resolution import (
+    LARGEST,
+    LONG,
+    Curves,
+    momentum_share,
+    striker_share,
+)
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
@@ -101,12 +108,15 @@ def _of_impact(
     """Status and sentence of a finished impact: whether its steps resolve it, and it was whole."""
     if not isinstance(case.loading, Impact):
         return Status.CONVERGED, ""
-    if (share := summary["integrator_share"]) > LARGEST:
+    if (share := summary["integrator_share"]) > LARGEST and striker_share(curves) > LONG:
         return energy_unresolved(case, share)
     if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > LARGEST:
         return momentum_unresolved(case, share)
-    if curves["striker_speed_m_per_s"][-1] > 0.0:
+    travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
+    if travel.argmax() == last:
         return still_moving_down(where)
+    if travel[last] > 0.0 and curves["striker_speed_m_per_s"].argmin() == last:
+        return still_pushed_back(where)
     return Status.CONVERGED, ""
 
 

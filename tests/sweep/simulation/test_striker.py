@@ -234,6 +234,13 @@ def test_a_striker_that_still_sinks_is_a_failure():
     assert result.history["time_s"][-1] == pytest.approx(2e-3, rel=0.01)
 
 
+def test_a_rebound_that_is_cut_off_is_a_failure():
+    """The striker stops after 5.3 ms and is pushed back for as long."""
+    result = simulate(struck(duration=8e-3))
+    assert result.status == "stopped"
+    assert "the lattice still pushes the striker back at strain" in result.message
+
+
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_the_glued_row_flies_with_the_striker(platen):
     case = struck(platen)
