@@ -206,7 +206,8 @@ def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:
     for where, name, values in _axes(recipe):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    return [Fault(key, f"{line}: {unused[key]}") for key, line in lines.items() if unused.get(key)]
+    said = {f"{line}: {unused[key]}": key for key, line in lines.items() if unused.get(key)}
+    return [Fault(key, line) for line, key in said.items()]
 
 
 def _dropping_none(recipe: Recipe, number: int) -> Fault:
