@@ -53,11 +53,9 @@ def test_a_grid_keeps_what_prints_and_counts_the_rest(load):
     assert load(KEPT.replace("true", "false")).unprintable == 0
 
 
-def test_a_single_case_that_does_not_print_is_refused(lines):
-    assert lines('[lattice]\nprintable = true\nwall_thickness = "0.6 mm"') == [
-        "lattice.printable = true: does not fit; allowed: false, as it has walls of 1.5 lines of"
-        " 0.4 mm"
-    ]
+def test_a_single_case_that_does_not_print_is_refused(refused):
+    text = '[lattice]\nprintable = true\nwall_thickness = "0.6 mm"'
+    assert refused(text, "lattice.printable = true", "false", "1.5 lines of 0.4 mm")
 
 
 def test_a_grid_of_which_nothing_prints_is_refused(lines):
