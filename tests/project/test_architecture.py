@@ -90,6 +90,7 @@ TESTED_ELSEWHERE = {
     "sweep.config.kinds.dead_load": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.direction": "sweep/config/kinds/test_upright.py",
     "sweep.config.kinds.impact": "sweep/config/kinds/test_completion.py",
+    "sweep.config.kinds.lattice": "sweep/config/test_changes.py",
     "sweep.config.kinds.of_file": "sweep/scene/test_custom.py",
     "sweep.config.kinds.table": "sweep/config/test_case.py",
     "sweep.cli.question": "sweep/cli/test_verbs.py",

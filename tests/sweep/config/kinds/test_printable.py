@@ -49,8 +49,8 @@ def test_walls_of_a_structure_are_judged_too():
 def test_a_grid_keeps_what_prints_and_counts_the_rest(load):
     kept = load(KEPT)
     assert [case.lattice.wall_thickness for case in expand(kept)] == [0.4e-3, 0.8e-3]
-    assert kept.unprintable == 1
-    assert load(KEPT.replace("true", "false")).unprintable == 0
+    assert kept.left_out.impossible == 1
+    assert load(KEPT.replace("true", "false")).left_out.impossible == 0
 
 
 def test_a_single_case_that_does_not_print_is_refused(refused):

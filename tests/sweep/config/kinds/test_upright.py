@@ -4,8 +4,9 @@ import json
 
 import pytest
 
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
 from sweep.config.grid import expand
+from sweep.config.kinds.table import TABLES
 
 ALONG = '[loading]\ndirection = "out_of_plane"\n'
 ONLY = 'if loading.direction is "out_of_plane"'
