@@ -14,6 +14,8 @@ from tests.support.designs.tables import material_with
 
 PERIODIC = '[lattice]\nboundary = "periodic"\n'
 ENDLESS_MODE = 'allowed: "displacement" if lattice.boundary is "periodic"'
+BY_POSITION = '[contact]\nmodel = "position_based"'
+MOVED, BARRIER = 'contact.model = "position_based"', '"none" or "barrier"'
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'
 
 UNFIT = {
@@ -27,7 +29,7 @@ UNFIT = {
     '[solver]\nintegrator = "arc_length"': (
         *('solver.integrator = "arc_length"', '"static"', IN_TIME, 'lattice.kind is "custom"'),
     ),
-    '[contact]\nmodel = "position_based"\n[solver]\nintegrator = "newmark"': (
+    f'{BY_POSITION}\n[solver]\nintegrator = "newmark"': (
         *('solver.integrator = "newmark"', '"backward_euler" if contact.model is "position_based"'),
     ),
     f'{PERIODIC}[loading]\nforce = "3 N"': (
@@ -35,6 +37,13 @@ UNFIT = {
     ),
     f'{PERIODIC}[loading]\nduration = "1 s"': (
         *('loading.mode = "force", as loading.duration is given', ENDLESS_MODE),
+    ),
+    f"[loading]\nstrain = 0.5\n{BY_POSITION}": (MOVED, BARRIER, "if loading.quasi_static"),
+    f'[loading]\nplaten = "contact"\n{BY_POSITION}': (
+        *(MOVED, BARRIER, 'if loading.platen is "contact"'),
+    ),
+    f"{BY_POSITION}\nfriction = 0.3": (
+        *("contact.friction = 0.3", "no effect", 'contact.model is "position_based"'),
     ),
     "[loading]\nunload = false\ncycles = 2": ("loading.cycles = 2", "1 if loading.unload is false"),
     PERIODIC: ('loading.mode = "force" by default', ENDLESS_MODE),
