@@ -118,8 +118,26 @@ def test_a_mass_is_that_which_is_extruded(pattern):
         ),
         (
             SLICED + 'pattern = "stars"\ninfill = "60 %"',
-            'lattice.infill = "60 %": does not fit; allowed: a share that leaves cells at least'
-            " twice as wide as their walls",
+            'lattice.infill = "60 %": does not fit; allowed: below 50 %, so that cells are twice as'
+            " wide as their walls",
+        ),
+        (
+            GRID + 'infill = "50 %"\nfill_angle = "0 deg"\nperimeters = 1',
+            'lattice.infill = "50 %": does not fit; allowed: 49 %, for example, or another'
+            " fill_angle; lines that run too near the perimeters make the walls weigh 13 % less"
+            " than is extruded",
+        ),
+        (
+            GRID + 'mass = "2.5 g"\nfill_angle = "0 deg"',
+            'lattice.mass = "2.5 g": does not fit; allowed: 2.057 g, for example; lines that run'
+            " too near the perimeters make the walls weigh 18 % less than is extruded",
+        ),
+        (
+            GRID.replace("prusa", "orca").replace("20", "4")
+            + 'infill = "40 %"\nfill_multiline = 6\nperimeters = 2',
+            "lattice.perimeters = 2: does not fit; allowed: another number, or a larger box; lines"
+            " that run too near the perimeters make the walls weigh 32 % less than is extruded, as"
+            " with any infill near 40 %",
         ),
         (
             GRID + 'mass = "1 g"',
@@ -164,3 +182,8 @@ def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
         sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
     with pytest.raises(RefusedError, match="a key of Cells: "):
         Case.of(lattice=dict(fill_multiline=2))
+
+
+@pytest.mark.parametrize("wish", [{"infill": 0.49}, {"infill": 0.5, "fill_angle": 0.3}])
+def test_what_a_refusal_of_a_drawing_allows_is_drawn(wish):
+    assert sliced(**{"fill_angle": 0.0, "perimeters": 1} | wish).infill == wish["infill"]
