@@ -28,9 +28,15 @@ def laid(size, slicer, pattern, infill, perimeters):
         return refused.key
 
 
-def check_frame(network, box):
-    """Each side is one chain from corner to corner, and all walls hang together."""
+def check_frame(network, box, least):
+    """Each side is one chain from corner to corner, and all walls hang together; of the infill,
+    none that ends on a side is shorter than ``least`` (m).
+    """
     ends = network.points[network.walls]
+    on = (ends == 0.0) | (ends == box)
+    along = ((ends[:, 0] == ends[:, 1]) & on.all(axis=1)).any(axis=1)
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    assert length[on.any(axis=(1, 2)) & ~along].min() > (1.0 - 1e-6) * least
     for axis, side in product((0, 1), (0, 1)):
         on = (ends[..., axis] == side * box[axis]).all(axis=1)
         along = np.sort(ends[on][..., 1 - axis], axis=1)
@@ -52,7 +58,8 @@ def test_no_drawing_loses_its_frame():
         lattice = laid(size, *names, infill, perimeters)
         outcome[lattice if isinstance(lattice, str) else "drawn"] += 1
         if not isinstance(lattice, str):
-            check_frame(build_network(lattice.geometry), size)
+            least = lattice.line + 0.5 * lattice.outline[0]
+            check_frame(build_network(lattice.geometry), size, least)
     assert outcome == {"drawn": 984, "lattice.infill": 264}
 
 
@@ -104,6 +111,15 @@ def test_a_crossing_near_a_side_comes_to_it():
     walls = walls_of(crossed, least=1.5)
     assert {frozenset({(4.0, 0.0), (7.0, 4.0)}), frozenset({(4.0, 0.0), (1.0, 4.0)})} <= walls
     assert not any({(3.0, 0.0), (5.0, 0.0)} & wall for wall in walls)
+
+
+def test_an_end_stays_though_its_line_comes_to_the_side():
+    """It is a joint of the outline, but not if that makes pieces shorter than walls may be."""
+    lines = [((3, 0), (4, 1)), ((4, 1), (7, 8)), ((5, 0), (4, 1)), ((4, 1), (1, 8))]
+    for end, stays in ((8, True), (5.4, False)):
+        walls = walls_of([*lines, ((4, 1), (end, 0))], least=1.5)
+        assert frozenset({(4.0, 0.0), (float(end), 0.0)}) in walls or not stays
+        assert any((float(end), 0.0) in wall for wall in walls) == stays
 
 
 def test_ends_near_a_corner_come_to_it_and_what_lies_across_it_goes():
