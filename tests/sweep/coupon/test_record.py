@@ -138,7 +138,7 @@ def columns(separator=",", point=".", first=""):
         (columns(",", ","), "utf-8", "values, but there are 3 heads; .*0.1, not 0,1"),
         (columns(first="s,-,Pa"), "utf-8", 'time_s in row 1 is "s", not a number; needed: numbers'),
         (columns().replace("time_s,strain,stress_Pa", "0,0,0"), "utf-8", "first row is 0, 0, 0"),
-        (columns(), "utf-16", "not UTF-8 text; needed: saved as csv in UTF-8"),
+        (columns(), "utf-16", "not UTF-8 text; needed: a csv file"),
         (columns().replace("time_s", "# 20 °C\ntime_s"), "latin-1", "not UTF-8 text"),
         ("# a comment alone\n", "utf-8", "no rows; needed: columns time_s, strain, stress_Pa"),
         ("stress_Pa\n" + "1\n" * 30, "utf-8", "no column time_s; its columns: stress_Pa"),
