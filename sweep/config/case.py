@@ -7,7 +7,7 @@ them, so that equal physics has an equal id.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from math import hypot
+from math import hypot, inf
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -75,6 +75,11 @@ class Case(BaseModel):
     def height(self) -> float:
         """The height that a platen or a striker presses, m."""
         return self.lattice.depth if self.along else self.lattice.height
+
+    @property
+    def extent(self) -> steps.Extent:
+        """What is pressed."""
+        return _extent(dict(self), self.height)
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -186,10 +191,10 @@ def _numerics(
     material: Material,
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
-    contact_table, relaxes = dict(pairs["contact"]), material.relaxes
-    diagonal, by_position = _diagonal(draft.tables), contact_table.get("model") == "position_based"
-    where = loading, pressed.height, diagonal, by_position
-    solver = draft.add("solver", steps.solver, pairs["solver"], material.remembers, *where)
+    model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
+    extent, by_position = _extent(draft.tables, pressed.height), model == "position_based"
+    given = pairs["solver"], material.remembers, loading, extent, by_position
+    solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
     contact = (pairs["contact"], loading, pressed.structure, solver.integrator)
@@ -207,10 +212,14 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     return Pressed(getattr(lattice, key), structure, lattice.endless)
 
 
-def _diagonal(tables: Mapping[str, Table]) -> float:
-    """The diagonal of the box of a lattice, m."""
-    lattice = tables.get("lattice")
-    return hypot(lattice.width, lattice.height) if isinstance(lattice, Specimen) else 1.0
+def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:
+    """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
+    lattice, material = tables.get("lattice"), tables["material"]
+    if not isinstance(lattice, Specimen):
+        return steps.Extent(height, 1.0, inf)
+    volume = lattice.width * lattice.height * lattice.depth
+    compliance = height**2 / (material.modulus * volume) if volume else inf
+    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance)
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
