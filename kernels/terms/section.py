@@ -48,15 +48,23 @@ CRUSHED = 0.3  # stretch of a fibre below which a is continued
 
 
 @jit
-def fibre(m, q):
-    """Return the stretch a of a fibre and its two derivatives in q."""
-    a, beyond = q ** (1.0 / m) if q > 0.0 else 0.0, 0.0
+def crushed(power, q):
+    """Return `fibre` below `CRUSHED`."""
+    least = CRUSHED ** (1.0 / power)
+    slope, beyond = power * CRUSHED / least, q - least
+    second = slope * (power - 1.0) / least
+    return CRUSHED + beyond * (slope + 0.5 * beyond * second), slope + beyond * second, second
+
+
+@jit
+def fibre(power, q):
+    """Return the stretch a of a fibre and its two derivatives in q; power: 1 / m."""
+    a = q**power if q > 0.0 else 0.0
     if a < CRUSHED:
-        a, beyond = CRUSHED, q - CRUSHED**m
-        q = CRUSHED**m
-    slope = a / (m * q)
-    second = slope * (1.0 - m) / (m * q)
-    return a + beyond * (slope + 0.5 * beyond * second), slope + beyond * second, second
+        return crushed(power, q)
+    by = 1.0 / q
+    slope = power * a * by
+    return a, slope, slope * (power - 1.0) * by
 
 
 @jit
@@ -93,9 +101,9 @@ def turned(law, theta):
 @jit
 def middle(m, stretched):
     """Return lambda^m and its two derivatives in e."""
-    power = stretched**m
-    slope = m * power / stretched
-    return power, slope, (m - 1.0) * slope / stretched
+    power, by = stretched**m, 1.0 / stretched
+    slope = m * power * by
+    return power, slope, (m - 1.0) * slope * by
 
 
 @jit
@@ -105,12 +113,12 @@ def bent(law, centre, theta, memory, point):
     Its value is followed by the first derivatives in e and theta, and the second ones in e e, e
     theta and theta theta. centre: of `middle`. point: material point of the first fibre.
     """
-    power, power_e, power_ee = centre
+    centre_q, q_e, q_ee = centre
     energy, by_theta, tt = turned(law, theta)
-    by_q, qq, et = 0.0, 0.0, 0.0
+    by_q, qq, et, power = 0.0, 0.0, 0.0, 1.0 / law.m
     for k in range(law.place.size):
         out, weight = law.m * law.place[k], law.weight[k]
-        a, a_q, a_qq = fibre(law.m, power + out * theta)
+        a, a_q, a_qq = fibre(power, centre_q + out * theta)
         value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
         second = weight * (second * a_q * a_q + slope * a_qq)
         slope *= weight * a_q
@@ -120,8 +128,7 @@ def bent(law, centre, theta, memory, point):
         qq += second
         et += out * second
         tt += out * out * second
-    ee = power_e * power_e * qq + power_ee * by_q
-    return energy, power_e * by_q, by_theta, ee, power_e * et, tt
+    return energy, q_e * by_q, by_theta, q_e * q_e * qq + q_ee * by_q, q_e * et, tt
 
 
 @jit
@@ -175,11 +182,11 @@ def commit(law, strain, memory, point):
     e, last = strain[0], point + 2 * law.place.size
     released, dissipated = commit_point(law.curve, e, memory, last)
     released, dissipated = -law.middle * released, -law.middle * dissipated
-    power = (1.0 + e) ** law.m
+    centre_q = (1.0 + e) ** law.m
     for section in range(2):
         for k in range(law.place.size):
             theta = law.place[k] * (strain[2] if section == 1 else strain[1])
-            a = fibre(law.m, power + law.m * theta)[0]
+            a = fibre(1.0 / law.m, centre_q + law.m * theta)[0]
             release, dissipation = commit_point(law.curve, a - 1.0, memory, point)
             released += law.weight[k] * release
             dissipated += law.weight[k] * dissipation

@@ -1,7 +1,7 @@
 """Walls that fold: the answer does not depend on the number of elements of a wall.
 
-Walls of cheetah, whose stress rises little beyond 20 % strain, between joints that are points: their
-elements may be as short as a sixth of the thickness. Folds end where the faces of a wall meet.
+Walls of cheetah, whose stress rises little beyond 20 % strain, between joints that are points:
+their elements may be as short as a sixth of the thickness. Folds end where faces of a wall meet.
 """
 
 import pytest

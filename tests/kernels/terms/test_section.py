@@ -74,7 +74,7 @@ def test_an_elastic_section_is_one_whose_memory_is_empty():
 def test_a_fibre_is_stretched_as_its_section_thins(nu, stretched):
     """dy/dz = a^(-nu') with a = lambda + kappa y: the slope of a over z is kappa a^(-nu')."""
     m, kappa, z = 1.0 + nu, 0.3, np.linspace(-0.5, 0.5, 7)
-    a, by_q, _ = np.array([fibre(m, stretched**m + m * kappa * each) for each in z]).T
+    a, by_q, _ = np.array([fibre(1.0 / m, stretched**m + m * kappa * each) for each in z]).T
     np.testing.assert_allclose(m * kappa * by_q, kappa * a**-nu, rtol=1e-12)
     assert a[3] == pytest.approx(stretched, rel=1e-14)
 
@@ -85,9 +85,9 @@ def test_derivatives_of_the_stretch_of_a_fibre(nu):
     m = 1.0 + nu
     least = section.CRUSHED**m
     for q in (-0.5, 0.0, 0.5 * least, 2.0 * least, 1.0, 4.0):
-        rows = differences(lambda x: np.array(fibre(m, x[0])), np.array([q]), np.array([1e-4]))
-        np.testing.assert_allclose(rows[0, :2], fibre(m, q)[1:], rtol=1e-6, atol=1e-8)
-    below, above = (np.array(fibre(m, least * (1.0 + side))) for side in (-1e-9, 1e-9))
+        rows = differences(lambda x: np.array(fibre(1 / m, x[0])), np.array([q]), np.array([1e-4]))
+        np.testing.assert_allclose(rows[0, :2], fibre(1 / m, q)[1:], rtol=1e-6, atol=1e-8)
+    below, above = (np.array(fibre(1 / m, least * (1.0 + side))) for side in (-1e-9, 1e-9))
     np.testing.assert_allclose(below, above, rtol=1e-7, atol=1e-12)
 
 
