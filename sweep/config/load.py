@@ -26,8 +26,8 @@ def load_config(path: str | PathLike[str]) -> Config:
     reader = Reader(path.parent, in_si)
     config = reader.config(_document(path), path)
     try:
-        cases, unprintable = expanded(config.recipe)
-        config = replace(config, cases=cases, unprintable=unprintable)
+        cases, left_out = expanded(config.recipe)
+        config = replace(config, cases=cases, left_out=left_out)
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:

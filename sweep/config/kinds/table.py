@@ -13,6 +13,7 @@ Given = Mapping[str, Any]
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
 
+TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]

@@ -12,12 +12,11 @@ from typing import Any
 from pydantic import ValidationError
 
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import TABLES
 from sweep.config.defaults import drop_tests
 from sweep.config.faults import Fault
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
-from sweep.config.kinds.table import rounded
+from sweep.config.kinds.table import TABLES, rounded
 from sweep.config.materials.material_file import (
     RecordError,
     UnknownMaterialError,
