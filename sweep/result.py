@@ -31,11 +31,12 @@ HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
 
 class Status(StrEnum):
-    """How a case ended. Only `converged` means that it ran to its end."""
+    """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it."""
 
     CONVERGED = "converged"
     STOPPED = "stopped"
     TIMED_OUT = "timed_out"
+    UNRESOLVED = "unresolved"
     WORKER_DIED = "worker_died"
 
 

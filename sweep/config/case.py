@@ -7,13 +7,14 @@ them, so that equal physics has an equal id.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from math import hypot
+from math import hypot, inf
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from sweep.config.changes import merged
+from sweep.config.faults import MisfitError
 from sweep.config.keys import table_keys
 from sweep.config.kinds import contact as contacts
 from sweep.config.kinds import damping as dampings
@@ -76,6 +77,11 @@ class Case(BaseModel):
         return self.lattice.depth if self.along else self.lattice.height
 
     @property
+    def extent(self) -> steps.Extent:
+        """What is pressed."""
+        return _extent(dict(self), self.height)
+
+    @property
     def footprint(self) -> tuple[float, float]:
         """Outer width and depth (m) of the area that is pressed."""
         width, height = self.lattice.outer_size
@@ -107,18 +113,18 @@ class Case(BaseModel):
 
     @staticmethod
     def from_json(text: str | bytes) -> "Case":
-        """The case of `to_json`, for which no file is read; `ValueError` if the text is no case."""
+        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case."""
         try:
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
             place = ".".join(map(str, first["loc"])) or "the text"
-            raise ValueError(f"{place}: {first['msg']}") from None
+            raise MisfitError(f"{place}: {first['msg']}") from None
         drawn = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
         for line in faults(drawn) if drawn else ():
-            raise ValueError(f"lattice.structure: {line}")
+            raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
-            raise ValueError("its numbers do not follow from one another")
+            raise MisfitError("its numbers do not follow from one another")
         return case
 
 
@@ -185,10 +191,10 @@ def _numerics(
     material: Material,
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
-    contact_table, relaxes = dict(pairs["contact"]), material.relaxes
-    diagonal, by_position = _diagonal(draft.tables), contact_table.get("model") == "position_based"
-    where = loading, pressed.height, diagonal, by_position
-    solver = draft.add("solver", steps.solver, pairs["solver"], material.remembers, *where)
+    model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
+    extent, by_position = _extent(draft.tables, pressed.height), model == "position_based"
+    given = pairs["solver"], material.remembers, loading, extent, by_position
+    solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
     contact = (pairs["contact"], loading, pressed.structure, solver.integrator)
@@ -206,10 +212,14 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     return Pressed(getattr(lattice, key), structure, lattice.endless)
 
 
-def _diagonal(tables: Mapping[str, Table]) -> float:
-    """The diagonal of the box of a lattice, m."""
-    lattice = tables.get("lattice")
-    return hypot(lattice.width, lattice.height) if isinstance(lattice, Specimen) else 1.0
+def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:
+    """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
+    lattice, material = tables.get("lattice"), tables["material"]
+    if not isinstance(lattice, Specimen):
+        return steps.Extent(height, 1.0, inf)
+    volume = lattice.width * lattice.height * lattice.depth
+    compliance = height**2 / (material.modulus * volume) if volume else inf
+    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance)
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:

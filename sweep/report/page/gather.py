@@ -156,6 +156,7 @@ def _cases(
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
+            "coarse": part["coarse"].tolist(),
             "stretched": part["beyond_curve"].tolist(),
             "undrawn": unprintable(part),
             "open": part["ends_early"].tolist(),

@@ -395,8 +395,8 @@ function requiredColumns() {
 
 function placeText(row) {
   const tied = now.bar && row.sharing > 1 ? "=" : "";
-  const { crossed, stretched, undrawn } = row.design;
-  const marks = `${row.beyond ? "!" : ""}${crossed ? "x" : ""}${stretched ? "^" : ""}${undrawn ? "p" : ""}`;
+  const { crossed, coarse, stretched, undrawn } = row.design;
+  const marks = `${row.beyond ? "!" : ""}${crossed ? "x" : ""}${coarse ? "i" : ""}${stretched ? "^" : ""}${undrawn ? "p" : ""}`;
   return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
 }
 
@@ -472,6 +472,8 @@ function notes() {
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
+  if (rows.some((row) => row.design.coarse))
+    lines.push("i: the time steps are coarse: the integrator took much of the energy (integrator_share). Forces are uncertain.");
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
   if (rows.some((row) => row.design.undrawn))
     lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");

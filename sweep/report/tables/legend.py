@@ -64,6 +64,11 @@ stretch_over_curve: how far)."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
+COARSE = """\
+i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact, or 30 %
+of the work of a dead load (integrator_share: how much). Forces and overshoot are uncertain, mostly
+too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
+
 
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
@@ -109,9 +114,10 @@ def marks(rows: DataFrame) -> Series:
     """The marks of doubtful results, and of designs that do not print as drawn."""
     beyond = rows["beyond_model"].map({True: "!", False: ""})
     crossed = rows["crossed"].map({True: "x", False: ""})
+    coarse = rows["coarse"].map({True: "i", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     undrawn = unprintable(rows).map(lambda why: "p" * bool(why))
-    return beyond + crossed + beyond_curve + undrawn
+    return beyond + crossed + coarse + beyond_curve + undrawn
 
 
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
@@ -119,6 +125,7 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     notes = {
         BEYOND: rows["beyond_model"],
         CROSSED: rows["crossed"],
+        COARSE: rows["coarse"],
         UNPRINTABLE: unprintable(rows) != "",
         STRETCHED: rows["beyond_curve"],
     }

@@ -15,6 +15,7 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
     BEYOND,
+    COARSE,
     CROSSED,
     EARLY,
     PRINTED,
@@ -95,6 +96,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((BEYOND,) if rows["beyond_model"].any() else ()),
                 *((CROSSED,) if rows["crossed"].any() else ()),
+                *((COARSE,) if rows["coarse"].any() else ()),
                 *((PRINTED,) if "print g" in columns else ()),
                 *((UNPRINTABLE,) if (unprintable(rows) != "").any() else ()),
                 *((STRETCHED,) if rows["beyond_curve"].any() else ()),

@@ -1,5 +1,7 @@
 """The steps of a case: as many as are asked for, as fit, and as may be; the integrators."""
 
+from math import pi
+
 import pytest
 
 from sweep.config.case import Case
@@ -36,6 +38,22 @@ def test_a_speed_brings_time_back():
     assert (case.solver.integrator, case.solver.load_steps) == ("backward_euler", 200)
     assert case.solver.time_step == pytest.approx(5e-3 / 1e-3 / 200)
     assert case.damping.model == "rayleigh"
+
+
+def usual_step(**loading):
+    """The usual step of an impact on 12.5 x 12.5 x 12 mm of 15 MPa."""
+    material = {"modulus": 15e6, "density": 1200.0}
+    return Case.of(material=material, loading={"mode": "impact"} | loading).solver.time_step
+
+
+def test_steps_of_an_impact_are_a_share_of_its_contact():
+    """The passage of a fast striker; pi sqrt(m / k) of a slow one, k = 180 kN/m of the block."""
+    assert usual_step(striker_speed=2.0) == pytest.approx(12.5e-3 / 2.0 / 1000)
+    contact = pi * (0.05 / 180e3) ** 0.5
+    for speed in (0.01, 0.1):
+        assert usual_step(striker_speed=speed) == pytest.approx(contact / 20)
+    assert usual_step(striker_speed=0.01, striker_mass=0.2) == pytest.approx(contact / 10)
+    assert usual_step(striker_speed=1e-3, striker_mass=5e-4) == pytest.approx(125.0 / 1e6)
 
 
 def test_time_step_under_a_speed_makes_a_whole_number_of_steps():
