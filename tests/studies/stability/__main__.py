@@ -21,7 +21,7 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.load import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
-from tests.studies.stability.draw import CONFIGS, remembering, second_order
+from tests.studies.stability.draw import CONFIGS, remembering, second_order, wide
 from tests.studies.stability.structures import COUNT, structure_scene
 from tests.studies.tables import head, line, tell
 
