@@ -29,6 +29,16 @@ COLUMNS: dict[str, Column] = {
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),
+    "retry": Column(
+        "",
+        "what was changed in the retry that has these numbers, as the case as asked for stopped; "
+        "empty if nothing was",
+    ),
+    "loaded": Column(
+        "1",
+        "1 if the first loading was completed, with energies that balance: full stroke, release, "
+        "or the striker's stop; what it determines is ranked, whatever stopped the case later",
+    ),
     "lattice_kind": Column("", "family of the infill pattern, or pattern of the slicer"),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
@@ -342,6 +352,10 @@ LOAD_COLUMNS: dict[str, Column] = {
 """Further columns of the history of a custom structure in statics; the second only along arcs."""
 
 RANKING_COLUMNS: dict[str, Column] = {
+    "best_place": Column("1", "best place that a case which stopped could have had"),
+    "least_place": Column(
+        "1", "place that a case which stopped has at least; NaN if nothing is certain"
+    ),
     "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),

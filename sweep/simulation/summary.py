@@ -68,6 +68,12 @@ OF_A_CRUSH = (
     "energy_to_plateau_end_J_per_m3",
     "efficiency_to_plateau_end",
 )
+OF_THE_WHOLE_RUN = (
+    *("returned_energy_J", "lost_energy_J", "lost_share", "lost_energy_J_per_g"),
+    *("dissipated_energy_J", *DISSIPATED, "residual_strain", "second_cycle_share"),
+    *("rebound_speed_m_per_s", "rebound_share"),
+)
+"""Columns that only a run to its end has: of unloading, and of what is lost until then."""
 ROUND_OFF = 1e-9
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 

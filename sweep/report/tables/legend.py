@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.numbers import percent
+from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
     panel_note,
@@ -61,6 +62,11 @@ EARLY = """\
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
+UNLOADED = """\
+u: stopped after its loading (message: why), which determines energy, peak and densification; what
+only unloading tells is not known (–)."""
+OTHER_BOW = """\
+i: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -111,7 +117,9 @@ def marks(rows: DataFrame) -> Series:
     crossed = rows["crossed"].map({True: "x", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     undrawn = unprintable(rows).map(lambda why: "p" * bool(why))
-    return beyond + crossed + beyond_curve + undrawn
+    stopped = unloaded(rows).map({True: "u", False: ""})
+    bowed = other_bow(rows).map({True: "i", False: ""})
+    return beyond + crossed + beyond_curve + undrawn + stopped + bowed
 
 
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
@@ -121,8 +129,15 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
         CROSSED: rows["crossed"],
         UNPRINTABLE: unprintable(rows) != "",
         STRETCHED: rows["beyond_curve"],
+        UNLOADED: unloaded(rows),
+        OTHER_BOW: other_bow(rows),
     }
     return tuple(note for note, has in notes.items() if has.any())
+
+
+def other_bow(rows: DataFrame) -> Series:
+    """True for results of a retry with another imperfection."""
+    return rows["retry"].str.contains("imperfection")
 
 
 def unprintable(rows: DataFrame) -> Series:

@@ -14,15 +14,11 @@ from sweep.ranking.merit import LEAST
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
-    BEYOND,
-    CROSSED,
     EARLY,
     PRINTED,
-    STRETCHED,
-    UNPRINTABLE,
     UNSURE,
+    mark_notes,
     marks,
-    unprintable,
 )
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
@@ -32,6 +28,7 @@ from sweep.report.tables.requirement_notes import (
     requirement_notes,
 )
 from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.unfinished_notes import unfinished_notes
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -67,14 +64,19 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     budgets, table = ranking.budgets_g, ranking.table
     named = partial(named_case, among=summary)
     if ranking.lightest_g and ranking.is_above_budgets:
-        yield Sheet("", [], [], notes=_missed(ranking.scenes[0], ranking, named))
+        lightest = _missed(ranking.scenes[0], ranking, named)
+        stopped = unfinished_notes(ranking.unfinished, named)
+        yield Sheet("", [], [], notes=(*lightest, *stopped))
         return
     for scene in ranking.lightest_g:
         placed = rows = table[table["scene"] == scene]
         missed = _missed(scene, ranking, named)
         requirements = tuple(requirement_notes(scene, ranking, named))
+        stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
+        unfinished = tuple(unfinished_notes(stopped, named))
         if rows.empty:
-            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *requirements))
+            notes = (*(missed or (NO_PLACE,)), *unfinished, *requirements)
+            yield Sheet(scene, [], [], notes=notes)
             continue
         first = {}
         if len(budgets) > 1:
@@ -93,15 +95,13 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
             notes=(
-                *((BEYOND,) if rows["beyond_model"].any() else ()),
-                *((CROSSED,) if rows["crossed"].any() else ()),
                 *((PRINTED,) if "print g" in columns else ()),
-                *((UNPRINTABLE,) if (unprintable(rows) != "").any() else ()),
-                *((STRETCHED,) if rows["beyond_curve"].any() else ()),
+                *mark_notes(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
                 *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
+                *unfinished,
                 *missed,
                 *requirements,
             ),
