@@ -20,7 +20,7 @@ from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import LEAST, Compared, merits
-from sweep.ranking.places import pareto, places_by
+from sweep.ranking.places import pareto, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
@@ -104,7 +104,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     budget_g, scene : the ranking to which a row belongs.
     place : equal values share a place, and so do values whose order the estimated errors may
         reverse (`shared_places`).
-    tied, ranked_error : with error bars: True if the place is shared; the error of the value.
+    tied : with error bars, or where an energy stands for a range: True if the place is shared.
+    ranked_error : with error bars: the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
@@ -243,7 +244,9 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows.sort_values(order, ascending=upwards)
     error = rows.get(error_column(by))
     place = places_by(rows, by)
-    columns = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
+    columns = {} if error is None else {"ranked_error": error}
+    if error is not None or any((length > 0.0).any() for length in reach(rows, by)):
+        columns["tied"] = place.duplicated(keep=False)
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
     columns |= {"sharing": sharing, "contenders": len(rows)}

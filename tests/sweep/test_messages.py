@@ -106,6 +106,15 @@ RANKINGS = {
     "second cycle": (summary({"second_cycle_share": 0.7}), {}),
     "no densification": (summary({"densification_strain": nan, "peak_strain": 0.5}), {}),
     "gradual densification": (summary({"packing_span": 0.21}), {}),
+    "two maxima of the efficiency": (
+        CRUSHES.assign(
+            lowest_densification_strain=[0.5, 0.5, 0.34],
+            highest_densification_strain=[0.5, 0.5, 0.52],
+            lowest_absorbed_energy_at_densification_J=[0.1, 0.18, 0.15],
+            highest_absorbed_energy_at_densification_J=[0.1, 0.18, 0.42],
+        ),
+        {"budget": "9 g"},
+    ),
     "slicer, stretched, crossed, beyond": (
         summary(
             {"printed_mass_g": 1.1, "does_not_print": "walls of 1.5 lines of 0.4 mm"},

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.columns import ABSORBED_AT, correction_column, error_column
+from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BEHIND, BESIDE
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
@@ -138,7 +138,7 @@ def _cases(
     counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
 ) -> dict[str, dict[str, Any]]:
     """What ranks every case of these scenes, and what its row of the table says, by its id."""
-    cases = {}
+    cases, ends = {}, end_columns(counted[0].names.energy)
     for number, part in enumerate(scenes):
         if part.empty:
             continue
@@ -155,6 +155,7 @@ def _cases(
             "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
             "gap": _exact(part["direction"].map(BEHIND)),
             "energies": list(zip(*energies, strict=True)),
+            "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
             "passed": _exact(part["passed_on_N"]),
             "peak": _exact(part["peak_force_N"]),

@@ -316,7 +316,7 @@ function* words(best) {
   const tied = now.placed.filter((row) => row !== best && row.place === best.place);
   const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
   if (tied.length)
-    yield `Tied within the estimated errors: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
+    yield `Tied${now.bar ? " within the estimated errors" : ""}: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
 }
 
 function detail(best) {
@@ -407,7 +407,7 @@ function requiredColumns() {
 }
 
 function placeText(row) {
-  const tied = now.bar && row.sharing > 1 ? "=" : "";
+  const tied = (now.bar || now.ranged) && row.sharing > 1 ? "=" : "";
   const { crossed, stretched, undrawn, unloaded, bowed } = row.design;
   const signs = { "!": row.beyond, x: crossed, "^": stretched, p: undrawn, u: unloaded, i: bowed };
   const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
@@ -483,6 +483,7 @@ function notes() {
     );
   if (now.bar)
     lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
+  if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");

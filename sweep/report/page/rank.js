@@ -143,6 +143,10 @@ function measured(data, design, question) {
   else
     bars = [row.perGram, ...[error, correction].map((v) => (v === null ? null : v / design.mass))];
   [row.value, row.error, row.correction] = bars;
+  const [low, high] = scene.least || force !== null ? [null, null] : design.ends;
+  const scaled = (end) => (question.panel || question.budget !== null ? factor * end : end / design.mass);
+  row.below = low === null ? 0 : Math.max(0, row.value - scaled(low));
+  row.above = high === null ? 0 : Math.max(0, scaled(high) - row.value);
   row.misses = missesOf(data, row, question);
   row.worst = Math.max(0, ...Object.values(row.misses));
   return row;
@@ -174,14 +178,14 @@ function markFront(rows, merit) {
 }
 
 // Places of sorted rows: a value shares the place of the first value of that place if it differs
-// from it by no more than their corrections differ; a missing one is 0.
+// from it by no more than their corrections differ, a missing one is 0, or if their ranges meet.
 function markPlaces(rows) {
   let best = NaN;
-  let first = NaN;
+  let [first, low] = [NaN, NaN];
   rows.forEach((row, i) => {
     const correction = row.correction ?? 0;
-    if (Math.abs(row.value - best) <= Math.abs(correction - first)) row.place = rows[i - 1].place;
-    else [best, first, row.place] = [row.value, correction, i + 1];
+    if (Math.abs(row.value - best) <= Math.abs(correction - first) + low + row.above) row.place = rows[i - 1].place;
+    else [best, first, low, row.place] = [row.value, correction, row.below, i + 1];
   });
   const sharing = new Map();
   for (const row of rows) sharing.set(row.place, (sharing.get(row.place) ?? 0) + 1);
@@ -235,7 +239,8 @@ function doubtful(row) {
 // All designs of a scene of known mass as `rows`; those with a place, best first, as `placed`; those
 // within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
-// lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`.
+// lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`; `ranged`: some
+// energies stand for a range.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const weighed = (design) => design.scene === question.scene && design.mass !== null;
@@ -254,11 +259,12 @@ function ranked(data, question) {
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
+  const ranged = placed.some((row) => row.below > 0 || row.above > 0);
   markPlaces(placed);
   const sound = (row) => !doubtful(row);
   const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);
   const lightest = Math.min(...rows.map((row) => row.mass));
   const stopped = unfinished(data, placed, question);
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped };
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged };
 }

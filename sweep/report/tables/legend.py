@@ -55,8 +55,11 @@ UNPRINTABLE = """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these."""
 UNSURE = """\
-~: densification is gradual, or occurs at two strains: the efficiency is within 2 % of the greatest
+~: densification is gradual: the efficiency is within 2 % of the greatest
 over more than 10 % of strain."""
+TWICE = """\
+34-52: the efficiency is greatest, within 2 %, at two strains, these; the energy until densification
+is a range too (columns lowest_..., highest_...). =: a tie: the ranges of designs meet."""
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 STRETCHED = """\

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
+from sweep.columns import end_columns
 from sweep.numbers import in_unit, numerals, percent, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import LEAST
@@ -16,6 +17,7 @@ from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
     EARLY,
     PRINTED,
+    TWICE,
     UNSURE,
     mark_notes,
     marks,
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
 LONG_SPAN = 0.1  # of strain
+NO_TEXT = Series(dtype=str)
 
 
 SPARE = {
@@ -98,6 +101,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *((PRINTED,) if "print g" in columns else ()),
                 *mark_notes(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
+                *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
                 *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
@@ -242,9 +246,11 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     densified = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})
+    low, high = (rows[name].map(percent) for name in end_columns("densification_strain"))
+    strain = (rows["packing_strain"].map(percent) + unsure).where(low == high, low + "-" + high)
     second = rows["second_cycle_share"]
     return {
-        "dens. %": (rows["packing_strain"].map(percent) + unsure).where(
+        "dens. %": strain.where(
             densified, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
         ),
         "returned %": rows["returned_share"].map(percent),

@@ -90,6 +90,10 @@ def _row(rng, mass, energy, factor):
         "max_crossings": int(rng.random() < 0.1),
         "status": "stopped" if rng.random() < 0.2 else "converged",
     }
+    if rng.random() < 0.15:
+        low, high = (float(rng.choice([0.8, 1.0]) * energy), float(rng.choice([1.0, 1.3]) * energy))
+        row["lowest_absorbed_energy_at_densification_J"] = low
+        row["highest_absorbed_energy_at_densification_J"] = high
     if row["status"] == "stopped":
         row["loaded"] = int(rng.random() < 0.3)
     for force in FORCES:

@@ -35,8 +35,9 @@ function told({ data, questions }) {
     const found = ranked(data, asked);
     return {
       placed: found.placed.map((row) => ({
-        case_id: row.design.id, place: row.place, tied: Boolean(found.bar) && row.sharing > 1,
-        pareto: row.pareto, beyond_model: row.beyond, crossed: row.design.crossed,
+        case_id: row.design.id, place: row.place, pareto: row.pareto,
+        tied: Boolean(found.bar || found.ranged) && row.sharing > 1,
+        beyond_model: row.beyond, crossed: row.design.crossed,
         value: row.value, mass: row.mass, early: row.early || row.open,
       })),
       missing: found.missing.length,
