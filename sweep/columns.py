@@ -25,7 +25,7 @@ class Column:
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
-    "status": Column("", "converged, stopped, timed_out or worker_died"),
+    "status": Column("", "converged, stopped, timed_out, unresolved or worker_died"),
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),
@@ -124,6 +124,12 @@ COLUMNS: dict[str, Column] = {
     ),
     "dissipated_friction_J": Column("J", "dissipated by friction in the whole run", "more"),
     "dissipated_integrator_J": Column("J", "energy removed by the time integrator itself"),
+    "integrator_share": Column(
+        "1",
+        "greatest energy that the time integrator has removed or created / greatest work: a "
+        "measure of the error of the time steps; NaN in statics",
+        "less",
+    ),
     "lost_energy_J": Column(
         "J",
         "absorbed energy - returned energy, if that is positive; of an impact, energy of the "

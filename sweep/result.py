@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 8
+MODEL_VERSION = 9
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = ("force_N", "stroke_m", "striker_mass_g", "striker_speed_m_per_s", "impact_energy_J")
@@ -31,11 +31,12 @@ HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
 
 class Status(StrEnum):
-    """How a case ended. Only `converged` means that it ran to its end."""
+    """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it."""
 
     CONVERGED = "converged"
     STOPPED = "stopped"
     TIMED_OUT = "timed_out"
+    UNRESOLVED = "unresolved"
     WORKER_DIED = "worker_died"
 
 

@@ -19,7 +19,7 @@ def factor(problem, x, step, found, projected, through):
     fold.hessian(x, scene.fold, matrix, projected)
     spring.hessian(x, scene.spring, matrix, projected)
     contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
-    friction.hessian(found.u, neighbours.lagged_contacts, slip_of(problem, step), matrix, projected)
+    friction.hessian(found.u, neighbours.lagged_contacts, slip_of(problem, step), matrix)
     if step.dynamic:
         inertia.hessian(scene.coordinates.mass, step.h, matrix.diagonal)
         damping.hessian(scene, step.h, matrix.diagonal)

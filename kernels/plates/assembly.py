@@ -101,7 +101,7 @@ def add_contacts(problem, x, step, found):
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
     slip = slip_of(problem, step)
     for k in range(lagged.count[0]):
-        count = friction.block(found.u, lagged, slip, k, False, part)
+        count = friction.block(found.u, lagged, slip, k, part)
         add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
     for i in range(scene.contact.low_nodes.size):
         _add_platen(problem, x, False, i)
@@ -115,27 +115,16 @@ def add_contacts(problem, x, step, found):
 
 
 @jit
-def project_contacts(problem, x, step, found):
-    """Take the negative parts of contact and friction out of the matrix that `add_contacts` has
-    filled.
-    """
+def project_contacts(problem, x):
+    """Take the negative parts of contact out of the matrix that `add_contacts` has filled."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull = neighbours.matrix, scene.layout, buffers.pull
-    part, projected = buffers.part, buffers.projected
-    touching, lagged = neighbours.touching, neighbours.lagged_contacts
+    part, projected, touching = buffers.part, buffers.projected, neighbours.touching
     for n in range(touching.count[0]):
         contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
         count = contact.block(x, scene.contact, neighbours.pairs, touching, n, True, projected)
         _subtract(part, projected)
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, projected)
-    slip = slip_of(problem, step)
-    for k in range(lagged.count[0]):
-        if lagged.load[k] < 0.0:  # only its projection differs: it is zero
-            count = friction.block(found.u, lagged, slip, k, False, part)
-            for i in range(POSITION * count):
-                for j in range(POSITION * count):
-                    part[i, j] = -part[i, j]
-            add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
 
 
 @jit

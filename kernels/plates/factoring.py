@@ -1,10 +1,9 @@
 """The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored.
 
 Where the exact Hessian H is not positive, H_+ + sigma W is the projected one. H_+ is H without the
-negative parts of contacts and of friction: a wall that turns about the one that it touches has a
-negative stiffness as large as force / gap, and a shift that makes up for it would slow all nodes.
-W are the weights of `Layout`. The shift sigma is raised from below its last value until all pivots
-are positive.
+negative parts of contacts: a wall that turns about the one that it touches has a negative stiffness
+as large as force / gap, and a shift that makes up for it would slow all nodes. W are the weights of
+`Layout`. The shift sigma is raised from below its last value until all pivots are positive.
 """
 
 from kernels.arrays import zero
@@ -67,7 +66,7 @@ def factor(problem, x, step, found, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
     if projected:  # the matrix has the exact one, which is not positive
-        assembly.project_contacts(problem, x, step, found)
+        assembly.project_contacts(problem, x)
         return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
     _assemble(problem, x, step, found)
     if matrix.missing[0] != 0:

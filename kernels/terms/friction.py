@@ -12,8 +12,10 @@ the moves dp of the node and dc of the closest point, and the rotation omega of 
     delta = T . (dp - dc) - d omega,   linear in the moves of p, a, b, with the slopes of
                                        `LaggedContacts`.
 
-Contributions that the contact sum subtracts have a negative normal force here too, so that friction
-and contact have the same normal forces.
+Contributions that the contact sum subtracts are taken from the normal forces of other contacts of
+the same node, those nearest to the vertex first, and none of these becomes negative: a negative
+lambda would have a concave potential, and give energy. So the normal forces of a node have the sum
+of those of contact, unless that is negative.
 
 f'' is a spike at delta = 0, over which Newton's method oscillates. A primal-dual method avoids
 this: the dual w = f' is an unknown, and with f' = delta / psi(delta) the linearised equation is
@@ -35,6 +37,8 @@ from kernels.terms.contact import Touching, detect, normal_force, platen_force
 from kernels.terms.contact import no_contacts as none_touching
 
 UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
+NO_CONTACT = -1
+NEGLIGIBLE = 1e-12  # of two loads that cancel: a smaller difference is round-off
 DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused: its part in a contact
 # then differs from f'' by at most a tenth of 1 / psi
 
@@ -54,21 +58,23 @@ def no_contacts(pairs, contact, friction):
     if friction.mu == 0.0:
         return none()
     size = 3 * pairs.node.size + 2 * contact.platen_nodes.size
-    nodes, slopes = np.empty((size, 3), np.int64), np.empty((size, 3, 2))
-    count = np.zeros(1, np.int64)
-    return LaggedContacts(
-        nodes, slopes, np.empty(size), np.empty(size), count, none_touching(pairs)
-    )
+    return _room(size, pairs, contact.tributary.size)
 
 
 @jit_owning
 def none():
     """Return an empty `LaggedContacts` without room."""
-    nodes, slopes = np.empty((0, 3), np.int64), np.empty((0, 3, 2))
-    count = np.zeros(1, np.int64)
+    return _room(0, near_pairs.empty(), 0)
+
+
+@jit_owning
+def _room(size, pairs, n_nodes):
+    """Return an empty `LaggedContacts` with room for ``size``."""
     return LaggedContacts(
-        nodes, slopes, np.empty(0), np.empty(0), count, none_touching(near_pairs.empty())
-    )
+        np.empty((size, 3), np.int64), np.empty((size, 3, 2)), np.empty(size), np.empty(size),
+        np.zeros(1, np.int64), none_touching(pairs), np.empty(n_nodes, np.int64),
+        np.empty(size, np.int64),
+    )  # fmt: skip
 
 
 @jit_owning
@@ -109,17 +115,73 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
 
 
 @jit_exact
+def deduct(load, i, j):
+    """Take the negative load ``i`` from load ``j`` as far as that stays positive."""
+    both = load[i] + load[j]
+    if abs(both) <= NEGLIGIBLE * load[j]:
+        load[i], load[j] = 0.0, 0.0
+    else:
+        load[i], load[j] = min(both, 0.0), max(both, 0.0)
+
+
+@jit_exact
+def _nearness(contact, pairs, touching, i, v):
+    """Return 2 if contact ``i`` is at vertex ``v``, 1 if its segment ends there, else 0."""
+    a, b = pair(contact.edges, pairs.edge[touching.pair[i]])
+    if a != v and b != v:
+        return 0
+    return 2 if touching.tau[i] == (0.0 if a == v else 1.0) else 1
+
+
+@jit_exact
+def _nearest(lagged_contacts, contact, pairs, i):
+    """Return the contact from which the subtracted one ``i`` is taken: of those nearest to its
+    vertex, with a load, that of the largest load; `NO_CONTACT` if there is none.
+    """
+    touching, load = lagged_contacts.touching, lagged_contacts.load
+    k, found, most = touching.pair[i], NO_CONTACT, (0, 0.0)
+    v = contact.edges[pairs.edge[k], touching.end[i]]
+    j = lagged_contacts.first[pairs.node[k]]
+    while j != NO_CONTACT:
+        if load[j] > 0.0:
+            rank = _nearness(contact, pairs, touching, j, v), load[j]
+            if rank > most:
+                found, most = j, rank
+        j = lagged_contacts.after[j]
+    return found
+
+
+@jit_exact
+def _fill_loads(lagged_contacts, contact, pairs):
+    """Fill ``load`` with the normal force of every contact in ``touching``, N, none negative."""
+    touching, load, first = lagged_contacts.touching, lagged_contacts.load, lagged_contacts.first
+    for p in range(first.size):
+        first[p] = NO_CONTACT
+    for i in range(touching.count[0]):
+        load[i], p = normal_force(contact, pairs, touching, i), pairs.node[touching.pair[i]]
+        lagged_contacts.after[i], first[p] = first[p], i
+    for i in range(touching.count[0]):
+        while load[i] < 0.0:
+            j = _nearest(lagged_contacts, contact, pairs, i)
+            if j == NO_CONTACT:
+                load[i] = 0.0
+            else:
+                deduct(load, i, j)
+
+
+@jit_exact
 def lag(lagged_contacts, x, contact, pairs, drift, friction):
     """Fill ``lagged_contacts`` with all contacts at ``x``. drift: as in `contact.detect`."""
     n, lagged_contacts.count[0], touching = 0, 0, lagged_contacts.touching
     if friction.mu == 0.0:
         return
     detect(x, contact, pairs, drift, touching)
+    _fill_loads(lagged_contacts, contact, pairs)
     for i in range(touching.count[0]):
-        k = touching.pair[i]
-        a, b = pair(contact.edges, pairs.edge[k])
-        load = friction.mu * normal_force(contact, pairs, touching, i)
-        n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
+        k, load = touching.pair[i], friction.mu * lagged_contacts.load[i]
+        if load > 0.0:  # n <= i: loads that are still to be read are not overwritten
+            a, b = pair(contact.edges, pairs.edge[k])
+            n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
     for p in contact.platen_nodes:
         for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
             load = friction.mu * platen_force(contact, p, d)
@@ -210,7 +272,8 @@ class LaggedContacts(NamedTuple):
 
     nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
     lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
-    p with slope zero. touching: scratch for the contacts.
+    p with slope zero. touching, first (nodes,), after (n,): scratch for the contacts, and for those
+    of each node: the first, and the one after each.
     """
 
     nodes: np.ndarray
@@ -219,6 +282,8 @@ class LaggedContacts(NamedTuple):
     dual: np.ndarray
     count: np.ndarray
     touching: Touching
+    first: np.ndarray
+    after: np.ndarray
 
     lag = lag
     evaluate = evaluate
@@ -227,13 +292,13 @@ class LaggedContacts(NamedTuple):
 
 
 @jit
-def hessian(u, lagged_contacts, eps, matrix, projected):
-    """Add the primal-dual d2D_f/dx2; projected: without contributions of negative force."""
+def hessian(u, lagged_contacts, eps, matrix):
+    """Add the primal-dual d2D_f/dx2, which is positive semi-definite."""
     for k in range(lagged_contacts.count[0]):
         weight = lagged_contacts.load[k] * curvature(
             _slip(u, lagged_contacts, k), lagged_contacts.dual[k], eps
         )
-        if weight == 0.0 or (projected and weight < 0.0):
+        if weight == 0.0:
             continue
         last = 3 if lagged_contacts.nodes[k, 1] != lagged_contacts.nodes[k, 0] else 1
         for a in range(last):

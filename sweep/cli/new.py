@@ -61,7 +61,7 @@ TAIL = """\
 
 [grid]                               # all combinations: 2 x 2 = 4 cases
 "lattice.cells_x" = [4, 6]
-"lattice.wall_thickness" = ["0.6 mm", "0.8 mm"]
+"lattice.wall_thickness" = ["0.4 mm", "0.8 mm"]
 # "lattice.kind" = ["square", "hex"]
 
 [rank]

@@ -19,7 +19,7 @@ from sweep.cli.terminal import (
     say_all,
     warnings,
 )
-from sweep.numbers import counted, text_in
+from sweep.numbers import text_in
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -223,10 +223,8 @@ def _config(name: str) -> Config:
     config = load_config(name)
     if config.path != Path(name):
         hint([f"example {name}: {config.path} (copy it to change it)"])
-    if config.unprintable:
-        verb = "does" if config.unprintable == 1 else "do"
-        left_out = f"{counted(config.unprintable, 'combination')}, which {verb} not print"
-        hint([f"excluded {left_out} (lattice.printable)"])
+    if config.left_out.impossible:
+        hint(["left out, as they are impossible:", *config.left_out.reasons])
     return config
 
 

@@ -7,41 +7,37 @@ them, so that equal physics has an equal id.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from math import hypot
+from math import hypot, inf
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
+from sweep.config.changes import merged
+from sweep.config.faults import MisfitError
+from sweep.config.keys import table_keys
 from sweep.config.kinds import contact as contacts
 from sweep.config.kinds import damping as dampings
 from sweep.config.kinds import loading as loadings
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
-from sweep.config.kinds.cells import CUSTOM, cells
+from sweep.config.kinds.cells import cells
 from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.custom_structure import CustomStructure, custom_structure
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
-from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.lattice import Lattice, kind_of
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.printable import check_printable
-from sweep.config.kinds.sliced import sliced
+from sweep.config.kinds.sliced import Sliced, sliced
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import Given, Pairs, RefusedError, Table, canonical
+from sweep.config.kinds.table import TABLES, Given, Pairs, RefusedError, Table, canonical
 from sweep.config.kinds.upright import across, upright
 from sweep.config.structures.structure_file import faults
 
 T = TypeVar("T")
-TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
-# Of two keys that say the same, the first replaces the second.
-EITHER = (
-    ("loading", "strain", "stroke"),
-    ("loading", "stroke", "strain"),
-    ("lattice", "mass", "wall_thickness"),
-)
 
 
 class Case(BaseModel):
@@ -81,6 +77,11 @@ class Case(BaseModel):
         return self.lattice.depth if self.along else self.lattice.height
 
     @property
+    def extent(self) -> steps.Extent:
+        """What is pressed."""
+        return _extent(dict(self), self.height)
+
+    @property
     def footprint(self) -> tuple[float, float]:
         """Outer width and depth (m) of the area that is pressed."""
         width, height = self.lattice.outer_size
@@ -95,24 +96,12 @@ class Case(BaseModel):
     def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
 
-        axes: labels beside those it has. Another material has only the new values; a loading of
-        another mode too, and its numerics are chosen anew. Of two keys that say the same, as
-        strain and stroke, the new one counts.
+        axes: labels beside those it has. `changes` says which of its own values a new one replaces;
+        the others stay, such as a duration or a time step that followed from old ones.
         """
         _check_tables(tables)
-        values = {name: getattr(self, name).given() for name in TABLES}
         changes = {name: dict(change) for name, change in tables.items()}
-        loading, material = changes.get("loading", {}), changes.get("material", {})
-        if material.get("name", self.material.name) != self.material.name:
-            values["material"] = {}
-        if loading.get("mode", self.loading.mode) != self.loading.mode:
-            values |= {name: {} for name in ("loading", "contact", "damping", "solver")}
-        if {"height", "depth"} & {*changes.get("lattice", {})} or "direction" in loading:
-            values["loading"].pop("stroke", None)
-        for table, key, other in EITHER:
-            if changes.get(table, {}).get(key) is not None:
-                values[table].pop(other, None)
-        values |= {name: values[name] | change for name, change in changes.items()}
+        values = merged({name: getattr(self, name) for name in TABLES}, changes)
         case = complete({name: _values(table) for name, table in values.items()}).sound()
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
@@ -124,18 +113,18 @@ class Case(BaseModel):
 
     @staticmethod
     def from_json(text: str | bytes) -> "Case":
-        """The case of `to_json`, for which no file is read; `ValueError` if the text is no case."""
+        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case."""
         try:
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
             place = ".".join(map(str, first["loc"])) or "the text"
-            raise ValueError(f"{place}: {first['msg']}") from None
+            raise MisfitError(f"{place}: {first['msg']}") from None
         drawn = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
         for line in faults(drawn) if drawn else ():
-            raise ValueError(f"lattice.structure: {line}")
+            raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
-            raise ValueError("its numbers do not follow from one another")
+            raise MisfitError("its numbers do not follow from one another")
         return case
 
 
@@ -202,10 +191,10 @@ def _numerics(
     material: Material,
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
-    contact_table, relaxes = dict(pairs["contact"]), material.relaxes
-    diagonal, by_position = _diagonal(draft.tables), contact_table.get("model") == "position_based"
-    where = loading, pressed.height, diagonal, by_position
-    solver = draft.add("solver", steps.solver, pairs["solver"], material.remembers, *where)
+    model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
+    extent, by_position = _extent(draft.tables, pressed.height), model == "position_based"
+    given = pairs["solver"], material.remembers, loading, extent, by_position
+    solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
     contact = (pairs["contact"], loading, pressed.structure, solver.integrator)
@@ -223,10 +212,14 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     return Pressed(getattr(lattice, key), structure, lattice.endless)
 
 
-def _diagonal(tables: Mapping[str, Table]) -> float:
-    """The diagonal of the box of a lattice, m."""
-    lattice = tables.get("lattice")
-    return hypot(lattice.width, lattice.height) if isinstance(lattice, Specimen) else 1.0
+def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:
+    """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
+    lattice, material = tables.get("lattice"), tables["material"]
+    if not isinstance(lattice, Specimen):
+        return steps.Extent(height, 1.0, inf)
+    volume = lattice.width * lattice.height * lattice.depth
+    compliance = height**2 / (material.modulus * volume) if volume else inf
+    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance)
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
@@ -246,8 +239,24 @@ def _check_tables(tables: Mapping[str, Given | Table]) -> None:
     for name, values in tables.items():
         if name not in TABLES:
             raise RefusedError(name, values, f"the tables {', '.join(TABLES)}")
-        if not isinstance(values, Mapping | Table):
+        if isinstance(values, Mapping):
+            _check_types(name, values)
+        elif not isinstance(values, Table):
             raise RefusedError(name, values, "values by key")
+
+
+def _check_types(table: str, values: Given) -> None:
+    """Refuse a value of another type than its key has, such as a text for a number."""
+    keys = table_keys(table)
+    for key, value in values.items():
+        if value is None or f"{table}.{key}" not in keys:
+            continue
+        try:
+            keys[f"{table}.{key}"].adapter.validate_python(value)
+        except ValidationError as error:
+            wrong = error.errors(include_url=False)[0]
+            if wrong["type"].endswith("_type") or isinstance(value, list | dict):
+                raise _refused(table, wrong | {"loc": (key,)}) from None
 
 
 def _check_keys(table: Table, name: str, values: Given) -> None:
@@ -266,9 +275,10 @@ def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
     """The lattice of these values; density (kg/m^3): of its material."""
     given = dict(values)
     made: Lattice
-    if given.get("kind") == CUSTOM:
+    kind = kind_of(given)
+    if kind is CustomStructure:
         made = custom_structure(given)
     else:
-        made = sliced(given, density) if "slicer" in given else cells(given, density)
+        made = sliced(given, density) if kind is Sliced else cells(given, density)
     check_printable(made)
     return upright(made, given) if along else across(made)

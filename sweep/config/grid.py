@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 from math import prod
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.case import TABLES, Case, Draft, complete
+from sweep.config.case import Case, Draft, complete
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
-from sweep.config.kinds.table import RefusedError, rounded
+from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import KEYS
 from sweep.config.question import Rank, Require
@@ -53,13 +53,21 @@ class Recipe:
         return prod(lengths + [len(next(iter(tied.values()))) for tied in self.zip])
 
 
+class LeftOut(NamedTuple):
+    """How many of all combinations of a grid are impossible, and a line for each reason."""
+
+    impossible: int = 0
+    of: int = 0
+    reasons: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True)
 class Config:
     """A sweep: its cases, and what it asks of their results.
 
-    cases: of a config with a search, those that the search has chosen so far. unprintable: number
-    of combinations that are left out, as they do not print (`lattice.printable`). seed: of a
-    search. recipe: what its file says; nothing for cases without a file.
+    cases: of a config with a search, those that the search has chosen so far. left_out: the
+    combinations without a case. seed: of a search. recipe: what its file says; nothing for cases
+    without a file.
     """
 
     name: str
@@ -68,7 +76,7 @@ class Config:
     require: Require = field(default_factory=Require)
     path: Path | None = None
     recipe: Recipe = field(default_factory=Recipe)
-    unprintable: int = 0
+    left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
 
 
@@ -92,41 +100,37 @@ def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:
     return None if combination.faults else combination.labelled()
 
 
-def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], int]:
-    """The cases, and the number of combinations that are left out as they do not print.
+def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
+    """The cases, and which combinations are left out, as their values cannot be combined.
 
-    The first axis of the grid varies slowest, and of equal cases the first is kept. A key that no
-    case uses is refused, since it has no effect. So is a table of [[exclude]] that drops no case.
-    Of several combinations, those that do not print are left out if `lattice.printable` asks for
-    it, but not all of them. A search is tried at a few points (`_combinations`), and has no cases.
+    The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
+    value that no combination can use, unless it only does not print, a grid of which nothing is
+    left, a key that no case uses, and a table of [[exclude]] that drops no case. A search is tried
+    at a few points (`_combinations`), and has no cases.
     """
     count = recipe.count
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
         raise ConfigError([Fault("grid", line)])
     cases: dict[str, Case] = {}
-    refused: dict[str, list[tuple[Fault, Values]]] = {}
+    usable: set[tuple[str, str]] = set()
+    impossible: list[_Combination] = []
     unused = dict.fromkeys(_keys_to_use(recipe), "")
     dropped: set[int] = set()
-    unprintable: list[tuple[Fault, Values]] = []
     for draft in _drafts(recipe):
         matching = {k for k, table in enumerate(recipe.exclude) if draft.matches(table)}
         dropped |= matching
         if matching:
             continue
-        if count > 1 and [fault.key for fault in draft.faults] == [PRINTABLE]:
-            unprintable += [(fault, draft.chosen) for fault in draft.faults]
+        if draft.faults:
+            impossible.append(draft)
             continue
-        for fault in draft.faults:
-            refused.setdefault(fault.key, []).append((fault, draft.chosen))
-        if not draft.faults:
-            cases.setdefault(draft.case.case_id, draft.labelled())
-            unused = still_unused(unused, draft.given, draft.case) if unused else unused
+        usable |= draft.texts
+        cases.setdefault(draft.case.case_id, draft.labelled())
+        unused = still_unused(unused, draft.given, draft.case) if unused else unused
+    refused = [draft for draft in impossible if draft.needs(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
-        count = max(count, *map(len, refused.values()))
-        raise ConfigError([_merged(refusals, count, recipe) for refusals in refused.values()])
-    if unprintable and not cases:
-        raise ConfigError([_merged(unprintable, count, recipe)])
+        raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))
     if not cases:
         line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
@@ -135,7 +139,10 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], int]:
         faults += _without_effect(recipe, unused)
     if faults:
         raise ConfigError(faults)
-    return (() if recipe.search else tuple(cases.values())), len(unprintable)
+    if recipe.search:
+        return (), LeftOut()
+    reasons = [fault.line for fault in _reasons(impossible, count, recipe)]
+    return tuple(cases.values()), LeftOut(len(impossible), count, tuple(reasons))
 
 
 @dataclass(frozen=True)
@@ -146,6 +153,15 @@ class _Combination:
     given: dict[str, Any]
     draft: Draft
     faults: list[Fault]
+
+    @property
+    def texts(self) -> set[tuple[str, str]]:
+        """Its values along the axes, as the file writes them."""
+        return {(key, written.text) for key, written in self.chosen.items()}
+
+    def needs(self, usable: set[tuple[str, str]]) -> bool:
+        """Whether it has a value that is not usable, and not only walls that do not print."""
+        return [fault.key for fault in self.faults] != [PRINTABLE] and not self.texts <= usable
 
     @property
     def case(self) -> Case:
@@ -206,7 +222,8 @@ def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:
     for where, name, values in _axes(recipe):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    return [Fault(key, f"{line}: {unused[key]}") for key, line in lines.items() if unused.get(key)]
+    said = {f"{line}: {unused[key]}": key for key, line in lines.items() if unused.get(key)}
+    return [Fault(key, line) for line, key in said.items()]
 
 
 def _dropping_none(recipe: Recipe, number: int) -> Fault:
@@ -279,8 +296,18 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
     return in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
 
 
+def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:
+    """One fault for each value that is refused; count: number of all combinations."""
+    alike: dict[str, list[tuple[Fault, Values]]] = {}
+    for draft in refused:
+        for fault in draft.faults:
+            value = fault.key if recipe.search else fault.line.split(":")[0]
+            alike.setdefault(value, []).append((fault, draft.chosen))
+    return [_merged(refusals, count, recipe) for refusals in alike.values()]
+
+
 def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
-    """One fault for all cases that share it, with the line of the first and what only they have."""
+    """The line of the first of several refusals, with how many there are and what they share."""
     (key, line), _ = refusals[0]
     if count > 1:
         shared = _shared(key, [chosen for _, chosen in refusals], recipe)

@@ -12,7 +12,6 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, TypeAdapter
 
-from sweep.config.case import TABLES
 from sweep.config.defaults import drop_tests
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.contact import Barrier
@@ -23,7 +22,7 @@ from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.solver import Arcs, Integrator, InTime
-from sweep.config.kinds.table import Table
+from sweep.config.kinds.table import TABLES, Table
 from sweep.config.materials.material_file import available
 from sweep.config.question import QUESTION
 

@@ -39,6 +39,13 @@ energy of a striker; designs differ in the force on the support, which is large 
 used up.
 """
 
+COARSE = {"force": 0.3, "impact": 0.05}
+"""Greatest `integrator_share` of a result that is not marked, by `loading_mode`.
+
+Above it, errors of the compared column are common that exceed the differences of similar designs
+(`sweep.simulation.time_resolution`). A crush may lose what snaps to the integrator.
+"""
+
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
 AT_DENSIFICATION = (
     "absorbed_energy_at_densification_J",
@@ -65,9 +72,9 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
     `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
-    crush; `ends_early`; `beyond_model`; `crossed`; `beyond_curve`; the ends of the range for
-    which the energy stands (`_ends`); and errors and corrections of added columns, if the energy
-    has them.
+    crush; `ends_early`; `beyond_model`; `crossed`; `coarse`; `beyond_curve`; the ends of the
+    range for which the energy stands (`_ends`); and errors and corrections of added columns, if
+    the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished]:
         raise RankError(f"no {missing[0]}; needed: all columns of a summary (`read_summary`)")
@@ -88,6 +95,7 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "ends_early": _ends_early(finished, energy, force, limited),
         "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
+        "coarse": finished["integrator_share"] > finished["loading_mode"].map(COARSE),
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     for k, end in enumerate([] if limited else _ends(finished, energy)):

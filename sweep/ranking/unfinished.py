@@ -6,7 +6,8 @@ other, the final value of the sorted column lies between two ends, of which one 
 - energies, forces and strains only rise as a loading goes on: not below the value so far;
 - energy up to an allowed force F: at most the energy so far + F x the stroke that is left, and just
   the energy so far if F was exceeded;
-- a mass does not change; all other columns may become anything.
+- a mass does not change; all other columns may become anything, and so may all of an impact that
+  its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
 the place that it has at least. A requirement that it already misses, or its mass, excludes it.
@@ -115,6 +116,7 @@ def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
     if FIXED.match(by):
         return Ends(value.fillna(-np.inf), value.fillna(np.inf))
     if RISING.match(by):
+        value = value.where(rows["status"] != Status.UNRESOLVED)
         low = value.fillna(-np.inf)
         if question.allowed_force is not None and by in (names.energy, names.per_gram):
             high = (value + _further(rows, by, names, question)).fillna(np.inf)
@@ -168,6 +170,8 @@ def _judged(
     asked = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
     shares = misses(rows, measured(rows, names, question.per), asked) > 0.0
     settled = bounds.low == bounds.high
+    resolved = rows["status"] != Status.UNRESOLVED
     for name in asked:
-        missed |= shares[name] & (settled if MEASURES[name].least else True)
+        sure = settled if MEASURES[name].least else resolved | (name == "max_mass")
+        missed |= shares[name] & sure
     return missed, Series(not set(asked) - {"max_mass"}, rows.index)

@@ -11,7 +11,10 @@ import numpy as np
 
 from kernels.solve import outcomes
 from sweep.config.case import Case
-from sweep.config.kinds.solver import Arcs
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.solver import Arcs, InTime
+from sweep.config.kinds.steps import impact_step
+from sweep.numbers import percent, with_unit
 from sweep.result import Status
 
 Failure = tuple[Status, str]
@@ -77,6 +80,35 @@ def unbalanced(where: str) -> Failure:
 def still_moving_down(where: str) -> Failure:
     """The striker of a case that has finished still moves down."""
     return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
+
+
+def still_pushed_back(where: str) -> Failure:
+    """The striker of a case that has finished still gains speed upwards."""
+    why = "the lattice still pushes the striker back"
+    return Status.STOPPED, f"{why} {where}; try a longer loading.duration"
+
+
+def energy_unresolved(case: Case, share: float) -> Failure:
+    """The integrator has removed or created a share of the energy of an impact."""
+    what = f"the time integrator removed or created {percent(share)} % of the energy"
+    return Status.UNRESOLVED, f"{what}; {_finer(case)}"
+
+
+def momentum_unresolved(case: Case, share: float) -> Failure:
+    """The support has not borne the momentum of an impact, as rows are too far apart."""
+    what = "the steps are too long for the contact: the impulse on the support differs from the"
+    return Status.UNRESOLVED, f"{what} momentum of the impact by {percent(share)} %; {_finer(case)}"
+
+
+def _finer(case: Case) -> str:
+    """The usual time step of an impact, or a quarter of its own if that is shorter."""
+    loading, solver = case.loading, case.solver
+    assert isinstance(loading, Impact)
+    assert isinstance(solver, InTime)
+    step = min(impact_step(loading, case.extent), 0.25 * solver.time_step)
+    first_order = solver.integrator == "backward_euler"
+    other = ' and solver.integrator "bdf2"' if first_order else ""
+    return f"try a solver.time_step of {with_unit(step, 's')}{other}"
 
 
 def broke(summary: Mapping[str, Any], case: Case) -> bool:

@@ -1,7 +1,9 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import Arcs
 from sweep.config.kinds.table import Given
 from sweep.config.structures.structure import Load, Structure, Support
+from sweep.numbers import to_si
 from sweep.result import Result, Status
 from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
@@ -32,7 +35,10 @@ from sweep.simulation.failures import (
     break_message,
     broke,
     energy_gained,
+    energy_unresolved,
+    momentum_unresolved,
     still_moving_down,
+    still_pushed_back,
     stopped,
     timed_out,
     unbalanced,
@@ -41,6 +47,13 @@ from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
+from sweep.simulation.time_resolution import (
+    LARGEST,
+    LONG,
+    Curves,
+    momentum_share,
+    striker_share,
+)
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
@@ -79,8 +92,11 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         else strains_of(shapes, scene.terms)
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles)
+    if status == Status.CONVERGED:
+        status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
+    unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
     if status != Status.CONVERGED:
         summary |= dict.fromkeys(OF_THE_WHOLE_RUN, np.nan)
     summary |= {
@@ -88,11 +104,37 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         "status": str(status),
         "message": message,
         "retry": "",
-        "loaded": int(status == Status.CONVERGED or run.is_loaded()),
+        "loaded": int(status == Status.CONVERGED or (run.is_loaded() and not unresolved)),
         "steps": int(run.state.totals["steps"][0]),
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
-    return Result(case, status, message, summary, curves, frames, run.curable)
+    curable = run.curable or status == Status.UNRESOLVED
+    return Result(case, status, message, summary, curves, frames, curable)
+
+
+def _of_impact(
+    case: Case, summary: Mapping[str, Any], curves: Curves, where: str
+) -> tuple[Status, str]:
+    """Status and sentence of a finished impact: whether its steps resolve it, and it was whole."""
+    if not isinstance(case.loading, Impact):
+        return Status.CONVERGED, ""
+    if _removes_energy(case, summary, curves):
+        return energy_unresolved(case, summary["integrator_share"])
+    if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > LARGEST:
+        return momentum_unresolved(case, share)
+    travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
+    if travel.argmax() == last:
+        return still_moving_down(where)
+    if travel[last] > 0.0 and curves["striker_speed_m_per_s"].argmin() == last:
+        return still_pushed_back(where)
+    return Status.CONVERGED, ""
+
+
+def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:
+    """Whether the integrator takes so much energy of an impact that steps do not resolve it."""
+    if not isinstance(case.loading, Impact):
+        return False
+    return bool(summary["integrator_share"] > LARGEST and striker_share(curves) > LONG)
 
 
 def _scene(case: Case) -> Scene | PlateScene:
@@ -186,9 +228,7 @@ class _Run:
                     break
         if not self._balances(self.done):
             self.curable = True
-            return unbalanced(self._where())
-        if self.struck and self.rows["speed"][self.done - 1] < 0.0:
-            return still_moving_down(self._where())
+            return unbalanced(self.where())
         return Status.CONVERGED, ""
 
     def is_loaded(self) -> bool:
@@ -264,13 +304,13 @@ class _Run:
         return outcome
 
     def _failed(self, outcome: int, stage: str) -> Failure:
-        where = f"while {stage}, {self._where()}"
+        where = f"while {stage}, {self.where()}"
         if self.expired:
             return timed_out(self.case, where)
         self.curable = outcome in CURABLE
         return stopped(self.case, outcome, where, driven=self.scene.terms.coordinates.driven >= 0)
 
-    def _where(self) -> str:
+    def where(self) -> str:
         """Strain and number of steps so far, in words."""
         steps = f"after {self.done - 1} steps"
         if self.blind:

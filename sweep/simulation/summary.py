@@ -37,6 +37,7 @@ from sweep.simulation.striker import (
     striker_curves,
     work_on_lattice,
 )
+from sweep.simulation.time_resolution import integrator_share
 from sweep.simulation.until import absorbed_until
 
 BOOK = {
@@ -145,6 +146,7 @@ def summarise(
         **lost_columns(case, absorbed, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
+        "integrator_share": integrator_share(case.loading, history),
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,

@@ -97,6 +97,17 @@ def test_friction_keeps_some_energy(platen):
     assert kept > 0.005 * result.summary["absorbed_energy_J"]
 
 
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_friction_never_gives_energy_back(platen):
+    """Backward Euler books the work of the forces at the end of a step, none of which aids it."""
+    case = pressed(6, 0.6, 200, platen, 1.0, unload=True, speed=1.0)
+    result = simulate(case)
+    rubbed = result.history["dissipated_friction_J"]
+    assert result.summary["touched"] == 1
+    assert rubbed[-1] > 0.01 * result.summary["absorbed_energy_J"]
+    assert np.diff(rubbed).min() >= -1e-12 * rubbed[-1]
+
+
 def test_loose_platens_without_friction():
     """Free to spread, the grid bears less than a glued one; it stays between the platens."""
     loose = [run(pressed(elements, 0.6, 60, "contact")) for elements in (6, 12)]

@@ -11,9 +11,10 @@ import pytest
 
 from sweep.__main__ import main, parser
 from sweep.columns import COLUMNS, PER_GRAM
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
+from sweep.config.kinds.table import TABLES
 from sweep.config.load import load_config
 from sweep.config.materials.material_file import COLUMNS as RECORD
 from sweep.config.question import QUESTION

@@ -38,6 +38,7 @@ YIELDING = {"material_memory": "yields"}
 CASE = Case.of(loading=dict(mode="displacement"), solver=dict(load_steps=200))
 PATH = CASE.model_copy(update={"solver": Arcs(arc_length=1e-3)})
 TIMED = Case.of(loading=dict(mode="displacement", speed=1.0))
+STRUCK = Case.of(loading=dict(mode="impact"), solver=dict(time_step=1e-3))
 BARS = {"error_absorbed_energy_until_packed_J": 0.3, "error_peak_force_until_packed_N": 0.0}
 BARS |= {"correction_absorbed_energy_until_packed_J": [0.3, 0.0, -0.3]}
 BARS |= {"correction_peak_force_until_packed_N": 0.0}
@@ -144,6 +145,7 @@ RANKINGS = {
     "error bars": (CRUSHES.assign(**BARS), {"budget": "9 g"}),
     "impacts on a panel": (IMPACTS, PANEL),
     "dead load": (summary(LOAD), {}),
+    "coarse steps": (IMPACTS.assign(integrator_share=0.1), {}),
 }
 WINNERS = {
     "budgets": (CRUSHES, {"budget": ["1 g", "2.5 g"]}),
@@ -214,6 +216,10 @@ def of_failures() -> Iterator[str]:
         failures.energy_gained(TIMED),
         failures.unbalanced("at the end"),
         failures.still_moving_down("at the end"),
+        failures.still_pushed_back("at the end"),
+        failures.energy_unresolved(STRUCK, 0.34),
+        failures.energy_unresolved(STRUCK.changed(solver={"integrator": "backward_euler"}), 0.34),
+        failures.momentum_unresolved(STRUCK, 0.96),
     ):
         yield message
     yield failures.break_message({"broke_at_strain": 0.123})

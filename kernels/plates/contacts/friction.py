@@ -19,8 +19,9 @@ delta is
     (I - psi' (w e^T + e w^T) / 2) / psi,
 
 positive semi-definite for |w| <= 1, and the second derivative where w = delta / psi.
-`terms.friction` is the same in the plane. Contributions that the contact sum subtracts have a
-negative lambda.
+`terms.friction` is the same in the plane. A negative force, where the contact sum subtracts more
+than it adds at a side or a corner, is taken from other contacts of the same node, those first with
+which it has most nodes in common, and none of these becomes negative.
 """
 
 import math
@@ -34,7 +35,7 @@ from kernels.geometry.space.vectors import SIZE, cross, inner, length, minus, pl
 from kernels.plates.contacts.contact import platen_block
 from kernels.plates.contacts.touching import NO_PAIR, Touching, corners, detect, shares
 from kernels.plates.contacts.touching import no_contacts as none_touching
-from kernels.terms.friction import DUAL_TOLERANCE, UNKNOWN, smooth
+from kernels.terms.friction import DUAL_TOLERANCE, NO_CONTACT, UNKNOWN, deduct, smooth
 
 
 @jit_owning
@@ -155,6 +156,54 @@ def _lag_platen(x, contact, upper, mu, lagged_contacts, n):
 
 
 @jit_exact
+def _in_common(touching, m, n):
+    """Return how many corners the features of the contacts ``m`` and ``n`` have in common."""
+    count = 0
+    for i in range(1, touching.size[m]):
+        for j in range(1, touching.size[n]):
+            count += touching.nodes[m, i] == touching.nodes[n, j]
+    return count
+
+
+@jit_exact
+def _nearest(touching, load, m, first):
+    """Return the contact from which the negative load ``m`` is taken: of those of its node that
+    have a load, the one with most corners in common, then of the largest load.
+
+    first: number of the first contact of the node. `NO_CONTACT`: there is none.
+    """
+    n, found, most = first, NO_CONTACT, (0, 0.0)
+    while n < touching.count[0] and touching.nodes[n, 0] == touching.nodes[m, 0]:
+        if touching.pair[n] == NO_PAIR and load[n] > 0.0:
+            rank = _in_common(touching, m, n), load[n]
+            if rank > most:
+                found, most = n, rank
+        n += 1
+    return found
+
+
+@jit_exact
+def _fill_loads(touching, load):
+    """Fill ``load`` with the normal force of every contact of a node in ``touching``, N, none
+    negative; return their number. Those of two edges, which have no friction, come after them.
+    """
+    count, first = 0, 0
+    while count < touching.count[0] and touching.pair[count] == NO_PAIR:
+        load[count] = -touching.slope[count]
+        count += 1
+    for m in range(count):
+        if touching.nodes[m, 0] != touching.nodes[first, 0]:
+            first = m
+        while load[m] < 0.0:
+            n = _nearest(touching, load, m, first)
+            if n == NO_CONTACT:
+                load[m] = 0.0
+            else:
+                deduct(load, m, n)
+    return count
+
+
+@jit_exact
 def lag(lagged_contacts, x, contact, pairs, drift, friction):
     """Fill ``lagged_contacts`` with all contacts at ``x``.
 
@@ -164,9 +213,9 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
     if friction.mu == 0.0:
         return
     detect(x, contact, pairs, drift, touching)
-    for m in range(touching.count[0]):
-        if touching.pair[m] == NO_PAIR:
-            load = -friction.mu * touching.slope[m]
+    for m in range(_fill_loads(touching, lagged_contacts.load)):
+        load = friction.mu * lagged_contacts.load[m]
+        if load > 0.0:  # n <= m: loads that are still to be read are not overwritten
             _lag_triangle(x, contact, touching, m, load, lagged_contacts, n)
             n += 1
     n = _lag_platen(x, contact, False, friction.mu, lagged_contacts, n)
@@ -294,16 +343,14 @@ class LaggedContacts(NamedTuple):
 
 
 @jit
-def block(u, lagged_contacts, eps, k, projected, K):
+def block(u, lagged_contacts, eps, k, K):
     """Write the primal-dual Hessian of contact ``k`` to ``K`` (12, 12); return the number of its
-    nodes, 0 if there is nothing to add.
+    nodes.
 
     Row and column 3 i + m: coordinate m of node lagged_contacts.nodes[k, i]; only those of the
-    number of nodes that is returned are written. projected: nothing of a negative force.
+    number of nodes that is returned are written. It is positive semi-definite.
     """
     load, size = lagged_contacts.load[k], lagged_contacts.size[k]
-    if load == 0.0 or (projected and load < 0.0):
-        return 0
     dual = lagged_contacts.dual[k, 0], lagged_contacts.dual[k, 1]
     c11, c12, c22 = curvature(_slip(u, lagged_contacts, k), dual, eps)
     for i in range(size):

@@ -23,13 +23,18 @@ SLIP = 0.01  # default slip speed / speed of the platen or the striker
 REFERENCE_SPEED = 0.1  # m/s, where nothing has a speed
 
 
-class NoContact(Table):
-    """A scene in which nothing can touch."""
+class Forceless(Table):
+    """A contact that exerts no force."""
 
-    because: ClassVar[str] = 'contact.model is "none"'
     friction: ClassVar[float] = 0.0
     stiffness: ClassVar[float] = 0.0
     slip_speed: ClassVar[None] = None
+
+
+class NoContact(Forceless):
+    """A scene in which nothing can touch."""
+
+    because: ClassVar[str] = 'contact.model is "none"'
 
     model: Literal["none"] = "none"
 
@@ -49,13 +54,10 @@ class Barrier(Table):
     slip_speed: Speed | None = None
 
 
-class ByPosition(Table):
+class ByPosition(Forceless):
     """Walls that are too close are moved apart after each step, as in the course report."""
 
     because: ClassVar[str] = 'contact.model is "position_based"'
-    friction: ClassVar[float] = 0.0
-    stiffness: ClassVar[float] = 0.0
-    slip_speed: ClassVar[None] = None
 
     model: Literal["position_based"] = "position_based"
 

@@ -3,7 +3,7 @@
 from math import isclose
 from typing import Any, ClassVar, Literal
 
-from sweep.config.kinds.direction import ACROSS, ALONG, Direction, is_along
+from sweep.config.kinds.direction import Directed, is_along
 from sweep.config.kinds.solver import IN_TIME
 from sweep.config.kinds.table import (
     Cycles,
@@ -15,7 +15,6 @@ from sweep.config.kinds.table import (
     RefusedError,
     Speed,
     Strain,
-    Table,
     chosen,
     given_or,
 )
@@ -24,7 +23,7 @@ STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
 
-class Crush(Table):
+class Crush(Directed):
     """A platen that moves down and back up if `unload`; the whole `cycles` times.
 
     strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
@@ -33,9 +32,8 @@ class Crush(Table):
     """
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
-    neutral: ClassVar[dict[str, Any]] = {"cycles": 1, "direction": ACROSS}
+    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"cycles": 1}
 
-    direction: Direction = ACROSS
     mode: Literal["displacement"] = "displacement"
     stroke: Length
     strain: Strain = 0.6
@@ -49,18 +47,13 @@ class Crush(Table):
     allowed_forces: Forces = ()
 
     @property
-    def along(self) -> bool:
-        """Whether the lattice is pressed along its cells."""
-        return self.direction == ALONG
-
-    @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""
         return {"stroke_m": self.stroke}
 
 
 def crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
-    """The crush of these values; height (m): of what is pressed."""
+    """The crush of these values; height (m): of the lattice, in the direction of the crush."""
     if given.get("platen") == "none":
         raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "displacement"')
     speed = _speed(given, height)

@@ -1,18 +1,16 @@
 """A dead load: applied at once, removed at `release_time`; the run ends at `duration`."""
 
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
-from sweep.config.kinds.direction import ACROSS
+from sweep.config.kinds.direction import ACROSS, Directed
 from sweep.config.kinds.solver import IN_TIME
-from sweep.config.kinds.table import Duration, Force, Forces, Given, RefusedError, Table, chosen
+from sweep.config.kinds.table import Duration, Force, Forces, Given, RefusedError, chosen
 
 
-class DeadLoad(Table):
+class DeadLoad(Directed):
     """A dead load on the top nodes, in equal parts (platen "none"), or on a rigid plate."""
 
     because: ClassVar[str] = 'loading.mode is "force"'
-    neutral: ClassVar[dict[str, Any]] = {"direction": ACROSS}
-    along: ClassVar[bool] = False
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 

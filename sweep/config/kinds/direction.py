@@ -4,14 +4,27 @@ Along the cells the drawing is extruded to `lattice.depth`, which is then the he
 its walls are plates (`scene.plates`).
 """
 
-from typing import Final, Literal
+from typing import Any, ClassVar, Final, Literal
 
-from sweep.config.kinds.table import Given
+from sweep.config.kinds.table import Given, Table
 
 Direction = Literal["in_plane", "out_of_plane"]
 ACROSS: Final = "in_plane"
 ALONG: Final = "out_of_plane"
 WHERE = f'if loading.direction is "{ALONG}"'
+
+
+class Directed(Table):
+    """A loading across the cells or along them."""
+
+    neutral: ClassVar[dict[str, Any]] = {"direction": ACROSS}
+
+    direction: Direction = ACROSS
+
+    @property
+    def along(self) -> bool:
+        """Whether the lattice is pressed along its cells."""
+        return self.direction == ALONG
 
 
 def is_along(loading: Given) -> bool:

@@ -5,7 +5,7 @@ from typing import Any, ClassVar, Literal
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
 from sweep.config.kinds.crush import PLATENS
-from sweep.config.kinds.direction import ACROSS, ALONG, Direction
+from sweep.config.kinds.direction import Directed
 from sweep.config.kinds.solver import IN_TIME
 from sweep.config.kinds.table import (
     Count,
@@ -17,7 +17,6 @@ from sweep.config.kinds.table import (
     Mass,
     RefusedError,
     Speed,
-    Table,
     chosen,
     given_or,
 )
@@ -26,7 +25,7 @@ from sweep.constants import STANDARD_GRAVITY
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
-class Impact(Table):
+class Impact(Directed):
     """A rigid striker of `striker_mass` that hits the lattice at `striker_speed`.
 
     `drop_height` and `preset` (`drop_tests`) are other words for its speed and mass, `specimens`
@@ -37,11 +36,10 @@ class Impact(Table):
 
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = {"filter_class": 1000, "direction": ACROSS}
+    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"filter_class": 1000}
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 
-    direction: Direction = ACROSS
     mode: Literal["impact"] = "impact"
     striker_mass: Mass
     striker_speed: Speed
@@ -55,11 +53,6 @@ class Impact(Table):
     allowed_forces: Forces = ()
 
     @property
-    def along(self) -> bool:
-        """Whether the lattice is pressed along its cells."""
-        return self.direction == ALONG
-
-    @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""
         return {
@@ -70,7 +63,7 @@ class Impact(Table):
 
 
 def impact(given: Given, height: float, integrator: str | None) -> Impact:
-    """The impact of these values; height (m): that is pressed."""
+    """The impact of these values; height (m): of the lattice, in the direction of the impact."""
     if integrator == "static":
         raise RefusedError("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if given.get("platen") == "none":

@@ -4,9 +4,10 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag
 
-from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.cells import CUSTOM, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.table import Given
 
 
 def _kind(value: Any) -> str:
@@ -21,3 +22,10 @@ Lattice = Annotated[
     | Annotated[CustomStructure, Tag("custom")],
     Discriminator(_kind),
 ]
+
+
+def kind_of(given: Given) -> type[Cells | Sliced | CustomStructure]:
+    """The kind of lattice that values mean."""
+    if given.get("kind") == CUSTOM:
+        return CustomStructure
+    return Cells if given.get("slicer") is None else Sliced

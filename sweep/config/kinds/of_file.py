@@ -2,19 +2,17 @@
 
 from typing import Any, ClassVar, Literal
 
-from sweep.config.kinds.direction import ACROSS
+from sweep.config.kinds.direction import ACROSS, Directed
 from sweep.config.kinds.solver import ARCS, IN_TIME
-from sweep.config.kinds.table import Duration, Given, RefusedError, Table
+from sweep.config.kinds.table import Duration, Given, RefusedError
 from sweep.config.structures.structure import Structure
 
 
-class OfFile(Table):
+class OfFile(Directed):
     """Loads and prescribed moves of the file. `quasi_static`: they grow together in equal steps."""
 
     because: ClassVar[str] = 'lattice.kind is "custom"'
     constants: ClassVar[dict[str, Any]] = {"platen": "none", "allowed_forces": []}
-    neutral: ClassVar[dict[str, Any]] = {"direction": ACROSS}
-    along: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
     platen: ClassVar[str] = "none"
     columns: ClassVar[dict[str, float]] = {}

@@ -1,5 +1,6 @@
 """What all specimens have: a box over centre lines, walls, a mesh and an imperfection."""
 
+from abc import abstractmethod
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -71,14 +72,14 @@ class Laid(Specimen):
     perimeters: Lines = 0
 
     @property
+    @abstractmethod
     def geometry(self) -> Geometry:
         """The numbers that define the drawing."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def opening(self) -> float:
         """Clear width of the narrowest whole cell between centre lines, m."""
-        raise NotImplementedError
 
     @property
     def thickest(self) -> float:

@@ -1,7 +1,7 @@
 """The steps of a case, and the solver that they imply."""
 
-from math import ceil
-from typing import Any
+from math import ceil, pi, sqrt
+from typing import Any, NamedTuple
 
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.impact import Impact
@@ -16,22 +16,26 @@ MAX_STEPS = 1_000_000
 LOAD_STEPS = 200
 TIME_STEP = 1e-4  # s
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
+STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back
 ALONG = {"time_limit": 3600.0, "max_iterations": 300}  # where walls snap, 60 to 200 are common
 IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
+class Extent(NamedTuple):
+    """What is pressed: its height and its diagonal in m, and its compliance in m/N if solid."""
+
+    height: float
+    diagonal: float
+    compliance: float
+
+
 def solver(
-    values: Given | Pairs,
-    remembers: bool,
-    loading: Loading,
-    height: float,
-    diagonal: float,
-    by_position: bool,
+    values: Given | Pairs, remembers: bool, loading: Loading, extent: Extent, by_position: bool
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
     A platen moves in `load_steps` equal steps, which set the time step of a crush in time. Along
-    arcs, the default arc length is the diagonal of the structure (m) / `load_steps`. The default of
+    arcs, the default arc length is the diagonal of the structure / `load_steps`. The default of
     an impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
     contact by position it is backward Euler.
     """
@@ -45,18 +49,18 @@ def solver(
     if "step_error" in settings and (loading.quasi_static or arcs):
         allowed = f"none unless solver.integrator is {IN_TIME}"
         raise RefusedError("solver.step_error", settings["step_error"], allowed)
-    made = _arcs(settings, diagonal) if arcs else _steps(settings, loading, height, by_position)
+    made = _arcs(settings, extent) if arcs else _steps(settings, loading, extent, by_position)
     _check_count(made, loading, given.get("time_step"))
     return made
 
 
-def _arcs(settings: dict[str, Any], diagonal: float) -> Arcs:
-    usual = diagonal / settings.get("load_steps", LOAD_STEPS)
+def _arcs(settings: dict[str, Any], extent: Extent) -> Arcs:
+    usual = extent.diagonal / settings.get("load_steps", LOAD_STEPS)
     return Arcs.model_validate({"arc_length": usual} | chosen(settings, Arcs))
 
 
 def _steps(
-    settings: dict[str, Any], loading: Loading, height: float, by_position: bool
+    settings: dict[str, Any], loading: Loading, extent: Extent, by_position: bool
 ) -> InTime | Static:
     if loading.quasi_static:
         return Static.model_validate(chosen(settings, Static) | {"integrator": "static"})
@@ -68,8 +72,20 @@ def _steps(
         return InTime.model_validate(timed | {"time_step": time / count, "load_steps": count})
     step = TIME_STEP
     if isinstance(loading, Impact):
-        step = height / loading.striker_speed / STEPS_OF_PASSAGE
+        step = impact_step(loading, extent)
     return InTime.model_validate({"time_step": step} | timed | {"load_steps": None})
+
+
+def impact_step(loading: Impact, extent: Extent) -> float:
+    """The usual time step of an impact, s: a share of the time of contact.
+
+    A fast striker is stopped within the height of the lattice. A slow one is thrown back as by a
+    spring of compliance c, after pi sqrt(m c) whatever its speed; for a solid block, this time is
+    a lower bound.
+    """
+    passage = extent.height / loading.striker_speed / STEPS_OF_PASSAGE
+    contact = pi * sqrt(loading.striker_mass * extent.compliance) / STEPS_OF_CONTACT
+    return max(min(passage, contact), loading.duration / MAX_STEPS)
 
 
 def count_of(loading: Loading, solver: Solver) -> float:

@@ -7,12 +7,15 @@ from typing import Annotated, Any, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from sweep.config.faults import MisfitError
+
 T = TypeVar("T")
 Given = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
 
+TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
@@ -71,7 +74,7 @@ class Table(BaseModel):
         return bool(implied.get(key, getattr(cls, key, None)) == value)
 
 
-class RefusedError(ValueError):
+class RefusedError(MisfitError):
     """A value that contradicts the rest of its case.
 
     value: None if it is missing. since: the key that implies the value, if it is not given itself.

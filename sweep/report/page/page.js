@@ -408,8 +408,8 @@ function requiredColumns() {
 
 function placeText(row) {
   const tied = (now.bar || now.ranged) && row.sharing > 1 ? "=" : "";
-  const { crossed, stretched, undrawn, unloaded, bowed } = row.design;
-  const signs = { "!": row.beyond, x: crossed, "^": stretched, p: undrawn, u: unloaded, i: bowed };
+  const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
+  const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
   const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
   return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
 }
@@ -487,12 +487,14 @@ function notes() {
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
+  if (rows.some((row) => row.design.coarse))
+    lines.push("i: the time steps are coarse: the integrator took much of the energy (integrator_share). Forces are uncertain.");
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
   if (rows.some((row) => row.design.undrawn))
     lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");
   if (rows.some((row) => row.design.unloaded))
     lines.push("u: stopped after its loading, which determines energy, peak and densification; what only unloading tells is not known (–).");
-  if (rows.some((row) => row.design.bowed)) lines.push("i: simulated with another imperfection, as it stopped with the one asked for.");
+  if (rows.some((row) => row.design.bowed)) lines.push("b: simulated with another imperfection, as it stopped with the one asked for.");
   const over = now.rows.length - rows.length - now.missing.length;
   if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));

@@ -208,10 +208,13 @@ function further(data, row, question) {
 // the one that it has at least, or null; nothing if it misses a requirement already.
 function couldPlace(data, row, values, question) {
   const sign = data.scenes[question.scene].least ? -1 : 1;
-  const low = row.value === null ? -Infinity : row.value;
-  const high = row.value === null || sign < 0 ? Infinity : row.value + further(data, row, question);
+  const { unresolved } = row.design;
+  const value = unresolved ? null : row.value;
+  const low = value === null ? -Infinity : value;
+  const high = value === null || sign < 0 ? Infinity : value + further(data, row, question);
   const [better, worse] = sign < 0 ? [low, high] : [high, low];
-  const missed = ([name, share]) => share > 0 && share < Infinity && (!data.measures[name].least || low === high);
+  const sure = (name) => (data.measures[name].least ? low === high : !unresolved || name === "max_mass");
+  const missed = ([name, share]) => share > 0 && share < Infinity && sure(name);
   if (Object.entries(row.misses).some(missed)) return null;
   const place = (end) => 1 + values.filter((value) => sign * value > sign * end).length;
   const certain = Object.keys(row.misses).every((name) => name === "max_mass") && Number.isFinite(worse);

@@ -69,9 +69,14 @@ UNLOADED = """\
 u: stopped after its loading (message: why), which determines energy, peak and densification; what
 only unloading tells is not known (–)."""
 OTHER_BOW = """\
-i: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
+b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
+
+COARSE = """\
+i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact, or 30 %
+of the work of a dead load (integrator_share: how much). Forces and overshoot are uncertain, mostly
+too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
 
 
 def legend(ranking: Ranking) -> str:
@@ -118,11 +123,12 @@ def marks(rows: DataFrame) -> Series:
     """The marks of doubtful results, and of designs that do not print as drawn."""
     beyond = rows["beyond_model"].map({True: "!", False: ""})
     crossed = rows["crossed"].map({True: "x", False: ""})
+    coarse = rows["coarse"].map({True: "i", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     undrawn = unprintable(rows).map(lambda why: "p" * bool(why))
     stopped = unloaded(rows).map({True: "u", False: ""})
-    bowed = other_bow(rows).map({True: "i", False: ""})
-    return beyond + crossed + beyond_curve + undrawn + stopped + bowed
+    bowed = other_bow(rows).map({True: "b", False: ""})
+    return beyond + crossed + coarse + beyond_curve + undrawn + stopped + bowed
 
 
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
@@ -130,6 +136,7 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     notes = {
         BEYOND: rows["beyond_model"],
         CROSSED: rows["crossed"],
+        COARSE: rows["coarse"],
         UNPRINTABLE: unprintable(rows) != "",
         STRETCHED: rows["beyond_curve"],
         UNLOADED: unloaded(rows),

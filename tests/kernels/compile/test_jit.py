@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from kernels.compile.jit import jit, jit_exact
-from tests.support.kernels import packages
 
 
 def plus_one(x):
@@ -21,50 +20,19 @@ def rounding_error(a, b):
     return (a - (total - shift)) + (b - shift)
 
 
-@pytest.fixture
-def cache(tmp_path, monkeypatch):
-    """Folder that kernels decorated from here on are kept in."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    return tmp_path
-
-
-@pytest.fixture
-def package(tmp_path):
-    """Folder with a package `kernels` of a caller and its callee in another file."""
-    return packages.make(
-        tmp_path,
-        callee="from kernels.compile.jit import jit\n\n\n"
-        "@jit\ndef offset(x):\n    return x + 1.0\n",
-        caller="from kernels.callee import offset\nfrom kernels.compile.jit import jit\n\n\n"
-        "@jit\ndef value(x):\n    return offset(x) + 0.5\n",
-    )
-
-
-VALUE = (
-    "from kernels.caller import value; "
-    "print(value(1.0), value.entry.stats.cache_hits.total() "
-    "if hasattr(value, 'entry') else 'plain')"
-)
-
-
-def run(package, script=VALUE, **environment):
-    """What a new process prints: the value at 1, and how often its code came from the cache."""
-    return packages.run(package, script, **environment)
-
-
-def test_an_edited_callee_never_gives_an_old_value(package):
-    assert run(package) == ["2.5", "0"]
-    assert run(package) == ["2.5", "1"]
+def test_an_edited_callee_never_gives_an_old_value(package, run):
+    assert run() == ["2.5", "0"]
+    assert run() == ["2.5", "1"]
     callee = package / "callee.py"
     callee.write_text(callee.read_text().replace("1.0", "7.0"))
-    assert run(package) == ["8.5", "0"]
+    assert run() == ["8.5", "0"]
 
 
-def test_kernels_run_as_plain_python_when_numba_is_told_so(package):
-    assert run(package, NUMBA_DISABLE_JIT="1") == ["2.5", "plain"]
+def test_kernels_run_as_plain_python_when_numba_is_told_so(run):
+    assert run(NUMBA_DISABLE_JIT="1") == ["2.5", "plain"]
 
 
-def test_first_calls_from_many_threads(cache):
+def test_first_calls_from_many_threads():
     kernel = jit(plus_one)
     with ThreadPoolExecutor(8) as pool:
         values = list(pool.map(kernel, np.arange(64.0)))
@@ -72,12 +40,12 @@ def test_first_calls_from_many_threads(cache):
     assert len(kernel.entry.signatures) == 1
 
 
-def test_exact_kernels_keep_every_rounding(cache):
+def test_exact_kernels_keep_every_rounding():
     assert jit_exact(rounding_error)(1.0e16, 1.0) == rounding_error(1.0e16, 1.0) == 1.0
 
 
 @pytest.mark.parametrize("decorator", [jit, jit_exact])
-def test_kernels_see_nan_divide_like_numpy_and_release_the_lock(cache, decorator):
+def test_kernels_see_nan_divide_like_numpy_and_release_the_lock(decorator):
     @decorator
     def ratio_is_nan(a, b):
         return math.isnan(a / b)
@@ -87,22 +55,22 @@ def test_kernels_see_nan_divide_like_numpy_and_release_the_lock(cache, decorator
     assert ratio_is_nan.entry.targetoptions["nogil"] is True
 
 
-def test_a_kernel_called_by_kernels_can_be_called_from_python_too(package):
+def test_a_kernel_called_by_kernels_can_be_called_from_python_too(run):
     """Both versions of its code are kept: neither is taken for the other."""
     script = (
         "from kernels.caller import value; from kernels.callee import offset; "
         "print(value(1.0), offset(1.0), offset.entry.stats.cache_hits.total())"
     )
-    assert [run(package, script) for _ in range(2)] == [["2.5", "2.0", "0"], ["2.5", "2.0", "1"]]
+    assert [run(script) for _ in range(2)] == [["2.5", "2.0", "0"], ["2.5", "2.0", "1"]]
     only = "from kernels.callee import offset; print(offset(1.0), *offset.linked.signatures)"
-    assert run(package, only) == ["2.0"]
+    assert run(only) == ["2.0"]
 
 
 def product(x, n):
     return x * n
 
 
-def test_a_kernel_that_does_not_compile_says_where(cache):
+def test_a_kernel_that_does_not_compile_says_where():
     """Which operation, of which types, in which function, called by which; and again next time."""
     times = jit(product)
 

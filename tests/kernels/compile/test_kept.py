@@ -2,20 +2,11 @@
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
-import pytest
 
 from kernels.compile.kernel import Kernel, is_of_kernels
 from kernels.compile.reference import by_reference
 from kernels.solve.problem import Found
-
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    """Folder that kernels are kept in from here on."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    return tmp_path
 
 
 class Pair(NamedTuple):

@@ -7,17 +7,11 @@ import pytest
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
 
-@pytest.fixture
-def cache(tmp_path, monkeypatch):
-    """Folder that kernels decorated from here on are kept in."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-
-
 def product(x, n):
     return x * n
 
 
-def test_a_constant_argument_makes_no_new_version(cache):
+def test_a_constant_argument_makes_no_new_version():
     times = jit(product)
 
     @jit
@@ -29,7 +23,7 @@ def test_a_constant_argument_makes_no_new_version(cache):
     assert times.entry.signatures == []
 
 
-def test_only_an_owning_kernel_may_make_an_array(cache):
+def test_only_an_owning_kernel_may_make_an_array():
     def total(n):
         return np.ones(n).sum()
 

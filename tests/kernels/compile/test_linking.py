@@ -17,12 +17,6 @@ from kernels.compile.jit import jit, jit_owning
 from kernels.compile.undisturbed import undisturbed
 
 
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    """Folder that kernels decorated from here on are kept in."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-
-
 class Pair(NamedTuple):
     """What kernels hand on."""
 

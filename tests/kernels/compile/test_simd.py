@@ -9,12 +9,6 @@ from kernels.compile.simd import collect, exceeds, load, spread, store
 from kernels.linear.condensed import block_ldlt, block_matrix, periodic_images
 
 
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    """Folder that kernels decorated from here on are kept in."""
-    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-
-
 def combined(array, at, factor, to):
     store(array, to, load(array, to) + spread(factor) * load(array, at))
 

@@ -8,8 +8,6 @@ from kernels.geometry.distance import squared_distance
 from kernels.planar import position_based
 from kernels.terms import contact
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError
-from sweep.config.load import load_config
 from sweep.scene.lattice import build_scene
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import run, unbalanced
@@ -193,30 +191,6 @@ def test_it_agrees_with_the_barrier_where_both_are_resolved():
     fine = [run(dropped(model, time_step=2e-5)).history for model in ("position_based", "barrier")]
     one, other = (np.interp(0.012, past["time_s"], past["strain"]) for past in fine)
     assert one == pytest.approx(other, abs=0.1)
-
-
-REFUSED = {
-    '[loading]\nstrain = 0.5\n[contact]\nmodel = "position_based"': (
-        'contact.model = "position_based": does not fit; allowed: "none" or "barrier" if '
-        "loading.quasi_static"
-    ),
-    '[loading]\nplaten = "contact"\n[contact]\nmodel = "position_based"': (
-        'contact.model = "position_based": does not fit; allowed: "none" or "barrier" if '
-        'loading.platen is "contact"'
-    ),
-    '[contact]\nmodel = "position_based"\nfriction = 0.3': (
-        'contact.friction = 0.3: has no effect, as contact.model is "position_based"'
-    ),
-}
-
-
-@pytest.mark.parametrize("text", REFUSED)
-def test_what_makes_no_sense_is_refused(text, tmp_path):
-    path = tmp_path / "sweep.toml"
-    path.write_text(text)
-    with pytest.raises(ConfigError) as caught:
-        load_config(path)
-    assert str(caught.value) == REFUSED[text]
 
 
 def test_springs_alone_do_not_bend():

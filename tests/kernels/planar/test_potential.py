@@ -124,9 +124,7 @@ def potentials(args):
         "contact": touch_of(terms.contact, neighbours.pairs, neighbours.anchor),
         "friction": of_points(
             lambda x, g: friction.evaluate(neighbours.lagged_contacts, x - x0, slip, g),
-            lambda x, matrix, projected: friction.hessian(
-                x - x0, neighbours.lagged_contacts, slip, matrix, projected
-            ),
+            lambda x, matrix, _: friction.hessian(x - x0, neighbours.lagged_contacts, slip, matrix),
         ),
     }
     if args.step.dynamic:

@@ -45,7 +45,7 @@ def term_of(x0, contacts, slip) -> Term:
     """Friction of a step from x0."""
     return of_points(
         lambda x, g: friction.evaluate(contacts, x - x0, slip, g),
-        lambda x, matrix, projected: friction.hessian(x - x0, contacts, slip, matrix, projected),
+        lambda x, matrix, _: friction.hessian(x - x0, contacts, slip, matrix),
     )
 
 
@@ -96,11 +96,10 @@ def test_smooth_size_joins_the_size_at_the_slip():
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
-    contacts = friction.LaggedContacts(
-        np.zeros((1, 3), np.int64), np.eye(3, 2)[None], np.ones(1), np.full(1, friction.UNKNOWN),
-        np.ones(1, np.int64), contact.no_contacts(near_pairs.empty()),
-    )  # fmt: skip
-    contacts.slopes[0, 1] = 0.0
+    contacts = friction._room(1, near_pairs.empty(), 0)
+    contacts.nodes[:], contacts.slopes[:] = 0, 0.0
+    contacts.slopes[0, 0, 0] = 1.0
+    contacts.load[:], contacts.dual[:], contacts.count[:] = 1.0, friction.UNKNOWN, 1
 
     def force():
         return u[0] + friction.smooth(u[0], slip)[1] - pull
@@ -213,17 +212,55 @@ def test_no_friction_or_no_contact_means_no_force():
     assert term_of(WALLS.rest, friction.none(), 1.0).energy(slid(0.1)) == 0.0
 
 
+def normal_forces(x, touch, listed):
+    """Forces of contact at ``x`` in N, and the node of each; subtracted ones are negative."""
+    at = contact.no_contacts(listed)
+    contact.detect(x, touch, listed, np.inf, at)
+    forces = [contact.normal_force(touch, listed, at, i) for i in range(at.count[0])]
+    return np.array(forces), listed.node[at.pair[: len(forces)]]
+
+
+@pytest.mark.parametrize("pieces", [(12, 7), (24, 24), (5, 40)])
 @pytest.mark.parametrize("seed", range(4))
-def test_projected_hessian_is_semi_definite(seed):
-    """Shares that are taken off have a negative force: they are left out."""
+def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
+    """Those subtracted are taken from the others, and nothing is left of straight pairs."""
+    of = two_walls(0.5, pieces)
+    x = shaken(of, seed, 0.1)
+    contacts, touch, listed = lagged_of(of, x)
+    forces, nodes = normal_forces(x, touch, listed)
+    assert forces.min() < 0.0
+    assert contacts.load.min() > 0.0
+    n = len(of.points)
+    total = np.bincount(contacts.nodes[:, 0], contacts.load, n)
+    expected = MU * np.maximum(np.bincount(nodes, forces, n), 0.0)
+    np.testing.assert_allclose(total, expected, atol=1e-11 * expected.max())
+
+
+@pytest.mark.parametrize("pieces", [(3, 2), (12, 7), (24, 24), (5, 40)])
+def test_a_node_on_a_straight_wall_has_one_contact_with_it(pieces):
+    contacts, _, _ = lagged_of(of := two_walls(0.5, pieces), of.rest)
+    assert contacts.nodes[:, 0].size == np.unique(contacts.nodes[:, 0]).size
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_friction_opposes_every_move(seed):
+    """However a step moves, friction takes energy up."""
     of = two_walls(0.5, (12, 7))
     x0 = shaken(of, seed, 0.1)
     contacts, _, _ = lagged_of(of, x0)
-    assert contacts.load.min() < 0
-    term, x = term_of(x0, contacts, 0.5), shaken(of, seed + 20, 0.1)
-    assert least_share(term, x) > -1e-12
-    exact, projected = (term.hessian(x, p) for p in (False, True))
-    assert np.abs(projected - exact).max() > 1e-3
+    term, rng = term_of(x0, contacts, 1e-3), np.random.default_rng(seed)
+    for size in (1e-5, 1e-3, 1e-1):
+        for _ in range(20):
+            move = size * of.unit * rng.uniform(-1, 1, of.unit.size)
+            assert move @ term.gradient(x0 + move) > 0.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_hessian_is_semi_definite(seed):
+    of = two_walls(0.5, (12, 7))
+    x0 = shaken(of, seed, 0.1)
+    term = term_of(x0, lagged_of(of, x0)[0], 0.5)
+    assert least_share(term, shaken(of, seed + 20, 0.1)) > -1e-12
 
 
 @pytest.mark.parametrize(("low", "high", "side"), [(-0.2, 30.0, 0), (-30.0, 0.75, 1)])

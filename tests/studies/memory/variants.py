@@ -1,6 +1,7 @@
 """Cases whose material has a memory, beside the same cases without."""
 
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
+from sweep.config.kinds.table import TABLES
 from tests.support.designs.tables import material_with
 
 SOFTENED = {"softening_r": 7.0, "softening_m": 1e5}  # assumed: see configs/reuse.toml

@@ -29,7 +29,7 @@ SAME = 1e-9  # of the largest force: two sums of the same forces
 EARNED = 1e-6  # of the work done: what an energy may be off
 MADE = 5e-3  # of the work done: what backward Euler may make
 BORNE = 1e-3  # of a load: what is left of it where nothing moves
-SAID = "the integrator made energy", "work and energies do not balance"
+SAID = "the time integration gained energy", "work and energies do not balance"
 
 
 class Seen(NamedTuple):

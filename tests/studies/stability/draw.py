@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
 from sweep.config.keys import case_keys
-from sweep.config.kinds.table import RefusedError
+from sweep.config.kinds.table import TABLES, RefusedError
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from tests.support.designs.tables import lattice_with, material_with

@@ -73,7 +73,7 @@ class Whole:
         spring.hessian(x, terms.spring, matrix, projected)
         neighbours = self.neighbours
         contact.hessian(x, terms.contact, neighbours.pairs, neighbours.touching, matrix, projected)
-        friction.hessian(found.u, self.neighbours.lagged_contacts, self.slip, matrix, projected)
+        friction.hessian(found.u, self.neighbours.lagged_contacts, self.slip, matrix)
         walls = assembled(terms.walls, self.problem.buffers.stiffness, x.size)
         inert = (1.0 / step.h + terms.damp.alpha_m) / step.h * step.dynamic
         return walls + dense(matrix) + np.diag(inert * terms.coordinates.mass)

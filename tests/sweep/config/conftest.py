@@ -22,9 +22,22 @@ def load(tmp_path):
 def lines(load):
     """The lines of the error that a config answers with."""
 
-    def refused(text):
+    def answer(text):
         with pytest.raises(ConfigError) as caught:
             load(text)
         return str(caught.value).splitlines()
 
-    return refused
+    return answer
+
+
+@pytest.fixture
+def refused(lines):
+    """The one line of a refused config, in which stand a key with its value, and more words."""
+
+    def line_of(config, key, *words):
+        (line,) = lines(config)
+        assert line.startswith((f"{key}: ", f"{key} is missing; needed: "))
+        assert [word for word in words if word not in line.removeprefix(key)] == []
+        return line
+
+    return line_of

@@ -142,11 +142,37 @@ def test_faults_of_one_key_do_not_hide_those_of_others(lines):
     assert told[10] == "and 1 more mistake"
 
 
-def test_a_fault_of_some_cases_says_what_they_share(lines):
-    text = '[grid]\nlattice.mass = ["0.8 g", "1.4 g"]\nlattice.kind = ["hex", "circle"]\n'
-    (line,) = lines(f"{text}contact.friction = [0.1, 0.2]")
+MASSES = '[grid]\nlattice.mass = ["0.8 g", "1.4 g"]\nlattice.kind = ["hex", "circle"]\n'
+
+
+def test_impossible_combinations_are_left_out_and_named(load):
+    config = load(f"{MASSES}contact.friction = [0.1, 0.2]")
+    assert len(config.cases) == 6
+    assert (config.left_out.impossible, config.left_out.of) == (2, 8)
+    (line,) = config.left_out.reasons
     assert line.startswith('lattice.mass = "1.4 g": does not fit; allowed: between ')
     assert line.endswith('(2 of 8 combinations, all with lattice.kind = "circle")')
+
+
+def test_each_impossible_value_has_a_line(load):
+    thick = MASSES.replace('"1.4 g"', '"1.4 g", "1.5 g"')
+    lines = load(thick).left_out.reasons
+    assert [line.split(":")[0] for line in lines] == [
+        'lattice.mass = "1.4 g"',
+        'lattice.mass = "1.5 g"',
+    ]
+
+
+def test_a_value_that_no_combination_can_use_is_refused(lines):
+    (line,) = lines(MASSES.replace('"1.4 g"', '"1.4 g", "9 kg"'))
+    assert line.startswith('lattice.mass = "9 kg": does not fit')
+    assert line.endswith("(2 of 6 combinations)")
+
+
+def test_what_is_excluded_does_not_make_a_value_usable(lines):
+    excluded = '[[exclude]]\nlattice.mass = "1.4 g"\nlattice.kind = "hex"'
+    (line,) = lines(MASSES + excluded)
+    assert line.startswith('lattice.mass = "1.4 g": does not fit')
 
 
 def test_one_bad_value_is_one_line_in_many_cases(lines):

@@ -31,9 +31,9 @@ def test_displacements_and_forces_need_the_size(tmp_path):
     found = read_coupon(path, gauge=33e-3, area=8e-6)
     assert found.strain == pytest.approx(TEST.strain)
     assert found.stress == pytest.approx(TEST.stress)
-    with pytest.raises(CouponError, match="displacement_mm in place of strain: needed: --gauge"):
+    with pytest.raises(CouponError, match=r"displacement_mm .* needed: --gauge"):
         read_coupon(path, area=8e-6)
-    with pytest.raises(CouponError, match="force_N in place of stress_Pa: needed: --area"):
+    with pytest.raises(CouponError, match=r"force_N .* needed: --area"):
         read_coupon(path, gauge=33e-3)
 
 
@@ -52,32 +52,20 @@ def test_modulus_is_the_slope_between_one_and_four_percent():
 @pytest.mark.parametrize(
     ("heads", "scales", "wrong"),
     [
-        (
-            "time_s,strain,stress_Pa",
-            (1, 1, 1e-6),
-            "is stress_Pa in MPa or kPa .*, a force .*strain",
-        ),
-        ("time_s,strain,stress_Pa", (1, 1, 8e-6), "a modulus of .* Pa between 1 and 4 % strain"),
+        ("time_s,strain,stress_Pa", (1, 1, 1e-6), "is stress_Pa in MPa or kPa .*, a force"),
+        ("time_s,strain,stress_Pa", (1, 1, 8e-6), "a modulus of .* Pa"),
         ("time_s,strain,stress_Pa", (1, 1, 1e6), "in another unit"),
-        ("time_s,strain,stress_Pa", (1, 100, 1), "a strain of 30: is it in percent"),
-        ("time_s,strain,stress_Pa", (1, 0.1, 1), "strains up to 0.03; needed: at least 0.04"),
+        ("time_s,strain,stress_Pa", (1, 100, 1), "a strain of 30: .*percent"),
+        ("time_s,strain,stress_Pa", (1, 0.1, 1), "up to 0.03; needed: at least 0.04"),
         ("time_s,strain,stress_Pa", (1, -1, 1), "opposite signs"),
         ("time_s,strain,stress_Pa", (1, -4, -1), "a strain of -1 or less"),
-        ("time_s,strain,stress_Pa", (-1, 1, 1), "time_s does not increase from row 1 to row 2"),
-        (
-            "time,strain,stress_Pa",
-            (1, 1, 1),
-            "no column time_s; its columns: time, strain, stress_Pa",
-        ),
-        ("time_s,e,stress_Pa", (1, 1, 1), "no column strain, and no displacement_mm in its place"),
-        (
-            "time_s,strain,stress_MPa",
-            (1, 1, 1e-6),
-            "no column stress_Pa, and no force_N in its place; its columns: .*, stress_MPa; units",
-        ),
+        ("time_s,strain,stress_Pa", (-1, 1, 1), "time_s does not .* row 1 to row 2"),
+        ("time,strain,stress_Pa", (1, 1, 1), "no column time_s; .*: time, strain, stress_Pa"),
+        ("time_s,e,stress_Pa", (1, 1, 1), "no column strain, .*displacement_mm"),
+        ("time_s,strain,stress_MPa", (1, 1, 1e-6), "no column stress_Pa, .*, stress_MPa; units"),
         ("time_s,strain,stress_Pa,strain", (1, 1, 1), "two columns strain; needed: one"),
-        ("Time,Strain,Stress", (1, 1, 1), "first row is Time, Strain, Stress; needed: names of"),
-        ("time_s,strain,stress_Pa", (1, 1, 0), "the stress does not rise between 1 and 4 %"),
+        ("Time,Strain,Stress", (1, 1, 1), "first row is Time, Strain, Stress; needed"),
+        ("time_s,strain,stress_Pa", (1, 1, 0), "does not rise .*1 and 4 %"),
     ],
 )
 def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wrong):
@@ -90,12 +78,9 @@ def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wro
     [
         (changed(time=TEST.time[:, None] @ [[0.0]]), "time_s does not increase from row 1"),
         (changed(stress=TEST.stress * np.nan), "three finite numbers"),
-        (changed(stress=TEST.stress + 1e6), "begins at a strain of 0 and 1e.06 Pa"),
+        (changed(stress=TEST.stress + 1e6), "begins at .* 0 and 1e.06 Pa"),
         (changed(strain=TEST.strain + 0.01), "begins at a strain of 0.01"),
-        (
-            Coupon("short", TEST.time[:19], TEST.strain[:19], TEST.stress[:19]),
-            "19 rows are too few",
-        ),
+        (Coupon("short", *(getattr(TEST, name)[:19] for name in NAMES)), "19 rows are too few"),
     ],
 )
 def test_what_is_no_test_is_refused(tmp_path, test, wrong):
@@ -106,7 +91,7 @@ def test_what_is_no_test_is_refused(tmp_path, test, wrong):
 
 def test_options_without_effect_and_files_that_are_none_are_refused(tmp_path):
     path = written(tmp_path, TEST)
-    with pytest.raises(CouponError, match="--area has no effect, as there is a column stress_Pa"):
+    with pytest.raises(CouponError, match=r"--area has no effect, .*stress_Pa"):
         read_coupon(path, area=8e-6)
     with pytest.raises(CouponError, match="No such file"):
         read_coupon(tmp_path / "none.csv")
@@ -114,10 +99,10 @@ def test_options_without_effect_and_files_that_are_none_are_refused(tmp_path):
     with pytest.raises(CouponError, match="no rows"):
         read_coupon(path)
     path.write_text("time_s,strain,stress_Pa\n" + "0,1\n" * 30)
-    with pytest.raises(CouponError, match="row 1 has 2 values, but there are 3 heads"):
+    with pytest.raises(CouponError, match=r"row 1 has 2 values, .*3 heads"):
         read_coupon(path)
     path.write_text("time_s,strain,stress_Pa\n" + "0,1,soft\n" * 30)
-    with pytest.raises(CouponError, match='stress_Pa in row 1 is "soft", not a number'):
+    with pytest.raises(CouponError, match='stress_Pa in row 1 is "soft"'):
         read_coupon(path)
 
 
@@ -132,13 +117,13 @@ def columns(separator=",", point=".", first=""):
 @pytest.mark.parametrize(
     ("text", "coding", "wrong"),
     [
-        (columns(";"), "utf-8", "separated by semicolons; needed: commas between columns"),
-        (columns(";", ","), "utf-8", "separated by semicolons; .* points in numbers"),
+        (columns(";"), "utf-8", "semicolons; needed: commas"),
+        (columns(";", ","), "utf-8", "semicolons; .* points"),
         (columns("\t"), "utf-8", "separated by tabs"),
-        (columns(",", ","), "utf-8", "values, but there are 3 heads; .*0.1, not 0,1"),
-        (columns(first="s,-,Pa"), "utf-8", 'time_s in row 1 is "s", not a number; needed: numbers'),
+        (columns(",", ","), "utf-8", "3 heads; .*0.1, not 0,1"),
+        (columns(first="s,-,Pa"), "utf-8", 'time_s in row 1 is "s".*needed: numbers'),
         (columns().replace("time_s,strain,stress_Pa", "0,0,0"), "utf-8", "first row is 0, 0, 0"),
-        (columns(), "utf-16", "not UTF-8 text; needed: saved as csv in UTF-8"),
+        (columns(), "utf-16", "not UTF-8 text; needed: .*csv"),
         (columns().replace("time_s", "# 20 °C\ntime_s"), "latin-1", "not UTF-8 text"),
         ("# a comment alone\n", "utf-8", "no rows; needed: columns time_s, strain, stress_Pa"),
         ("stress_Pa\n" + "1\n" * 30, "utf-8", "no column time_s; its columns: stress_Pa"),

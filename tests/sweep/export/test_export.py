@@ -50,9 +50,7 @@ def test_case_is_exported_before_it_runs(file, tmp_path):
     crumple.export_case(CASE, tmp_path / "a.stl")
     exported(file, tmp_path / "b.stl")
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
-    with pytest.raises(
-        crumple.ExportError, match=r"a case alone has no curves; allowed: a results"
-    ):
+    with pytest.raises(crumple.ExportError, match=r"no curves; allowed: a results"):
         crumple.export_case(CASE, tmp_path / "a.csv")
     for ending in (".pvd", ".gif"):
         with pytest.raises(ExportError, match="a case alone has no"):
@@ -65,11 +63,11 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     mesh = trimesh.load_mesh(tmp_path / "panel.stl")
     assert mesh.body_count == 7
     assert mesh.extents == pytest.approx([7 * 13.7 - 0.4, 13.3, 48.0], abs=1e-3)
-    told = "7 side by side, each 4 specimens of 12 mm deep: 95.5 x 13.3 mm, 48 mm deep: "
-    assert found.notes[0].startswith(told)
-    assert found.notes[1:] == [
-        "these 28 specimens, which are not joined, are what rank counts for a panel of 100 x 50 mm"
-    ]
+    size, counted = found.notes
+    assert size.startswith("7 side by side, each 4 specimens ")
+    assert ": 95.5 x 13.3 mm, 48 mm deep: " in size
+    assert counted.startswith("these 28 specimens, which are not joined, ")
+    assert counted.endswith("100 x 50 mm")
 
 
 def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
@@ -81,7 +79,7 @@ def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
     extents = [count * (side + 0.4) - 0.4 for count in (7, 4)]
     assert body.extents == pytest.approx([*extents, height], abs=1e-3)
     assert len(body.split()) == 28
-    assert f"7 side by side, each 4 specimens of {side:.4g} mm deep" in found.notes[0]
+    assert f"each 4 specimens of {side:.4g} mm" in found.notes[0]
     table = summary({"direction": "out_of_plane"}).assign(
         outer_width_m=1e-3 * side, depth_m=1e-3 * side
     )
@@ -112,7 +110,7 @@ def test_corners_that_stick_out_are_told(tmp_path):
     """The tips of a diamond are farther out than half a wall: 4 specimens, (2^0.5 - 1) t each."""
     shape = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e-3}
     found = export_case(Case.of(lattice=shape), tmp_path / "a.stl", panel=(0.058, 0.012))
-    assert found.notes[1].endswith("; corners that stick out make them 2.7 mm wider")
+    assert found.notes[1].endswith(" 2.7 mm wider")
 
 
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
@@ -195,16 +193,12 @@ REFUSED = [
         r"part.xyz: .xyz is unknown; allowed: .stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu",
     ),
     ("part", {}, "part: has no ending; allowed: .stl"),
-    ("c.csv", {"panel": (0.1, 0.05)}, "c.csv shows no print; allowed with a panel or a kind: .stl"),
-    ("part.stl", {"kind": "settings"}, "part.stl has one kind only; allowed with a kind: .3mf"),
+    ("c.csv", {"panel": (0.1, 0.05)}, "c.csv shows no print; allowed .*: .stl"),
+    ("part.stl", {"kind": "settings"}, "part.stl has one kind only; allowed .*: .3mf"),
     ("part.3mf", {"kind": "solid"}, 'kind "solid"; allowed: lattice, settings'),
-    ("part.stl", {"panel": (0.1,)}, "panel 0.1; allowed: two lengths above zero"),
-    ("part.stl", {"panel": (0.1, 0.0)}, "panel 0.1, 0.0; allowed: two lengths above zero"),
-    (
-        "part.stl",
-        {"panel": ("5 mm", "5 mm")},
-        "a panel of 5 mm is smaller than half of a specimen of 13.3 mm",
-    ),
+    ("part.stl", {"panel": (0.1,)}, "panel 0.1; allowed: two lengths"),
+    ("part.stl", {"panel": (0.1, 0.0)}, "panel 0.1, 0.0; allowed: .* above zero"),
+    ("part.stl", {"panel": ("5 mm", "5 mm")}, "panel of 5 mm .* specimen of 13.3 mm"),
 ]
 
 

@@ -19,6 +19,17 @@ def struck(force, energy, **other):
     return hit | speed | {"peak_force_N": force, "absorbed_energy_J": energy} | other
 
 
+def test_steps_are_coarse_by_what_the_integrator_takes():
+    """A crush may lose what snaps, and statics has no share."""
+    loads = [{"loading_mode": "force", "force_N": 5.0, "integrator_share": s} for s in (0.2, 0.4)]
+    blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
+    crushed = [{"integrator_share": share} for share in (0.9, NAN)]
+    table = ranked(summary(*loads, *blows, *crushed)).table
+    assert dict(zip(map(int, table["case_id"]), table["coarse"], strict=True)) == {
+        0: False, 1: True, 2: False, 3: True, 4: False, 5: False,
+    }  # fmt: skip
+
+
 def test_under_a_striker_the_least_force_wins():
     """Every design takes all the energy, to a little more or less."""
     table = summary(

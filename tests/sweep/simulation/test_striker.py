@@ -234,6 +234,27 @@ def test_a_striker_that_still_sinks_is_a_failure():
     assert result.history["time_s"][-1] == pytest.approx(2e-3, rel=0.01)
 
 
+def test_a_rebound_that_is_cut_off_is_a_failure():
+    """The striker stops after 5.3 ms and is pushed back for as long."""
+    result = simulate(struck(duration=8e-3))
+    assert result.status == "stopped"
+    assert "the lattice still pushes the striker back at strain" in result.message
+
+
+def test_a_striker_that_comes_down_again_has_been_stopped():
+    """Glued to walls of PLA, which swing: it is at its lowest after 0.9 ms."""
+    blow = dict(mode="impact", striker_mass=0.05, striker_speed=20.0, duration=3e-3)
+    cells = dict(cells_x=2, cells_y=2)
+    case = Case.of(
+        lattice=cells, material=dict(name="pla"), loading=blow, solver=dict(time_step=3e-6)
+    )
+    result = run(case)
+    assert result.status == "converged"
+    assert result.history["striker_speed_m_per_s"][-1] > 0.0
+    lowest = result.history["top_displacement_m"].argmax()
+    assert result.history["time_s"][lowest] == pytest.approx(0.9e-3, rel=0.1)
+
+
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_the_glued_row_flies_with_the_striker(platen):
     case = struck(platen)

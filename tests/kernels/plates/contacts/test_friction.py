@@ -14,6 +14,7 @@ from tests.support.kernels.surfaces import (
     placed,
     positions,
     two_sheets,
+    wavy,
 )
 from tests.support.kernels.terms import Term, derivative_error, differences, least_share
 
@@ -44,7 +45,7 @@ def term_of(x0, contacts, slip) -> Term:
     def second(x, projected):
         matrix, K = np.zeros((x.size, x.size)), np.zeros((12, 12))
         for k in range(contacts.count[0]):
-            size = friction.block(x - x0, contacts, slip, k, projected, K)
+            size = friction.block(x - x0, contacts, slip, k, K)
             at = (SIZE * contacts.nodes[k, :size, None] + np.arange(3)).ravel()
             np.add.at(matrix, np.ix_(at, at), K[: 3 * size, : 3 * size])
         return matrix
@@ -93,6 +94,34 @@ def pressed_together(x, touch):
     touching.detect(x, touch, listed, 0.0, found)
     n = found.count[0]
     return -found.slope[:n][found.pair[:n] < 0].sum()
+
+
+@pytest.mark.parametrize("seed", [1, 2, 7, 9])
+def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed):
+    """Negative ones, of sides and corners in a hollow, are taken from the others."""
+    x, touch = wavy(seed, gap=0.4)
+    listed, contacts = pairs_of(x, touch), lagged(x, touch)
+    found = touching.no_contacts(touch, listed)
+    touching.detect(x, touch, listed, 0.0, found)
+    of_nodes = found.pair[: found.count[0]] < 0
+    forces = -found.slope[: found.count[0]][of_nodes]
+    nodes, load = found.nodes[: found.count[0], 0][of_nodes], contacts.load[: contacts.count[0]]
+    assert forces.min() < 0.0
+    assert load.min() > 0.0
+    n = len(touch.area)
+    total = np.bincount(contacts.nodes[: load.size, 0], load, n)
+    expected = MU * np.maximum(np.bincount(nodes, forces, n), 0.0)
+    np.testing.assert_allclose(total, expected, atol=1e-12 * expected.max())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_friction_opposes_every_move(seed):
+    x, touch = wavy(seed, gap=0.4)
+    term, rng = term_of(x, lagged(x, touch), 1e-3), np.random.default_rng(seed)
+    for size in (1e-5, 1e-3, 1e-1):
+        for _ in range(20):
+            move = moved(x, size * rng.uniform(-1, 1, positions(x).shape)) - x
+            assert move @ term.gradient(x + move) > 0.0
 
 
 def turning(x, axis):
@@ -195,7 +224,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
         return (x + g)[:2] - pull
 
     while np.linalg.norm(force()) > 1e-11 and steps <= most:
-        friction.block(x, contacts, slip, 0, False, K)
+        friction.block(x, contacts, slip, 0, K)
         dx = np.zeros(SIZE)
         dx[:2] = np.linalg.solve(K[:2, :2] + np.eye(2), -force())
         x += dx

@@ -34,72 +34,35 @@ def test_refused(lattice, message):
         Case.of(lattice=lattice)
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        (
-            'infill = "20 %"\ncells = 4',
-            "lattice.cells = 4: does not fit; allowed: 2, as lattice.infill is 20 %; give one of"
-            " them",
-        ),
-        (
-            'infill = "20 %"\nwall_thickness = "0.8 mm"',
-            'lattice.wall_thickness = "0.8 mm": does not fit; allowed: 0.4 mm, as lattice.infill is'
-            " 20 %; give one of them",
-        ),
-        (
-            'infill = "20 %"\nmass = "1 g"',
-            'lattice.mass = "1 g": does not fit; allowed: none where lattice.infill is given',
-        ),
-        (
-            'infill = "2 %"',
-            'lattice.infill = "2 %": does not fit; allowed: a share that 1 to 50,000 cells fill'
-            " with lines of 0.0004 m in this box",
-        ),
-        (
-            'infill = "90 %"\nwidth = "25 mm"\nheight = "25 mm"\nkind = "kagome"',
-            'lattice.infill = "90 %": does not fit; allowed: a share that leaves cells at least'
-            " twice as wide as their walls",
-        ),
-        (
-            "infill = 0.2",
-            "lattice.infill = 0.2: a bare number; allowed: a share in percent, such as"
-            ' "20 %", above 0, below 1',
-        ),
-        (
-            'mass = "1 g"\nwall_thickness = "0.8 mm"',
-            'lattice.wall_thickness = "0.8 mm": does not fit; allowed: 0.7446 mm at the mass'
-            " given; give one of them",
-        ),
-        (
-            'mass = "9 g"',
-            'lattice.mass = "9 g": does not fit; allowed: between 2.975e-06 g and 2.479 g with'
-            " these cells",
-        ),
-        (
-            'kind = "triangle"\nwall_thickness = "1.3 mm"',
-            'lattice.wall_thickness = "1.3 mm": does not fit; allowed: below half the width of the'
-            " narrowest cell, 1.288 mm here",
-        ),
-        (
-            "grading = 4.0\ncells = 4\nwall_thickness = 1.2",
-            "lattice.wall_thickness = 1.2: a bare number; allowed: a length with a unit, such as"
-            ' "0.8 mm", above 0',
-        ),
-        (
-            "perimeters = 9",
-            "lattice.perimeters = 9: does not fit; allowed: at most 8 here, thinner in all than"
-            " cells are open, 0.003367 m",
-        ),
-        (
-            "solid_layers = 17",
-            "lattice.solid_layers = 17: does not fit; allowed: at most 16 here, thinner in all than"
-            " cells are open, 0.003367 m",
-        ),
-    ],
-)
-def test_what_is_asked_of_a_lattice_must_go_together(lines, text, line):
-    assert lines(f"[lattice]\n{text}") == [line]
+UNFIT = {
+    'infill = "20 %"\ncells = 4': ("lattice.cells = 4", "2, as lattice.infill is 20 %"),
+    'infill = "20 %"\nwall_thickness = "0.8 mm"': (
+        *('lattice.wall_thickness = "0.8 mm"', "0.4 mm, as lattice.infill is 20 %"),
+    ),
+    'infill = "20 %"\nmass = "1 g"': ('lattice.mass = "1 g"', "none where lattice.infill is given"),
+    'infill = "2 %"': ('lattice.infill = "2 %"', "1 to 50,000 cells", "0.0004 m"),
+    'infill = "90 %"\nwidth = "25 mm"\nheight = "25 mm"\nkind = "kagome"': (
+        *('lattice.infill = "90 %"', "at least twice as wide"),
+    ),
+    "infill = 0.2": ("lattice.infill = 0.2", "in percent", '"20 %"'),
+    'mass = "1 g"\nwall_thickness = "0.8 mm"': (
+        *('lattice.wall_thickness = "0.8 mm"', "0.7446 mm", "one of them"),
+    ),
+    'mass = "9 g"': ('lattice.mass = "9 g"', "between 2.975e-06 g and 2.479 g"),
+    'kind = "triangle"\nwall_thickness = "1.3 mm"': (
+        *('lattice.wall_thickness = "1.3 mm"', "below", "1.288 mm"),
+    ),
+    "grading = 4.0\ncells = 4\nwall_thickness = 1.2": (
+        *("lattice.wall_thickness = 1.2", "a unit", '"0.8 mm"'),
+    ),
+    "perimeters = 9": ("lattice.perimeters = 9", "at most 8 here", "0.003367 m"),
+    "solid_layers = 17": ("lattice.solid_layers = 17", "at most 16 here", "0.003367 m"),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_is_asked_of_a_lattice_must_go_together(refused, text):
+    assert refused(f"[lattice]\n{text}", *UNFIT[text])
 
 
 def test_equal_walls_have_an_equal_id_however_they_are_asked_for():

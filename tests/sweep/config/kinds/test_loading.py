@@ -11,16 +11,9 @@ from tests.support.designs.cases import pressed
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
-UNFIT = {
-    '[material]\nmodulus = "12 MPa"': (
-        "material.density is missing; needed: a density, as no name is given"
-    ),
-}
 
-
-@pytest.mark.parametrize("text", UNFIT)
-def test_what_does_not_fit_is_one_line(lines, text):
-    assert lines(text) == [UNFIT[text]]
+def test_a_material_of_numbers_needs_a_density(refused):
+    assert refused('[material]\nmodulus = "12 MPa"', "material.density", "no name")
 
 
 @pytest.mark.parametrize(

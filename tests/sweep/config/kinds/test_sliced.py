@@ -77,70 +77,49 @@ def test_a_mass_is_that_which_is_extruded(pattern):
     assert again.case_id == case.case_id
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        (SLICED + 'infill = "20 %"', "lattice.pattern is missing; needed: "),
-        (GRID, 'lattice.infill is missing; needed: a share such as "20 %", or a lattice.mass'),
-        (
-            SLICED + 'infill = "20 %"\npattern = "gyroid"',
-            'lattice.pattern = "gyroid": does not fit; allowed: "grid", "triangles", "stars",'
-            ' "honeycomb", "alignedrectilinear"; gyroid is no prism, as its walls wander from layer'
-            " to layer: the nearest is honeycomb",
-        ),
-        (
-            GRID.replace("prusa", "cura").replace("grid", "gyroid") + 'infill = "20 %"',
-            'lattice.pattern = "gyroid": does not fit; allowed: "grid", "triangles", "trihexagon";'
-            " gyroid is no prism, as its walls wander from layer to layer: the nearest is grid",
-        ),
-        (
-            SLICED + 'infill = "20 %"\npattern = "stripes"',
-            'lattice.pattern = "stripes": does not fit; allowed: "grid", "triangles", "stars",'
-            ' "honeycomb", "alignedrectilinear"',
-        ),
-        (
-            GRID + 'infill = "20 %"\nkind = "hex"',
-            'lattice.kind = "hex": has no effect, as lattice.slicer is given',
-        ),
-        (
-            GRID + 'infill = "20 %"\nwall_thickness = "0.8 mm"',
-            'lattice.wall_thickness = "0.8 mm": has no effect, as lattice.slicer is given',
-        ),
-        (
-            GRID + 'infill = "20 %"\nperimeters = 0',
-            "lattice.perimeters = 0: does not fit; allowed: 1 to 23, as lattice.slicer is given:"
-            " perimeters hold the infill",
-        ),
-        (
-            GRID + 'infill = "20 %"\nlayer_height = "0.5 mm"',
-            'lattice.layer_height = "0.5 mm": does not fit; allowed: at most the line width,'
-            " 0.45 mm",
-        ),
-        (
-            SLICED + 'pattern = "stars"\ninfill = "60 %"',
-            'lattice.infill = "60 %": does not fit; allowed: a share that leaves cells at least'
-            " twice as wide as their walls",
-        ),
-        (
-            GRID + 'mass = "1 g"',
-            'lattice.mass = "1 g": does not fit; allowed: between 1.249 g and 6.301 g as',
-        ),
-        (
-            GRID + 'mass = "2 g"\ninfill = "20 %"',
-            'lattice.mass = "2 g": does not fit; allowed: none where lattice.infill is given',
-        ),
-        (
-            GRID + 'infill = "20 %"\ncells = 3',
-            "lattice.cells = 3: has no effect, as lattice.slicer is given",
-        ),
-        (
-            '[lattice]\npattern = "grid"',
-            'lattice.pattern = "grid": has no effect, as lattice.slicer is not given',
-        ),
-    ],
-)
-def test_what_is_asked_of_a_slicer_must_go_together(lines, text, line):
-    assert lines(text)[0].startswith(line)
+PATTERNS = '"grid", "triangles", "stars", "honeycomb", "alignedrectilinear"'
+SHARED = f'{GRID}infill = "20 %"\n'
+NO_PRISM = ("gyroid is no prism", "layer to layer: the nearest is")
+IDLE = ("no effect", "lattice.slicer is given")
+
+UNFIT = {
+    f'{SLICED}infill = "20 %"': ("lattice.pattern", PATTERNS),
+    GRID: ("lattice.infill", '"20 %"', "lattice.mass"),
+    SHARED.replace("grid", "gyroid"): (
+        *('lattice.pattern = "gyroid"', f"{PATTERNS};", *NO_PRISM, "honeycomb"),
+    ),
+    SHARED.replace("prusa", "cura").replace("grid", "gyroid"): (
+        *('lattice.pattern = "gyroid"', '"grid", "triangles", "trihexagon";', *NO_PRISM),
+    ),
+    SHARED.replace("grid", "stripes"): ('lattice.pattern = "stripes"', PATTERNS),
+    f'{SHARED}kind = "hex"': ('lattice.kind = "hex"', *IDLE),
+    f'{SHARED}wall_thickness = "0.8 mm"': ('lattice.wall_thickness = "0.8 mm"', *IDLE),
+    f"{SHARED}perimeters = 0": ("lattice.perimeters = 0", "1 to 23", "lattice.slicer is given"),
+    f'{SHARED}layer_height = "0.5 mm"': ('lattice.layer_height = "0.5 mm"', "at most", "0.45 mm"),
+    SHARED.replace("grid", "stars").replace("20 %", "60 %"): (
+        *('lattice.infill = "60 %"', "below 50 %", "twice as wide"),
+    ),
+    f'{GRID}infill = "50 %"\nfill_angle = "0 deg"\nperimeters = 1': (
+        *('lattice.infill = "50 %"', "49 %, for example", "weigh 13 % less than is extruded"),
+    ),
+    f'{GRID}mass = "2.5 g"\nfill_angle = "0 deg"': (
+        *('lattice.mass = "2.5 g"', "2.057 g, for example", "weigh 18 % less than is extruded"),
+    ),
+    f"{SHARED}fill_multiline = 6\nperimeters = 2".replace("prusa", "orca").replace("20 m", "4 m"): (
+        *("lattice.perimeters = 2", "or a larger box", "weigh 32 % less", "any infill near 20 %"),
+    ),
+    f'{GRID}mass = "1 g"': ('lattice.mass = "1 g"', "between 1.249 g and 6.301 g"),
+    f'{SHARED}mass = "2 g"': ('lattice.mass = "2 g"', "none where lattice.infill is given"),
+    f"{SHARED}cells = 3": ("lattice.cells = 3", *IDLE),
+    '[lattice]\npattern = "grid"': (
+        *('lattice.pattern = "grid"', "no effect", "lattice.slicer is not given"),
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_is_asked_of_a_slicer_must_go_together(refused, text):
+    assert refused(text, *UNFIT[text])
 
 
 def test_lines_side_by_side_are_as_many_times_farther_apart():
@@ -164,3 +143,8 @@ def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
         sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
     with pytest.raises(RefusedError, match="a key of Cells: "):
         Case.of(lattice=dict(fill_multiline=2))
+
+
+@pytest.mark.parametrize("wish", [{"infill": 0.49}, {"infill": 0.5, "fill_angle": 0.3}])
+def test_what_a_refusal_of_a_drawing_allows_is_drawn(wish):
+    assert sliced(**{"fill_angle": 0.0, "perimeters": 1} | wish).infill == wish["infill"]

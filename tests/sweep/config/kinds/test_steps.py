@@ -1,212 +1,72 @@
-"""What a case leaves open, filled in: by its mode, by its contact; what cannot go together."""
+"""The steps of a case: as many as are asked for, as fit, and as may be; the integrators."""
 
-import pickle
-import re
+from math import pi
 
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError
-from sweep.config.kinds.table import RefusedError
-from sweep.config.load import load_config
 from tests.support.designs.cases import pressed
-from tests.support.designs.tables import material_with
 
-PERIODIC = '[lattice]\nboundary = "periodic"\n'
-LED = 'allowed: "displacement" if lattice.boundary is "periodic"'
+MOST = "at most 1,000,000 steps"
+IN_TIME = '"backward_euler", "bdf2" or "newmark"'
 
 UNFIT = {
-    '[loading]\nmode = "displacement"\nstrain = 0.5\nstroke = "5 mm"': (
-        'loading.stroke = "5 mm": does not fit; allowed: 6.25 mm at the strain given; give one'
-        " of them"
+    '[solver]\ntime_step = "1e-12 s"': ('solver.time_step = "1e-12 s"', MOST),
+    '[loading]\nspeed = "1 mm/s"\n[solver]\ntime_step = "1e-320 s"': (
+        *('solver.time_step = "1e-320 s"', MOST),
     ),
-    '[loading]\nstroke = "0.5in"': (
-        'loading.stroke = "0.5in": does not fit; allowed: below the height of the lattice,'
-        " 0.4921 in"
+    '[loading]\nduration = "1000 s"': ("solver.time_step = 0.0001 s by default", MOST),
+    "[loading]\nstrain = 0.5\nload_steps = 500_001": (
+        *("loading.load_steps = 500001", MOST, "1,000,002 here"),
     ),
-    '[solver]\nintegrator = "static"': (
-        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or "newmark"'
-        ' if loading.mode is "force"'
+    '[loading]\nstrain = 0.5\n[solver]\nstep_error = "1 um"': (
+        *('solver.step_error = "1 um"', f"none unless solver.integrator is {IN_TIME}"),
     ),
-    '[solver]\nintegrator = "arc_length"': (
-        'solver.integrator = "arc_length": does not fit; allowed: "static" where quasi-static, else'
-        ' "backward_euler", "bdf2" or "newmark", unless lattice.kind is "custom"'
-    ),
-    '[contact]\nmodel = "position_based"\n[solver]\nintegrator = "newmark"': (
-        'solver.integrator = "newmark": does not fit; allowed: "backward_euler" if contact.model is'
-        ' "position_based"'
-    ),
-    f'{PERIODIC}[loading]\nforce = "3 N"': (
-        f'loading.mode = "force", as loading.force is given: does not fit; {LED}'
-    ),
-    f'{PERIODIC}[loading]\nduration = "1 s"': (
-        f'loading.mode = "force", as loading.duration is given: does not fit; {LED}'
-    ),
-    "[loading]\nunload = false\ncycles = 2": (
-        "loading.cycles = 2: does not fit; allowed: 1 if loading.unload is false"
-    ),
-    PERIODIC: f'loading.mode = "force" by default: does not fit; {LED}',
-    f'{PERIODIC}[loading]\nspeed = "1 m/s"': (
-        "loading.quasi_static = false, as loading.speed is given: does not fit; allowed: true if"
-        ' lattice.boundary is "periodic"'
+    '[material]\nbend = "none"\n[loading]\nstrain = 0.5': (
+        *('material.bend = "none"', '"linear", "section" or "fibres"', '"static"'),
     ),
 }
 
 
 @pytest.mark.parametrize("text", UNFIT)
-def test_what_does_not_fit_is_one_line(lines, text):
-    assert lines(text) == [UNFIT[text]]
+def test_what_does_not_fit_is_refused(refused, text):
+    assert refused(text, *UNFIT[text])
 
 
-@pytest.mark.parametrize(
-    ("tables", "key"),
-    [
-        ({"loading": {"mode": "displacement", "force": 5.0}}, "loading.force"),
-        ({"loading": {"mode": "force", "unload": False}}, "loading.unload"),
-        ({"damping": {"model": "none", "mass": 1.0}}, "damping.mass"),
-        ({"contact": {"model": "none", "friction": 0.1}}, "contact.friction"),
-    ],
-)
-def test_a_key_that_its_kind_does_not_have_is_refused(tables, key):
-    with pytest.raises(RefusedError, match=f"{key} = .*; allowed: a key of"):
-        Case.of(**tables)
+def test_a_speed_brings_time_back():
+    case = pressed(speed=1e-3, strain=0.4)
+    assert (case.solver.integrator, case.solver.load_steps) == ("backward_euler", 200)
+    assert case.solver.time_step == pytest.approx(5e-3 / 1e-3 / 200)
+    assert case.damping.model == "rayleigh"
 
 
-def test_displacement_defaults():
-    case = pressed()
-    assert case.loading.stroke == pytest.approx(0.6 * 12.5e-3)
-    assert (case.loading.strain, case.loading.unload, case.loading.platen) == (0.6, True, "glued")
-    assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
-    assert case.damping.model == "none"
+def usual_step(**loading):
+    """The usual step of an impact on 12.5 x 12.5 x 12 mm of 15 MPa."""
+    material = {"modulus": 15e6, "density": 1200.0}
+    return Case.of(material=material, loading={"mode": "impact"} | loading).solver.time_step
 
 
-def test_only_a_crush_that_takes_time_has_a_pause():
-    slow, fast = material_with(loss=0.3), {"speed": 0.1}
-    assert pressed().loading.hold_time is None
-    assert pressed(hold_time=3.0).case_id == pressed().case_id
-    assert pressed(**fast, hold_time=3.0).case_id != pressed(**fast).case_id
-    relaxing, held = (
-        Case.of(material=slow, loading=dict(mode="displacement", hold_time=time))
-        for time in (None, 3.0)
-    )
-    assert (held.loading.hold_time, held.loading.strain_rate) == (3.0, 0.01)
-    assert held.case_id != relaxing.case_id
+def test_steps_of_an_impact_are_a_share_of_its_contact():
+    """The passage of a fast striker; pi sqrt(m / k) of a slow one, k = 180 kN/m of the block."""
+    assert usual_step(striker_speed=2.0) == pytest.approx(12.5e-3 / 2.0 / 1000)
+    contact = pi * (0.05 / 180e3) ** 0.5
+    for speed in (0.01, 0.1):
+        assert usual_step(striker_speed=speed) == pytest.approx(contact / 20)
+    assert usual_step(striker_speed=0.01, striker_mass=0.2) == pytest.approx(contact / 10)
+    assert usual_step(striker_speed=1e-3, striker_mass=5e-4) == pytest.approx(125.0 / 1e6)
 
 
-def test_a_crush_has_one_cycle_unless_more_are_given():
-    assert pressed().loading.cycles == pressed(unload=False).loading.cycles == 1
-    assert pressed(cycles=1).case_id == pressed().case_id == "4ffe28fe5c9c5794"
-    assert pressed(cycles=2).case_id != pressed().case_id
+def test_time_step_under_a_speed_makes_a_whole_number_of_steps():
+    loading = dict(mode="displacement", speed=1e-3, stroke=5e-3)
+    case = Case.of(loading=loading, solver=dict(time_step=0.03))
+    assert case.solver.load_steps == 167
+    assert case.solver.time_step == pytest.approx(5.0 / 167)
+    assert Case.of(loading=loading, solver=dict(time_step=0.02)).solver.load_steps == 250
 
 
-def test_contact_by_itself_is_the_barrier():
-    case = Case.of(contact=dict(model="auto"))
-    assert case.contact.model == "barrier"
-    assert case.case_id == Case.of(contact=dict(model="barrier")).case_id == Case.of().case_id
+EULER = "backward_euler"
 
 
-def test_slip_speed_without_friction_does_not_count():
-    slow, fast = (
-        pressed(speed=1e-3).changed(contact=dict(friction=0.0, slip_speed=v)) for v in (1e-5, 1e-3)
-    )
-    assert slow.case_id == fast.case_id
-
-
-def test_strain_and_stroke_give_each_other():
-    assert pressed(strain=0.5).loading.stroke == pytest.approx(6.25e-3)
-    assert pressed(stroke=6.25e-3).loading.strain == pytest.approx(0.5)
-    assert pressed(strain=0.5).case_id == pressed(stroke=6.25e-3).case_id
-
-
-@pytest.mark.parametrize(
-    "case",
-    [Case.of(), pressed(), pressed(speed=1e-3), pressed(platen="contact", stroke=4e-3)],
-)
-def test_completing_twice_changes_nothing(case):
-    assert case.changed() == case
-    again = Case.from_json(case.to_json())
-    assert again == case
-    assert again.case_id == case.case_id
-    assert pickle.loads(pickle.dumps(case)) == case
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: pressed(platen="none"), "contact"),
-        (lambda: pressed(strain=0.5, stroke=5e-3), "give one of them"),
-        (lambda: pressed(stroke=12.5e-3), "below the height"),
-        (lambda: pressed(quasi_static=False), "a speed if quasi_static is false"),
-        (lambda: Case.of(loading=dict(release_time=0.3)), "up to the duration, 0.2 s"),
-        (lambda: Case.of(solver=dict(integrator="static")), "backward_euler"),
-    ],
-)
-def test_refused(make, message):
-    with pytest.raises(RefusedError, match=message):
-        make()
-
-
-def test_a_fall_sets_the_speed():
-    """v^2 = 2 g h: 1 m gives 4.43 m/s; the height is another word for the speed in an id."""
-    fallen = Case.of(loading=dict(striker_mass=0.1, drop_height=1.0))
-    assert fallen.loading.striker_speed == pytest.approx(4.4287, abs=1e-4)
-    assert fallen.loading.energy == pytest.approx(0.1 * 9.80665)
-    struck = Case.of(loading=dict(striker_mass=0.1, striker_speed=fallen.loading.striker_speed))
-    assert struck.loading.drop_height == pytest.approx(1.0)
-    assert fallen.case_id == struck.case_id
-
-
-def test_a_fall_beside_another_speed_is_refused(lines):
-    text = '[loading]\ndrop_height = "1 ft"\n'
-    assert lines(f'{text}striker_speed = "1 m/s"') == [
-        'loading.drop_height = "1 ft": does not fit; allowed: 0.1673 ft at the speed given; give'
-        " one of them"
-    ]
-    assert lines(f'{text}energy = "1 J"') == [
-        'loading.energy = "1 J": does not fit; allowed: 0.1495 J at the drop height given; give'
-        " one of them"
-    ]
-    assert lines('[loading]\ndrop_hight = "1 ft"') == [
-        'loading.drop_hight = "1 ft": unknown key; the nearest is loading.drop_height'
-    ]
-
-
-def test_speed_and_energy_follow_from_one_another():
-    by_speed = dict(striker_mass=0.1, striker_speed=2.0)
-    by_energy = dict(striker_mass=0.1, energy=0.2)
-    both = dict(striker_mass=0.1, energy=0.2, striker_speed=2.0)
-    assert len({Case.of(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
-    with pytest.raises(RefusedError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
-        Case.of(loading=dict(striker_mass=0.1, striker_speed=2.0, energy=0.3))
-
-
-@pytest.mark.parametrize(
-    ("loading", "solver", "words"),
-    [
-        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
-        ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
-    ],
-)
-def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
-    with pytest.raises(RefusedError, match=words):
-        Case.of(loading=dict(mode="impact", **loading), solver=solver)
-
-
-ENDLESS = [
-    ({"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
-    ({"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
-    ({"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
-    ({"strain": 0.5, "speed": 0.1}, "loading.quasi_static = False; allowed: true"),
-]
-
-
-@pytest.mark.parametrize(("loading", "words"), ENDLESS)
-def test_what_an_endless_lattice_cannot_be_loaded_by_is_refused(loading, words):
-    with pytest.raises(RefusedError, match=re.escape(words)):
-        Case.of(lattice={"boundary": "periodic"}, loading=loading)
-
-
-def test_mode_of_a_structure_is_its_own(tmp_path):
-    (tmp_path / "square.toml").write_text('[loading]\nmode = "custom"')
-    with pytest.raises(ConfigError, match=r'unless lattice\.kind is "custom"'):
-        load_config(tmp_path / "square.toml")
+def test_a_striker_on_walls_moved_apart_goes_by_backward_euler():
+    contact = dict(model="position_based")
+    assert Case.of(loading=dict(mode="impact"), contact=contact).solver.integrator == EULER

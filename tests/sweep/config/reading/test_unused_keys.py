@@ -95,25 +95,18 @@ def test_a_key_that_some_case_needs_is_fine(load, text):
 
 
 @pytest.mark.parametrize(
-    ("text", "line"),
+    ("text", "key", "why"),
     [
+        ('orientation = "flat"', 'orientation = "flat"', 'lattice.kind is "square"'),
+        ('line_width = "0.5 mm"', 'line_width = "0.5 mm"', "lattice.perimeters nor a"),
         (
-            'orientation = "flat"',
-            'lattice.orientation = "flat": has no effect, as lattice.kind is "square"',
-        ),
-        (
-            'line_width = "0.5 mm"',
-            'lattice.line_width = "0.5 mm": has no effect, as there are neither'
-            " lattice.perimeters nor a lattice.infill",
-        ),
-        (
-            'perimeters = 1\nlayer_height = "0.5 mm"',
-            'lattice.layer_height = "0.5 mm": has no effect, as lattice.solid_layers is 0',
+            *('perimeters = 1\nlayer_height = "0.5 mm"', 'layer_height = "0.5 mm"'),
+            "lattice.solid_layers is 0",
         ),
     ],
 )
-def test_what_the_infill_does_not_use_is_refused(lines, text, line):
-    assert lines(f"[lattice]\n{text}") == [line]
+def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):
+    assert refused(f"[lattice]\n{text}", f"lattice.{key}", "has no effect", why)
 
 
 def test_all_idle_keys_are_told_at_once_and_after_a_misspelt_one_none(load):

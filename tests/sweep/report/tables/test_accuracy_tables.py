@@ -1,5 +1,7 @@
 """Accuracy studies in words: what to choose, what is not resolved, what failed."""
 
+import re
+
 import pytest
 
 from sweep.report.tables.accuracy_tables import (
@@ -15,12 +17,9 @@ from tests.support.results.made_up_studies import STEPS, all_steps, made_up, stu
 def test_answer_is_the_cheapest_setting(tmp_path):
     (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
     text = " ".join(answers(found))
-    assert "Reference: the limit of bdf2, 62.5 us: absorbed energy 50.0 mJ ± 0.16 %" in text
-    assert (
-        "The cheapest setting below 1 % in absorbed energy, peak force and strain over time is "
-        "bdf2, 0.125 ms: 17.6 s." in text
-    )
-    assert "The cheapest setting below 0.1 % in strain over time is bdf2, 62.5 us: 35.2 s." in text
+    assert "bdf2, 62.5 us: absorbed energy 50.0 mJ ± 0.16 %" in text
+    assert re.search("below 1 % in absorbed energy, peak force and .* bdf2, 0.125 ms: 17.6 s", text)
+    assert re.search("below 0.1 % in strain over .* bdf2, 62.5 us: 35.2 s", text)
     assert list(found.settings["front"]) == [*[True] * 4, *[False] * 3, *[True] * 3]
 
 
@@ -31,8 +30,9 @@ def test_what_finer_steps_do_not_settle_is_not_resolved(tmp_path):
     (found,) = study(tmp_path, rows)
     (sheet, orders) = accuracy_sheets(found, "made up")
     assert found.resolved == ("energy", "path")
-    assert "Not resolved: peak force, whose limit is uncertain by 30 %." in answers(found)
-    assert "in absorbed energy and strain over time is bdf2" not in " ".join(answers(found))
+    (unsettled,) = (line for line in answers(found) if line.startswith("Not resolved: "))
+    assert re.search(r"peak force\b.* 30 %", unsettled)
+    assert "below 1 % in absorbed energy and strain over time" in " ".join(answers(found))
     assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["< 30"] * 5
     assert orders.rows[0][2:] == ["2.00", "–", "2.00"]
 

@@ -6,6 +6,7 @@ from sweep.ranking.rank import ranked
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import (
     BEYOND,
+    COARSE,
     CROSSED,
     EARLY,
     SECOND,
@@ -15,7 +16,7 @@ from sweep.report.tables.legend import (
 )
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheets import ranking_sheets
-from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
+from tests.support.results.specimens import CRUSHED_SOLID, IMPACTS, SPARSE, designs, summary
 
 NAN = float("nan")
 UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
@@ -52,6 +53,13 @@ def test_walls_that_pass_through_one_another_are_marked():
     (sheet,) = ranking_sheets(ranking, table)
     assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
     assert sheet.notes == (BEYOND, CROSSED)
+
+
+def test_coarse_steps_are_marked():
+    table = IMPACTS.assign(integrator_share=[0.01, 0.1])
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 i"]
+    assert sheet.notes == (COARSE,)
 
 
 def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():

@@ -55,6 +55,11 @@ def test_walls_that_follow_from_a_mass_stay():
     assert column.lattice.mass is None
 
 
+def test_column_of_a_material_with_loss_is_strained_as_fast():
+    design = Case.of(lattice=dict(cells_x=3, cells_y=3), material=dict(loss=0.4), loading=ALONG)
+    assert unit_column(design).loading.strain_rate == design.loading.strain_rate
+
+
 def test_quarter_stays_where_the_cell_has_mirror_planes():
     assert unit_column(along(symmetry="quarter")).lattice.symmetry == "quarter"
     assert unit_column(along()).lattice.symmetry == "none"

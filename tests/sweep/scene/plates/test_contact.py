@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
+from sweep.config.kinds.table import TABLES
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.mesh import build_mesh

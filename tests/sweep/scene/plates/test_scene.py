@@ -5,7 +5,8 @@ import pytest
 
 from kernels.plates.element import shell
 from kernels.solve.problem import FREE, HELD, LED, TIED
-from sweep.config.case import TABLES, Case
+from sweep.config.case import Case
+from sweep.config.kinds.table import TABLES
 from sweep.scene.plates.scene import build_scene
 from tests.support.designs.plates import along
 

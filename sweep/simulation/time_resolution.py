@@ -1,0 +1,59 @@
+"""Whether the time steps of a motion resolve it, by energy and by momentum.
+
+Energy: what the integrator itself removes vanishes with its steps. Its share of the work done is a
+measure of the error of all integrators: in 13 impacts with 3 to 1000 steps each, below 5 % force
+and strain err by 3 % in the median, from 5 to 20 % by 2 to 15 %, above it by up to 98 %.
+Under a dead load the integrator damps the swing that follows the load: above 30 %, the greatest
+force errs by 10 to 80 %, the greatest strain by 2 to 16 %.
+
+A lattice without damping vibrates, and what the integrator takes from its vibrations is no error of
+the striker: with a share of 27 %, force and strain err by 1 % where 900 steps are one contact. So
+an impact is unresolved if the steps are also long beside the time in which the striker is stopped.
+Its loss by backward Euler is a measure, sum m (v' - v)^2 / 2: pi^2 / 2n of the energy in a half
+wave of n steps, more if the force has a peak.
+
+Momentum: what striker and lattice bring, p = 2 E / v of the kinetic energy E at the start, goes
+into the support: sum F dt = p - m v' - q, with q of the lattice at the end, q^2 <= 2 m_l K_l.
+"""
+
+from collections.abc import Mapping
+from math import nan, sqrt
+
+import numpy as np
+
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.loading import Loading
+from sweep.scene.mesh import Floats
+from sweep.simulation.striker import kinetic
+
+Curves = Mapping[str, Floats]
+LARGEST = 0.2  # share of energy or momentum that an impact may lose to its steps
+LONG = 0.05  # share of the energy that steps of a striker may lose by backward Euler
+
+
+def integrator_share(loading: Loading, history: Curves) -> float:
+    """Greatest energy that the integrator removes or creates / greatest work; NaN in statics."""
+    work = float(np.abs(history["work_in_J"]).max())
+    if loading.quasi_static or work == 0.0:
+        return nan
+    return float(np.abs(history["dissipated_integrator_J"]).max()) / work
+
+
+def striker_share(history: Curves) -> float:
+    """Energy that backward Euler would take from the striker in these rows / energy at first."""
+    speed = history["striker_speed_m_per_s"]
+    return float(np.sum(np.diff(speed) ** 2) / speed[0] ** 2)
+
+
+def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
+    """Momentum of an impact that the support has not borne, or has borne too much / that at first.
+
+    mass: of the lattice, kg. What the lattice may still have does not count.
+    """
+    speed, force = history["striker_speed_m_per_s"], history["reaction_bottom_N"]
+    brought = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed
+    borne = float(np.sum(force[1:] * np.diff(history["time_s"])))
+    swing = float(history["kinetic_J"][-1] - kinetic(loading, speed[-1]))
+    kept = sqrt(2.0 * mass * max(swing, 0.0))
+    missing = abs(brought - loading.striker_mass * float(speed[-1]) - borne)
+    return max(missing - kept, 0.0) / brought

@@ -1,0 +1,206 @@
+"""What a case leaves open, filled in: by its mode, by its contact; what cannot go together."""
+
+import pickle
+import re
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.faults import ConfigError
+from sweep.config.kinds.table import RefusedError
+from sweep.config.load import load_config
+from tests.support.designs.cases import pressed
+from tests.support.designs.tables import material_with
+
+PERIODIC = '[lattice]\nboundary = "periodic"\n'
+ENDLESS_MODE = 'allowed: "displacement" if lattice.boundary is "periodic"'
+BY_POSITION = '[contact]\nmodel = "position_based"'
+MOVED, BARRIER = 'contact.model = "position_based"', '"none" or "barrier"'
+IN_TIME = '"backward_euler", "bdf2" or "newmark"'
+
+UNFIT = {
+    '[loading]\nmode = "displacement"\nstrain = 0.5\nstroke = "5 mm"': (
+        *('loading.stroke = "5 mm"', "6.25 mm", "one of them"),
+    ),
+    '[loading]\nstroke = "0.5in"': ('loading.stroke = "0.5in"', "below the height", "0.4921 in"),
+    '[solver]\nintegrator = "static"': (
+        *('solver.integrator = "static"', f'{IN_TIME} if loading.mode is "force"'),
+    ),
+    '[solver]\nintegrator = "arc_length"': (
+        *('solver.integrator = "arc_length"', '"static"', IN_TIME, 'lattice.kind is "custom"'),
+    ),
+    f'{BY_POSITION}\n[solver]\nintegrator = "newmark"': (
+        *('solver.integrator = "newmark"', '"backward_euler" if contact.model is "position_based"'),
+    ),
+    f'{PERIODIC}[loading]\nforce = "3 N"': (
+        *('loading.mode = "force", as loading.force is given', ENDLESS_MODE),
+    ),
+    f'{PERIODIC}[loading]\nduration = "1 s"': (
+        *('loading.mode = "force", as loading.duration is given', ENDLESS_MODE),
+    ),
+    f"[loading]\nstrain = 0.5\n{BY_POSITION}": (MOVED, BARRIER, "if loading.quasi_static"),
+    f'[loading]\nplaten = "contact"\n{BY_POSITION}': (
+        *(MOVED, BARRIER, 'if loading.platen is "contact"'),
+    ),
+    f"{BY_POSITION}\nfriction = 0.3": (
+        *("contact.friction = 0.3", "no effect", 'contact.model is "position_based"'),
+    ),
+    "[loading]\nunload = false\ncycles = 2": ("loading.cycles = 2", "1 if loading.unload is false"),
+    PERIODIC: ('loading.mode = "force" by default', ENDLESS_MODE),
+    f'{PERIODIC}[loading]\nspeed = "1 m/s"': (
+        *("loading.quasi_static = false, as loading.speed is given", "true", "lattice.boundary"),
+    ),
+}
+
+
+@pytest.mark.parametrize("text", UNFIT)
+def test_what_does_not_fit_is_refused(refused, text):
+    assert refused(text, *UNFIT[text])
+
+
+@pytest.mark.parametrize(
+    ("tables", "key"),
+    [
+        ({"loading": {"mode": "displacement", "force": 5.0}}, "loading.force"),
+        ({"loading": {"mode": "force", "unload": False}}, "loading.unload"),
+        ({"damping": {"model": "none", "mass": 1.0}}, "damping.mass"),
+        ({"contact": {"model": "none", "friction": 0.1}}, "contact.friction"),
+    ],
+)
+def test_a_key_that_its_kind_does_not_have_is_refused(tables, key):
+    with pytest.raises(RefusedError, match=f"{key} = .*; allowed: a key of"):
+        Case.of(**tables)
+
+
+def test_displacement_defaults():
+    case = pressed()
+    assert case.loading.stroke == pytest.approx(0.6 * 12.5e-3)
+    assert (case.loading.strain, case.loading.unload, case.loading.platen) == (0.6, True, "glued")
+    assert (case.solver.integrator, case.solver.load_steps) == ("static", 200)
+    assert case.damping.model == "none"
+
+
+def test_only_a_crush_that_takes_time_has_a_pause():
+    slow, fast = material_with(loss=0.3), {"speed": 0.1}
+    assert pressed().loading.hold_time is None
+    assert pressed(hold_time=3.0).case_id == pressed().case_id
+    assert pressed(**fast, hold_time=3.0).case_id != pressed(**fast).case_id
+    relaxing, held = (
+        Case.of(material=slow, loading=dict(mode="displacement", hold_time=time))
+        for time in (None, 3.0)
+    )
+    assert (held.loading.hold_time, held.loading.strain_rate) == (3.0, 0.01)
+    assert held.case_id != relaxing.case_id
+
+
+def test_a_crush_has_one_cycle_unless_more_are_given():
+    assert pressed().loading.cycles == pressed(unload=False).loading.cycles == 1
+    assert pressed(cycles=1).case_id == pressed().case_id == "4ffe28fe5c9c5794"
+    assert pressed(cycles=2).case_id != pressed().case_id
+
+
+def test_contact_by_itself_is_the_barrier():
+    case = Case.of(contact=dict(model="auto"))
+    assert case.contact.model == "barrier"
+    assert case.case_id == Case.of(contact=dict(model="barrier")).case_id == Case.of().case_id
+
+
+def test_slip_speed_without_friction_does_not_count():
+    slow, fast = (
+        pressed(speed=1e-3).changed(contact=dict(friction=0.0, slip_speed=v)) for v in (1e-5, 1e-3)
+    )
+    assert slow.case_id == fast.case_id
+
+
+def test_strain_and_stroke_give_each_other():
+    assert pressed(strain=0.5).loading.stroke == pytest.approx(6.25e-3)
+    assert pressed(stroke=6.25e-3).loading.strain == pytest.approx(0.5)
+    assert pressed(strain=0.5).case_id == pressed(stroke=6.25e-3).case_id
+
+
+@pytest.mark.parametrize(
+    "case",
+    [Case.of(), pressed(), pressed(speed=1e-3), pressed(platen="contact", stroke=4e-3)],
+)
+def test_completing_twice_changes_nothing(case):
+    assert case.changed() == case
+    again = Case.from_json(case.to_json())
+    assert again == case
+    assert again.case_id == case.case_id
+    assert pickle.loads(pickle.dumps(case)) == case
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: pressed(platen="none"), "contact"),
+        (lambda: pressed(strain=0.5, stroke=5e-3), "give one of them"),
+        (lambda: pressed(stroke=12.5e-3), "below the height"),
+        (lambda: pressed(quasi_static=False), "a speed if quasi_static is false"),
+        (lambda: Case.of(loading=dict(release_time=0.3)), "up to the duration, 0.2 s"),
+        (lambda: Case.of(solver=dict(integrator="static")), "backward_euler"),
+    ],
+)
+def test_refused(make, message):
+    with pytest.raises(RefusedError, match=message):
+        make()
+
+
+def test_a_fall_sets_the_speed():
+    """v^2 = 2 g h: 1 m gives 4.43 m/s; the height is another word for the speed in an id."""
+    fallen = Case.of(loading=dict(striker_mass=0.1, drop_height=1.0))
+    assert fallen.loading.striker_speed == pytest.approx(4.4287, abs=1e-4)
+    assert fallen.loading.energy == pytest.approx(0.1 * 9.80665)
+    struck = Case.of(loading=dict(striker_mass=0.1, striker_speed=fallen.loading.striker_speed))
+    assert struck.loading.drop_height == pytest.approx(1.0)
+    assert fallen.case_id == struck.case_id
+
+
+def test_a_fall_beside_another_speed_is_refused(refused):
+    text = '[loading]\ndrop_height = "1 ft"\n'
+    speed, energy = f'{text}striker_speed = "1 m/s"', f'{text}energy = "1 J"'
+    assert refused(speed, 'loading.drop_height = "1 ft"', "0.1673 ft", "one of them")
+    assert refused(energy, 'loading.energy = "1 J"', "0.1495 J", "one of them")
+    wrong = 'loading.drop_hight = "1 ft"'
+    assert refused('[loading]\ndrop_hight = "1 ft"', wrong, "loading.drop_height")
+
+
+def test_speed_and_energy_follow_from_one_another():
+    by_speed = dict(striker_mass=0.1, striker_speed=2.0)
+    by_energy = dict(striker_mass=0.1, energy=0.2)
+    both = dict(striker_mass=0.1, energy=0.2, striker_speed=2.0)
+    assert len({Case.of(loading=loading).case_id for loading in (by_speed, by_energy, both)}) == 1
+    with pytest.raises(RefusedError, match=r"loading\.energy = 0\.3; allowed: 0\.2 J"):
+        Case.of(loading=dict(striker_mass=0.1, striker_speed=2.0, energy=0.3))
+
+
+@pytest.mark.parametrize(
+    ("loading", "solver", "words"),
+    [
+        ({"platen": "none"}, {}, r'loading\.platen = none; allowed: "contact", "glued" or'),
+        ({}, {"integrator": "static"}, r"solver\.integrator = static; allowed"),
+    ],
+)
+def test_what_does_not_go_with_an_impact_is_refused(loading, solver, words):
+    with pytest.raises(RefusedError, match=words):
+        Case.of(loading=dict(mode="impact", **loading), solver=solver)
+
+
+ENDLESS = [
+    ({"mode": "force"}, 'loading.mode = force; allowed: "displacement"'),
+    ({"striker_speed": 1.0}, 'loading.mode = impact; allowed: "displacement"'),
+    ({"strain": 0.5, "platen": "glued"}, 'loading.platen = glued; allowed: "none"'),
+    ({"strain": 0.5, "speed": 0.1}, "loading.quasi_static = False; allowed: true"),
+]
+
+
+@pytest.mark.parametrize(("loading", "words"), ENDLESS)
+def test_what_an_endless_lattice_cannot_be_loaded_by_is_refused(loading, words):
+    with pytest.raises(RefusedError, match=re.escape(words)):
+        Case.of(lattice={"boundary": "periodic"}, loading=loading)
+
+
+def test_mode_of_a_structure_is_its_own(tmp_path):
+    (tmp_path / "square.toml").write_text('[loading]\nmode = "custom"')
+    with pytest.raises(ConfigError, match=r'unless lattice\.kind is "custom"'):
+        load_config(tmp_path / "square.toml")

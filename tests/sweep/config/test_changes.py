@@ -1,0 +1,81 @@
+"""Cases changed to other values: what is replaced, what is computed anew, what stays."""
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.kinds.table import RefusedError
+
+CRUSH, LOSS = dict(loading=dict(strain=0.5)), dict(material=dict(loss=0.4))
+SLICED = dict(lattice=dict(slicer="prusa", pattern="grid", infill=0.2))
+THIN, FOUR, HEAVY = dict(wall_thickness=0.6e-3), dict(cells_x=4, cells_y=4), dict(mass=1e-3)
+LINES = dict(perimeters=1, line_width=0.4e-3)
+DROP = dict(energy=1.0, striker_mass=0.1, duration=0.05)
+
+
+def test_a_change_completes_the_case_anew():
+    case = Case.of(axes={"lattice.cells": 3})
+    pressed = case.changed(loading=dict(mode="displacement", strain=0.5))
+    assert pressed == Case.of(**CRUSH, axes=case.axes)
+    assert pressed.solver != case.solver
+    assert case.changed() == case
+
+
+def test_a_key_of_another_kind_is_refused():
+    with pytest.raises(RefusedError, match="a key of DeadLoad"):
+        Case.of().changed(**CRUSH)
+
+
+@pytest.mark.parametrize(
+    ("given", "change", "same"),
+    [
+        (CRUSH, dict(loading=dict(strain=0.3)), dict(loading=dict(strain=0.3))),
+        (CRUSH, dict(loading=dict(stroke=0.004)), dict(loading=dict(stroke=0.004))),
+        (CRUSH, dict(lattice=dict(height=0.02)), CRUSH | dict(lattice=dict(height=0.02))),
+        (CRUSH | LOSS, dict(lattice=dict(height=0.02)), dict(lattice=dict(height=0.02))),
+        (
+            CRUSH | LOSS,
+            dict(loading=dict(speed=1.0)),
+            dict(loading=dict(strain=0.5, speed=1.0, quasi_static=True)),
+        ),
+        (CRUSH, dict(loading=dict(mode="impact") | DROP), dict(loading=DROP)),
+        (dict(loading=DROP), dict(loading=dict(energy=2.0)), dict(loading=DROP | dict(energy=2.0))),
+        (
+            dict(loading=DROP),
+            dict(loading=dict(striker_speed=3.0)),
+            dict(loading=dict(striker_mass=0.1, striker_speed=3.0, duration=0.05)),
+        ),
+        (CRUSH, dict(material=dict(name="cheetah")), CRUSH | dict(material=dict(name="cheetah"))),
+        (dict(lattice=HEAVY), dict(lattice=THIN), dict(lattice=THIN)),
+        (dict(lattice=THIN), dict(lattice=HEAVY), dict(lattice=HEAVY)),
+        (dict(lattice=HEAVY), dict(lattice=FOUR), dict(lattice=HEAVY | FOUR)),
+        (
+            dict(lattice=HEAVY),
+            dict(material=dict(name="cheetah")),
+            dict(lattice=HEAVY, material=dict(name="cheetah")),
+        ),
+        (
+            dict(lattice=LINES | dict(infill=0.2)),
+            dict(lattice=THIN | FOUR),
+            dict(lattice=LINES | THIN | FOUR),
+        ),
+        (dict(lattice=FOUR), dict(lattice=dict(infill=0.2)), dict(lattice=dict(infill=0.2))),
+        (dict(lattice=FOUR | THIN), SLICED, SLICED),
+        (SLICED, dict(lattice=dict(slicer=None, kind="hex")), dict(lattice=dict(kind="hex"))),
+        (
+            SLICED,
+            dict(lattice=HEAVY),
+            dict(lattice=dict(slicer="prusa", pattern="grid") | HEAVY),
+        ),
+    ],
+)
+def test_what_a_new_value_replaces_is_gone(given, change, same):
+    rest = CRUSH | LOSS if given == CRUSH | LOSS else {}
+    changed, anew = Case.of(**given).changed(**change), Case.of(**rest | same)
+    for table in ("lattice", "material", "loading"):
+        assert getattr(changed, table) == getattr(anew, table)
+
+
+def test_walls_stay_if_their_mass_is_taken_away():
+    heavy = Case.of(lattice=HEAVY)
+    walls = heavy.changed(lattice=dict(mass=None, imperfection=0.02)).lattice
+    assert (walls.mass, walls.wall_thickness) == (None, heavy.lattice.wall_thickness)

@@ -1,0 +1,125 @@
+"""Impacts in steps that are too long are no results, and say which steps would do."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.units import in_si
+from sweep.result import Status
+from sweep.simulation.simulate import simulate
+from sweep.simulation.time_resolution import integrator_share, momentum_share, striker_share
+from tests.support.designs.scenes import is_sound, pressed
+
+CELLS = {"cells_x": 2, "cells_y": 2}
+RIGHT = 69.7  # N, of steps of 2 us by newmark
+AT_ENERGY, AT_MOMENTUM = "time integrator removed", "impulse on the support"
+
+
+def struck(time_step=None, integrator=None, step_error=None, **loading):
+    """A striker of 50 g at 2 m/s on 2 x 2 cells, which throw it back after 12 ms."""
+    impact = {"mode": "impact", "striker_mass": 0.05, "striker_speed": 2.0, "duration": 0.02}
+    solver = {"time_step": time_step, "integrator": integrator, "step_error": step_error}
+    return Case.of(lattice=CELLS, loading=impact | loading, solver=solver)
+
+
+@pytest.mark.parametrize(
+    ("case", "why"),
+    [
+        (struck(0.02, "newmark"), AT_ENERGY),
+        (struck(0.02, "backward_euler"), AT_ENERGY),
+        (struck(5e-3, "backward_euler"), AT_ENERGY),
+        (struck(0.02, platen="contact"), AT_MOMENTUM),
+        (struck(5e-3, platen="contact"), AT_MOMENTUM),
+        (struck(2e-3, step_error=1e-6), AT_MOMENTUM),
+    ],
+    ids=["back at once", "one step", "three steps", "loose", "loose, four", "rows far apart"],
+)
+def test_steps_longer_than_the_contact_are_no_result(case, why):
+    result = simulate(case)
+    assert result.status == result.summary["status"] == Status.UNRESOLVED
+    assert why in result.message
+    assert result.summary["peak_force_N"] < 0.5 * RIGHT
+    assert "try a solver.time_step of 6.25 us" in result.message
+
+
+@pytest.mark.parametrize(("speed", "time_step"), [(0.01, 2e-3), (20.0, 5e-4)])
+def test_a_message_names_steps_that_do(speed, time_step):
+    """A share of the contact of a slow striker, and of the passage of a fast one."""
+    result = simulate(struck(time_step, striker_speed=speed, striker_mass=5e-4))
+    assert result.status == Status.UNRESOLVED
+    words = result.message.split("time_step of ")[1].split()
+    step = in_si(" ".join(words[:2]), "s")
+    finer = simulate(struck(step, striker_speed=speed, striker_mass=5e-4))
+    assert finer.status == Status.CONVERGED
+    assert is_sound(finer)
+
+
+def test_a_short_run_is_not_one_of_long_steps():
+    result = simulate(struck(duration=2e-3))
+    assert result.status == Status.STOPPED
+    assert "the striker still moves down" in result.message
+
+
+@pytest.mark.parametrize(
+    ("time_step", "integrator", "share", "error"),
+    [
+        (1e-4, "backward_euler", (0.05, 0.2), (0.1, 0.2)),
+        (1e-5, "backward_euler", (0.01, 0.03), (0.0, 0.03)),
+        (1e-4, "bdf2", (0.02, 0.08), (0.03, 0.1)),
+        (1e-5, "bdf2", (0.0, 0.003), (0.0, 0.005)),
+    ],
+)
+def test_what_the_integrator_takes_is_a_measure_of_the_error(time_step, integrator, share, error):
+    result = simulate(struck(time_step, integrator))
+    assert result.status == Status.CONVERGED
+    assert share[0] <= result.summary["integrator_share"] < share[1]
+    assert error[0] <= 1.0 - result.summary["peak_force_N"] / RIGHT < error[1]
+
+
+def test_what_the_integrator_takes_from_vibrations_is_no_error_of_the_striker():
+    """Nothing else damps them; with an eighth of the steps the share is below 0.1 %."""
+    case = Case.of(loading={"mode": "impact"}, damping={"model": "none"})
+    shorter = {"integrator": "newmark", "time_step": case.solver.time_step / 8}
+    usual, fine = (simulate(each) for each in (case, case.changed(solver=shorter)))
+    assert usual.status == fine.status == Status.CONVERGED
+    assert usual.summary["integrator_share"] > 0.2 > 0.001 > fine.summary["integrator_share"]
+    for name in ("peak_force_N", "peak_strain"):
+        assert usual.summary[name] == pytest.approx(fine.summary[name], rel=0.02)
+
+
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_the_support_bears_what_striker_and_row_bring(platen):
+    """The glued row has no small part of the momentum of so light a striker."""
+    case = struck(platen=platen, striker_mass=5e-4, striker_speed=3.0, time_step=2e-6)
+    result = simulate(case)
+    assert momentum_share(case.loading, result.history, 1e-3 * result.summary["mass_g"]) < 0.01
+
+
+def half_wave(rows, share=1.0):
+    """A striker of 50 g at 2 m/s on a spring without mass, in ``rows``; share: of its force."""
+    time = np.linspace(0.0, 1.0, rows)
+    speed = 2.0 * np.cos(np.pi * time)
+    return {
+        "time_s": time,
+        "striker_speed_m_per_s": speed,
+        "reaction_bottom_N": share * 0.1 * np.pi * np.sin(np.pi * time),
+        "work_in_J": np.full(rows, 0.1),
+        "kinetic_J": 0.025 * speed**2,
+        "dissipated_integrator_J": 0.03 * np.sin(np.pi * time),
+    }
+
+
+def test_shares_of_a_half_wave():
+    loading = struck().loading
+    assert momentum_share(loading, half_wave(1001), 0.0) == pytest.approx(0.0, abs=1e-5)
+    assert momentum_share(loading, half_wave(1001, 0.9), 0.0) == pytest.approx(0.2, rel=1e-4)
+    assert momentum_share(loading, half_wave(2), 0.0) == pytest.approx(2.0)
+    assert integrator_share(loading, half_wave(1001)) == pytest.approx(0.3)
+    assert striker_share(half_wave(1001)) == pytest.approx(np.pi**2 / 2000, rel=1e-5)
+    swings = half_wave(1001, 0.9)
+    swings["kinetic_J"] = swings["kinetic_J"] + 0.1
+    assert momentum_share(loading, swings, 5e-4) == pytest.approx(0.1, rel=1e-3)
+
+
+def test_static_steps_have_no_share():
+    assert np.isnan(simulate(pressed(2, 0.1, 5)).summary["integrator_share"])
