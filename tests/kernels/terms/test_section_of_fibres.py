@@ -110,7 +110,7 @@ def test_the_potential_of_a_section_is_stored_or_dissipated(hardening):
 
 @pytest.mark.parametrize("name", ["ninjaflex", "cheetah"])
 def test_more_fibres_find_the_moment_of_a_rubber(name):
-    """Against 15; three are those of "section"."""
+    """Against 15; five are those of "section"."""
     curvatures = np.array([0.1, 0.3, 0.6])
 
     def moments(**keys):
@@ -119,7 +119,7 @@ def test_more_fibres_find_the_moment_of_a_rubber(name):
 
     fine = moments(bend="fibres", fibres=15)
     off = [np.abs(moments(**keys) / fine - 1.0).max() for keys in (
-        {"bend": "section"}, {"bend": "fibres", "fibres": 5}, {"bend": "fibres", "fibres": 9},
+        {"bend": "fibres", "fibres": 3}, {"bend": "section"}, {"bend": "fibres", "fibres": 9},
     )]  # fmt: skip
     assert off[0] < 0.05
     assert off[2] < off[1] < off[0]

@@ -109,19 +109,20 @@ def _through_sections(turn, strain, bend):
     theta = np.einsum("pik,ik->pk", rows, turn)
     curve = law.curve.relaxing.elastic.curve
     middle, stress = _curve(curve, strain)
-    energy, by_strain, by_theta = -4.0 * middle, -4.0 * stress, np.zeros_like(theta)
+    energy, by_strain = -law.middle * middle, -law.middle * stress
+    by_theta = np.zeros_like(theta)
     for p in range(2):
         q, c = theta[p] ** 2, law.bound
         beyond = np.maximum(np.abs(theta[p]) - TOUCHING, 0.0)
         energy += law.stop * beyond**3 / (3.0 * TOUCHING) - law.radial * q**2 / (1.0 + c * q)
         by_theta[p] += law.stop * np.sign(theta[p]) * beyond**2 / TOUCHING
         by_theta[p] -= law.radial * theta[p] * q * (4.0 + 2.0 * c * q) / (1.0 + c * q) ** 2
-        for side in (1.0, -1.0):
-            bent, slope = _fibre(m, stretched**m + m * side * theta[p])
+        for out, weight in zip(law.place, law.weight, strict=True):
+            bent, slope = _fibre(m, stretched**m + m * out * theta[p])
             value, pulled = _curve(curve, bent - 1.0)
-            energy += value
-            by_strain += pulled * slope * m * stretched ** (m - 1.0)
-            by_theta[p] += side * m * pulled * slope
+            energy += weight * value
+            by_strain += weight * pulled * slope * m * stretched ** (m - 1.0)
+            by_theta[p] += weight * out * m * pulled * slope
     sheared = bend.shear * turn.sum(axis=0)
     moments = bend.volume * np.einsum("pik,pk->ik", rows, by_theta) + sheared
     energy = bend.volume * energy + 0.5 * sheared * turn.sum(axis=0)
