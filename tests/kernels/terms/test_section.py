@@ -228,7 +228,7 @@ def test_a_crush_through_the_curve():
         assert unbalanced(result.history) < 1e-6
     early, late = (at(through, strain) / at(linear, strain) for strain in (0.051, 0.501))
     assert early == pytest.approx(1.076, abs=0.005)
-    assert late == pytest.approx(1.035, abs=0.005)
+    assert late == pytest.approx(1.043, abs=0.005)
 
 
 def test_section_bending_of_linear_walls():
