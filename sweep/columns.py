@@ -217,11 +217,13 @@ COLUMNS: dict[str, Column] = {
     ),
     "lowest_densification_strain": Column(
         "1",
-        "least strain of a maximum of the efficiency within 2 % of the greatest; NaN as for "
-        "densification_strain",
+        "least strain of a maximum of the efficiency within 2 % of the greatest; NaN if there is "
+        "none before the end of the crush",
     ),
     "highest_densification_strain": Column(
-        "1", "the greatest such strain; beyond lowest_densification_strain if there are two maxima"
+        "1",
+        "the greatest such strain; beyond lowest_densification_strain if there are two maxima, NaN "
+        "as for densification_strain",
     ),
     "lowest_absorbed_energy_at_densification_J": Column(
         "J", "least work done until a maximum of the efficiency within 2 % of the greatest"

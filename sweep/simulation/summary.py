@@ -270,14 +270,16 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
     packed, share = packed_row(gained), weights(strain, gained)
     row = len(strain) - 1 if packed is None else packed
     maxima = near_maxima(gained)
-    ends = min(maxima, default=row), max(maxima, default=row)
+    ends = [strain[end] for end in (min(maxima, default=row), max(maxima, default=row))]
+    if packed is None:  # the efficiency is greatest at the end
+        ends = [ends[0] if maxima else np.nan, np.nan]
     energies = loading["work_in_J"][[*maxima, row]]
     values = (
         plateau_stress(strain, density, row),
         np.nan if packed is None else strain[row],
         share @ strain,
         span(strain, gained),
-        *(np.nan if packed is None else strain[end] for end in ends),
+        *ends,
         *(energies.min(), energies.max()),
         gained[row],
         *figures(strain, stress, density).values(),

@@ -248,11 +248,12 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
     unsure = _unsure(rows).map({True: "~", False: ""})
     low, high = (rows[name].map(percent) for name in end_columns("densification_strain"))
     strain = (rows["packing_strain"].map(percent) + unsure).where(low == high, low + "-" + high)
+    end = "> " + rows["peak_strain"].map(percent)
+    earlier = rows["lowest_densification_strain"] > 0.0
+    end = (low + " or " + end).where(earlier, end)
     second = rows["second_cycle_share"]
     return {
-        "dens. %": strain.where(
-            densified, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
-        ),
+        "dens. %": strain.where(densified, end),
         "returned %": rows["returned_share"].map(percent),
     } | ({"cycle 2 %": second.map(percent)} if second.notna().any() else {})
 
