@@ -67,7 +67,7 @@ def scene_label(rows: DataFrame) -> str:
     elif first["loading_mode"] == "impact":
         struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
         energy = energy_text(float(first["impact_energy_J"]))
-        falls = " under gravity" if first["gravity"] else ""
+        falls = " under gravity" if first["gravity"] == 1.0 else ""
         words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy}){falls}"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {text_in(strains[0], '%', 6)}"]
