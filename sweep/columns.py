@@ -29,6 +29,16 @@ COLUMNS: dict[str, Column] = {
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),
+    "retry": Column(
+        "",
+        "what was changed in the retry that has these numbers, as the case as asked for stopped; "
+        "empty if nothing was",
+    ),
+    "loaded": Column(
+        "1",
+        "1 if the first loading was completed, with energies that balance: full stroke, release, "
+        "or the striker's stop; what it determines is ranked, whatever stopped the case later",
+    ),
     "lattice_kind": Column("", "family of the infill pattern, or pattern of the slicer"),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
@@ -211,6 +221,20 @@ COLUMNS: dict[str, Column] = {
         "from the first to the last strain with an efficiency within 2 % of the greatest; if it is "
         "long, densification_strain is uncertain; NaN for dead loads",
     ),
+    "lowest_densification_strain": Column(
+        "1",
+        "least strain of a maximum of the efficiency within 2 % of the greatest; NaN as for "
+        "densification_strain",
+    ),
+    "highest_densification_strain": Column(
+        "1", "the greatest such strain; beyond lowest_densification_strain if there are two maxima"
+    ),
+    "lowest_absorbed_energy_at_densification_J": Column(
+        "J", "least work done until a maximum of the efficiency within 2 % of the greatest"
+    ),
+    "highest_absorbed_energy_at_densification_J": Column(
+        "J", "the greatest such work; with two maxima, ranks treat the energy as this range"
+    ),
     "efficiency": Column(
         "1", "greatest ratio of work per volume to peak stress so far; NaN for dead loads", "more"
     ),
@@ -364,6 +388,10 @@ LOAD_COLUMNS: dict[str, Column] = {
 """Further columns of the history of a custom structure in statics; the second only along arcs."""
 
 RANKING_COLUMNS: dict[str, Column] = {
+    "best_place": Column("1", "best place that a case which stopped could have had"),
+    "least_place": Column(
+        "1", "place that a case which stopped has at least; NaN if nothing is certain"
+    ),
     "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
@@ -411,6 +439,7 @@ CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
 """Units, better values and meaning of the columns of a cycle."""
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
+ENDS = re.compile(r"^(lowest|highest)_(.+)")
 UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|[JNgms])$")
 
 
@@ -441,6 +470,11 @@ def correction_column(name: str) -> str:
     return f"correction_{name}"
 
 
+def end_columns(name: str) -> tuple[str, str]:
+    """Names of the columns of the ends of the range that a value stands for."""
+    return f"lowest_{name}", f"highest_{name}"
+
+
 def describe_array(group: str, name: str) -> Column:
     """Meaning of an array of curves or shapes."""
     return describe_history(name) if group == "/histories" else FRAME_COLUMNS[name]
@@ -457,7 +491,7 @@ def describe_history(name: str) -> Column:
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`."""
     names = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
-    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION)
+    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION, ENDS)
     return not (name in names or any(pattern.fullmatch(name) for pattern in derived))
 
 
@@ -472,6 +506,9 @@ def describe_column(name: str) -> Column:
     if match := CORRECTION.fullmatch(name):
         meaning = f"estimated limit of fine meshes and short steps - {match[1]}"
         return Column(describe_column(match[1]).units, meaning)
+    if match := ENDS.fullmatch(name):
+        meaning = f"{match[1]} {match[2]} at maxima of the efficiency within 2 % of one another"
+        return Column(describe_column(match[2]).units, meaning)
     if match := ABSORBED_AT.fullmatch(name):
         meaning = f"work done until a force of {match[1]} N is exceeded; all of it if it never is"
         return Column("J", meaning, "more")

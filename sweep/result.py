@@ -54,6 +54,7 @@ class Result:
     lower and the upper platen; NaN: no platen; -inf: an endless lattice), `edges (m, 2)`,
     `edge_thickness_m (m,)`. Of a crush along the cells, `position_m (f, n, 3)`, with z upwards, and
     `quads (m, 4)`, `quad_thickness_m (m,)` in place of edges.
+    curable: True if the case stopped where other steps or another imperfection may help.
     """
 
     case: Case
@@ -62,6 +63,7 @@ class Result:
     summary: Mapping[str, float | int | str] = field(default_factory=dict)
     history: Mapping[str, np.ndarray] = field(default_factory=dict)
     frames: Mapping[str, np.ndarray] = field(default_factory=dict)
+    curable: bool = False
 
     @property
     def case_id(self) -> str:
@@ -108,4 +110,5 @@ def failed_result(case: Case, status: Status, message: str) -> Result:
     for number in range(1, cycles + 1) if cycles > 1 else ():
         measures |= dict.fromkeys(cycle_columns(number), nan)
     counts = {"touched": 0, "max_crossings": 0, "steps": 0, "newton_iterations": 0}
-    return Result(case, status, message, measures | counts | design_columns(case))
+    values = {**measures, **counts, "loaded": 0, "retry": "", **design_columns(case)}
+    return Result(case, status, message, values)

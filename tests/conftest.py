@@ -25,7 +25,7 @@ def config(tmp_path, monkeypatch):
     """A sweep of three cases, of which one fails, on tests/support/results/standin.py."""
     from tests.support.results.standin import simulate
 
-    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "trial.toml"
     path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))

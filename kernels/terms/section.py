@@ -6,23 +6,34 @@ distance y when the wall is bent. With its stretch a, and lambda = 1 + e of the 
 
     dy/dz = a^(-nu'),   a = lambda + kappa y.
 
-Hence, with m = 1 + nu', a = (lambda^m + m kappa z)^(1/m), which is taken to third order:
-
-    a = lambda (1 + zeta + (1 - m)/2 zeta^2 + (1 - m)(1 - 2 m)/6 zeta^3),  zeta = kappa z / lambda^m
+Hence, with m = 1 + nu', a^m = q = lambda^m + m kappa z; for m = 2, a sheet that keeps its volume,
+this is the exact bending of a block (Rivlin 1949). Below `CRUSHED`, where measured curves end, a is
+continued to second order in q.
 
 Fibres are at Gauss points through the thickness, in pairs at +-z and one in the middle, which
 belongs to stretching. The potential of a section is that of its pairs, over their part of the
 volume,
 
-    w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - R(theta),
-    R = 2/3 (1 - nu'^2) Y' theta^4 / (1 + 5/3 theta^2).
+    w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - R(theta) + S(theta),
+    R = 2/3 (1 - nu'^2) Y' theta^4 / (1 + c theta^2).
 
 theta = kappa z is the bending of the outer of three fibres, z = (3/20)^(1/2) t. A pair is p times
 as far out and has v times its weight; of three fibres p = v = 1. R is the energy of the radial
 stress Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent line, (1 - nu'^2) Y' t^5 kappa^4
-/ 240 per length and depth, here bounded for large bending. It stays elastic where fibres relax.
+/ 240 per length and depth. With a curve it is that of the stress of fibres, for which Y' theta / (1
++ c theta^2)^(1/2) stands: c follows from the curve (`sweep.scene.material`).
+
+S stops bending where the faces of a wall meet. A wall bent onto itself turns by 2 / t per length
+(`contact_near_joints`), which is theta = `TOUCHING`. Beyond it,
+
+    S = Y' (|theta| - TOUCHING)^3 / (3 TOUCHING)
+
+whose tangent reaches that of linear bending, 2 Y', at twice this curvature. The moment of fibres
+alone has a maximum near there, as the moment of a bent block has whose material softens; without a
+stop a wall would fold in one element, however short. R and S stay elastic where fibres relax.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -30,59 +41,94 @@ import numpy as np
 from kernels.compile.jit import jit, jit_exact
 from kernels.laws.law import commit_point
 
-LEAST = 0.05  # stretch of the centre line up to which bending takes infinite energy, as lambda^(-m)
-# grows without bound there; the barrier below `elastic.GUARD` keeps walls longer
+LEAST = 0.05  # stretch of the centre line up to which bending takes infinite energy: second
+# derivatives grow without bound at 0, and the barrier below `elastic.GUARD` keeps walls longer
+TOUCHING = 2.0 * math.sqrt(3.0 / 20.0)  # theta of kappa t = 2
+CRUSHED = 0.3  # stretch of a fibre below which a is continued
 
 
 @jit
-def fibre(m, stretched, r, theta):
-    """Return the stretch a and its derivatives in e, theta; ee, e theta, theta theta.
-
-    m: of the module's formula. stretched: lambda. r: lambda^(-m). theta: kappa z of this fibre.
-    """
-    zeta = theta * r
-    c2, c3 = 0.5 * (1.0 - m), (1.0 - m) * (1.0 - 2.0 * m) / 6.0
-    f = 1.0 + zeta * (1.0 + zeta * (c2 + zeta * c3))
-    slope = 1.0 + zeta * (2.0 * c2 + zeta * 3.0 * c3)
-    second = 2.0 * c2 + 6.0 * c3 * zeta
-    mixed = (1.0 - m) * slope - m * zeta * second
-    return (
-        stretched * f, f - m * zeta * slope, stretched * r * slope,
-        -m * zeta / stretched * mixed, r * mixed, stretched * r * r * second,
-    )  # fmt: skip
+def crushed(power, q):
+    """Return `fibre` below `CRUSHED`."""
+    least = CRUSHED ** (1.0 / power)
+    slope, beyond = power * CRUSHED / least, q - least
+    second = slope * (power - 1.0) / least
+    return CRUSHED + beyond * (slope + 0.5 * beyond * second), slope + beyond * second, second
 
 
 @jit
-def radial(theta):
-    """Return theta^4 / (1 + 5/3 theta^2) and its two derivatives."""
-    c, q = 5.0 / 3.0, theta * theta
-    by = 1.0 / (1.0 + c * q)
-    in_q = q * (2.0 + c * q) * by * by
+def fibre(power, q):
+    """Return the stretch a of a fibre and its two derivatives in q; power: 1 / m."""
+    a = q**power if q > 0.0 else 0.0
+    if a < CRUSHED:
+        return crushed(power, q)
+    by = 1.0 / q
+    slope = power * a * by
+    return a, slope, slope * (power - 1.0) * by
+
+
+@jit
+def radial(bound, theta):
+    """Return theta^4 / (1 + c theta^2) and its two derivatives; bound: c."""
+    q = theta * theta
+    by = 1.0 / (1.0 + bound * q)
+    in_q = q * (2.0 + bound * q) * by * by
     return q * q * by, 2.0 * theta * in_q, 2.0 * in_q + 8.0 * q * by * by * by
 
 
 @jit
-def bent(law, stretched, r, theta, memory, point):
+def stop(theta):
+    """Return S / Y' and its two derivatives."""
+    beyond = abs(theta) - TOUCHING
+    if beyond <= 0.0:
+        return 0.0, 0.0, 0.0
+    slope = beyond * beyond / TOUCHING
+    return beyond * slope / 3.0, math.copysign(slope, theta), 2.0 * beyond / TOUCHING
+
+
+@jit
+def turned(law, theta):
+    """Return S - R and its two derivatives, J/m^3."""
+    value, slope, second = radial(law.bound, theta)
+    touching, push, stiff = stop(theta)
+    return (
+        law.stop * touching - law.radial * value,
+        law.stop * push - law.radial * slope,
+        law.stop * stiff - law.radial * second,
+    )
+
+
+@jit
+def middle(m, stretched):
+    """Return lambda^m and its two derivatives in e."""
+    power, by = stretched**m, 1.0 / stretched
+    slope = m * power * by
+    return power, slope, (m - 1.0) * slope * by
+
+
+@jit
+def bent(law, centre, theta, memory, point):
     """Return the part of w that is of bent fibres: w without its terms W(e), J/m^3.
 
     Its value is followed by the first derivatives in e and theta, and the second ones in e e, e
-    theta and theta theta. point: material point of the first fibre.
+    theta and theta theta. centre: of `middle`. point: material point of the first fibre.
     """
-    value, slope, second = radial(theta)
-    energy, by_e, by_theta = -law.radial * value, 0.0, -law.radial * slope
-    ee, et, tt = 0.0, 0.0, -law.radial * second
+    centre_q, q_e, q_ee = centre
+    energy, by_theta, tt = turned(law, theta)
+    by_q, qq, et, power = 0.0, 0.0, 0.0, 1.0 / law.m
     for k in range(law.place.size):
-        place, weight = law.place[k], law.weight[k]
-        a, a_e, a_t, a_ee, a_et, a_tt = fibre(law.m, stretched, r, place * theta)
+        out, weight = law.m * law.place[k], law.weight[k]
+        a, a_q, a_qq = fibre(power, centre_q + out * theta)
         value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
-        slope, second, a_t = weight * slope, weight * second, place * a_t
+        second = weight * (second * a_q * a_q + slope * a_qq)
+        slope *= weight * a_q
         energy += weight * value
-        by_e += slope * a_e
-        by_theta += slope * a_t
-        ee += second * a_e * a_e + slope * a_ee
-        et += second * a_e * a_t + slope * (place * a_et)
-        tt += second * a_t * a_t + slope * (place * place * a_tt)
-    return energy, by_e, by_theta, ee, et, tt
+        by_q += slope
+        by_theta += out * slope
+        qq += second
+        et += out * second
+        tt += out * out * second
+    return energy, q_e * by_q, by_theta, q_e * q_e * qq + q_ee * by_q, q_e * et, tt
 
 
 @jit
@@ -95,9 +141,9 @@ def respond(law, strain, memory, point):
     e, one, two = strain
     fibres = law.place.size
     value, slope, second = law.curve.respond(e, memory, point + 2 * fibres)
-    stretched, r = 1.0 + e, (1.0 + e) ** (-law.m)
-    w1, e1, t1, ee1, et1, tt1 = bent(law, stretched, r, one, memory, point)
-    w2, e2, t2, ee2, et2, tt2 = bent(law, stretched, r, two, memory, point + fibres)
+    centre = middle(law.m, 1.0 + e)
+    w1, e1, t1, ee1, et1, tt1 = bent(law, centre, one, memory, point)
+    w2, e2, t2, ee2, et2, tt2 = bent(law, centre, two, memory, point + fibres)
     return (
         w1 + w2 - law.middle * value,
         (e1 + e2 - law.middle * slope, t1, t2),
@@ -108,7 +154,10 @@ def respond(law, strain, memory, point):
 @jit
 def elastic(law):
     """Return the section with the elastic law of fibres alone, which is compiled without memory."""
-    return BentSection(law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.radial)
+    return BentSection(
+        law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.radial, law.bound,
+        law.stop,
+    )  # fmt: skip
 
 
 @jit
@@ -130,14 +179,14 @@ def commit(law, strain, memory, point):
 
     Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation.
     """
-    e, middle = strain[0], point + 2 * law.place.size
-    released, dissipated = commit_point(law.curve, e, memory, middle)
+    e, last = strain[0], point + 2 * law.place.size
+    released, dissipated = commit_point(law.curve, e, memory, last)
     released, dissipated = -law.middle * released, -law.middle * dissipated
-    r = (1.0 + e) ** (-law.m)
+    centre_q = (1.0 + e) ** law.m
     for section in range(2):
         for k in range(law.place.size):
             theta = law.place[k] * (strain[2] if section == 1 else strain[1])
-            a = fibre(law.m, 1.0 + e, r, theta)[0]
+            a = fibre(1.0 / law.m, centre_q + law.m * theta)[0]
             release, dissipation = commit_point(law.curve, a - 1.0, memory, point)
             released += law.weight[k] * release
             dissipated += law.weight[k] * dissipation
@@ -148,6 +197,7 @@ def commit(law, strain, memory, point):
 class BentSection(NamedTuple):
     """curve: law of a fibre. place, weight (f,): +-p and v of the fibres of a section but the
     middle. middle: sum of v over both sections. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa.
+    bound: c. stop: Y', Pa; 0: without S.
     """
 
     curve: object
@@ -156,6 +206,8 @@ class BentSection(NamedTuple):
     middle: float
     m: float
     radial: float
+    bound: float
+    stop: float
 
     elastic = elastic
     points = points

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from dataclasses import replace
+from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -132,7 +133,9 @@ def _show_best(search: Search) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.ranking.spread import spreads
+    from sweep.report.tables.design_text import named_case
     from sweep.report.tables.search_sheets import finalist_sheet
+    from sweep.report.tables.unfinished_notes import unfinished_notes
     from sweep.running.beside.run_beside import file_beside
     from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
@@ -162,6 +165,7 @@ def _show_best(search: Search) -> int:
     corners = with_allowed(beside, read_summary(beside), question)
     (spread,) = spreads(ranking, corners, ids, question)
     print_sheets([finalist_sheet(spread, summary)])
+    say_all(unfinished_notes(ranking.unfinished, partial(named_case, among=summary)))
     return spread.failed
 
 

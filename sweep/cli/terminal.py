@@ -66,6 +66,9 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     if ranking.pointed:
         some = f"In {ranking.pointed} of {ranking.cases} cases some walls end in points"
         yield f"{some}, not in solid joints: see solid_joint_share."
+    if ranking.unloaded:
+        some = f"{ranking.unloaded} of {ranking.cases} cases stopped after the loading"
+        yield f"{some}, which ranks them: crumple status {file} says why"
     if ranking.failed:
         yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
 

@@ -107,9 +107,9 @@ def rank(arguments: Namespace) -> int:
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = answer(summary, question)
         if arguments.csv:
-            say(ranking.table.to_csv(index=False), end="")
+            say(ranking.with_unfinished.to_csv(index=False), end="")
         elif arguments.json:
-            say(ranking.table.to_json(orient="records", indent=2, double_precision=15))
+            say(ranking.with_unfinished.to_json(orient="records", indent=2, double_precision=15))
         else:
             say(markdown(ranking_sheets(ranking, summary)), end="")
         _warn(arguments.file, ranking, summary)

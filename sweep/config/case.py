@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from sweep.config.changes import merged
+from sweep.config.faults import MisfitError
 from sweep.config.keys import table_keys
 from sweep.config.kinds import contact as contacts
 from sweep.config.kinds import damping as dampings
@@ -112,18 +113,18 @@ class Case(BaseModel):
 
     @staticmethod
     def from_json(text: str | bytes) -> "Case":
-        """The case of `to_json`, for which no file is read; `ValueError` if the text is no case."""
+        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case."""
         try:
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
             place = ".".join(map(str, first["loc"])) or "the text"
-            raise ValueError(f"{place}: {first['msg']}") from None
+            raise MisfitError(f"{place}: {first['msg']}") from None
         drawn = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
         for line in faults(drawn) if drawn else ():
-            raise ValueError(f"lattice.structure: {line}")
+            raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
-            raise ValueError("its numbers do not follow from one another")
+            raise MisfitError("its numbers do not follow from one another")
         return case
 
 

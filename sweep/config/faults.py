@@ -13,7 +13,15 @@ class Fault(NamedTuple):
     line: str
 
 
-class ConfigError(ValueError):
+class MisfitError(ValueError):
+    """What cannot be used; the text says why, in our own words.
+
+    Only this class is caught to be shown, as the text of a library's `ValueError` tells users
+    nothing, and would be blamed on the key that is being read.
+    """
+
+
+class ConfigError(MisfitError):
     """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
 
     def __init__(self, faults: list[Fault]) -> None:

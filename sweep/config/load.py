@@ -7,10 +7,11 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, MisfitError
 from sweep.config.grid import Config, expanded
 from sweep.config.reading.examples import examples, find_config
 from sweep.config.reading.reader import Reader, in_words, one_line
+from sweep.config.reading.text import text_of
 from sweep.config.units import in_si
 
 
@@ -37,15 +38,15 @@ def load_config(path: str | PathLike[str]) -> Config:
 
 def _document(path: Path) -> dict[str, Any]:
     """The TOML of a file."""
-    text = ""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = text_of(path, f"a TOML file, or an example: {', '.join(examples())}")
         return tomllib.loads(text)
-    except OSError as error:
-        needed = f"a TOML file, or an example: {', '.join(examples())}"
-        wrong = f"cannot be read ({error.strerror}); needed: {needed}"
-    except (ValueError, RecursionError) as error:
+    except MisfitError as error:
+        wrong = str(error)
+    except tomllib.TOMLDecodeError as error:
         wrong = f"not TOML ({error}){_quoted_line(str(error), text)}"
+    except (ValueError, RecursionError):
+        wrong = "not TOML (a number too long, or nested too deeply)"
     raise ConfigError([Fault("path", f"{path}: {wrong}")])
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from math import isfinite, pi
 from typing import NamedTuple
 
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, MisfitError
 from sweep.config.keys import QUANTITIES
 from sweep.config.reading.reader import in_words
 from sweep.constants import STANDARD_GRAVITY
@@ -71,23 +71,23 @@ _POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)
 
 
 def in_si(text: object, unit: str) -> float:
-    """A number with a unit in the SI unit given, rounded to 15 digits, or ValueError with the
-    reason.
+    """A number with a unit in the SI unit given, rounded to 15 digits, or `MisfitError` with
+    the reason.
     """
     if isinstance(text, bool) or not isinstance(text, str | int | float):
-        raise ValueError("no quantity")
+        raise MisfitError("no quantity")
     match = _NUMBER.fullmatch(str(text).strip())
     if match is None:
-        raise ValueError("not a number with a unit")
+        raise MisfitError("not a number with a unit")
     number, written = match[1], match[2].strip()
     if not written:
-        raise ValueError("a bare number")
+        raise MisfitError("a bare number")
     size, powers = _unit(written)
     if powers != _unit(unit).powers:
-        raise ValueError(f"{in_words(written)} is a unit of another kind")
+        raise MisfitError(f"{in_words(written)} is a unit of another kind")
     value = float(number) * size
     if not isfinite(value):
-        raise ValueError("not finite")
+        raise MisfitError("not finite")
     return float(f"{value:.15g}")
 
 
@@ -95,7 +95,7 @@ def quantity(text: object, unit: str) -> float:
     """As `in_si`, for one value that a user gives; `ConfigError` with a line."""
     try:
         return in_si(text, unit)
-    except ValueError as error:
+    except MisfitError as error:
         line = f"{in_words(text)}: {error}; allowed: {QUANTITIES[unit]}"
         raise ConfigError([Fault(unit, line)]) from None
 
@@ -109,7 +109,7 @@ def _unit(text: str) -> Unit:
             size *= factor.size**exponent
             powers = tuple(p + exponent * q for p, q in zip(powers, factor.powers, strict=True))
     except LookupError:
-        raise ValueError(f"unknown unit {in_words(text)}") from None
+        raise MisfitError(f"unknown unit {in_words(text)}") from None
     return Unit(size, powers)
 
 

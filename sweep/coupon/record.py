@@ -5,14 +5,15 @@ and others, which are not read. Nominal strain and stress, positive in tension: 
 pressed, both are negative. Displacements need the gauge length, forces the area of the section.
 """
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.config.faults import MisfitError
 from sweep.config.materials.material_file import SECANT
+from sweep.config.reading.text import rows_of, text_of
 from sweep.constants import MM
 
 Floats = NDArray[np.float64]
@@ -25,7 +26,7 @@ KNOWN = ("time_s", "strain", "displacement_mm", "stress_Pa", "force_N")
 SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
 
-class CouponError(ValueError):
+class CouponError(MisfitError):
     """A record that cannot be used; the text is one sentence with the file and the fault."""
 
 
@@ -56,7 +57,7 @@ def read_coupon(path: Path, gauge: float | None = None, area: float | None = Non
         stress = _measured(columns, "stress_Pa", "force_N", "area", area, 1.0)
         coupon = Coupon(path.stem, time - time[0], strain, stress)
         _check(coupon)
-    except (OSError, ValueError) as error:
+    except MisfitError as error:
         raise CouponError(f"{path}: {error}") from None
     return coupon
 
@@ -65,15 +66,15 @@ def _columns(path: Path) -> dict[str, Floats]:
     """The columns of numbers of a csv file by their names."""
     heads, *rows = _rows(path)
     if twice := [head for head in KNOWN if heads.count(head) > 1]:
-        raise ValueError(f"two columns {twice[0]}; needed: one")
+        raise CouponError(f"two columns {twice[0]}; needed: one")
     if not set(heads) & set(KNOWN):
         needed = "needed: names of columns, such as time_s, strain, stress_Pa"
-        raise ValueError(f"its first row is {', '.join(heads)}; {needed}")
+        raise CouponError(f"its first row is {', '.join(heads)}; {needed}")
     if len(rows) < FEWEST:
-        raise ValueError(f"{len(rows)} rows are too few for a curve; needed: at least {FEWEST}")
+        raise CouponError(f"{len(rows)} rows are too few for a curve; needed: at least {FEWEST}")
     for number, row in enumerate(rows, 1):
         if len(row) != len(heads):
-            raise ValueError(
+            raise CouponError(
                 f"row {number} has {len(row)} values, but there are {len(heads)} heads; needed: "
                 "commas between values alone, and points in numbers (0.1, not 0,1)"
             )
@@ -82,20 +83,17 @@ def _columns(path: Path) -> dict[str, Floats]:
 
 def _rows(path: Path) -> list[list[str]]:
     """The rows of a csv file, without comments and blanks; the first one has the heads."""
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError("not UTF-8 text; needed: saved as csv in UTF-8") from None
+    lines = text_of(path, "a csv file").splitlines()
     lines = [line for line in lines if line.strip() and not line.startswith("#")]
     if not lines:
-        raise ValueError("no rows; needed: columns time_s, strain, stress_Pa")
+        raise CouponError("no rows; needed: columns time_s, strain, stress_Pa")
     for sign, word in SEPARATORS.items():
         if sign in lines[0]:
-            raise ValueError(
+            raise CouponError(
                 f"its columns are separated by {word}; needed: commas between columns, and points "
                 "in numbers"
             )
-    return [[text.strip() for text in row] for row in csv.reader(lines)]
+    return [[text.strip() for text in row] for row in rows_of(lines)]
 
 
 def _numbers(head: str, texts: list[str]) -> Floats:
@@ -106,13 +104,13 @@ def _numbers(head: str, texts: list[str]) -> Floats:
             values.append(float(text))
         except ValueError:
             wrong = f'{head} in row {number} is "{text}", not a number'
-            raise ValueError(f"{wrong}; needed: numbers alone below the heads") from None
+            raise CouponError(f"{wrong}; needed: numbers alone below the heads") from None
     return np.array(values)
 
 
 def _column(columns: dict[str, Floats], name: str) -> Floats:
     if name not in columns:
-        raise ValueError(f"no column {name}; its columns: {_names(columns)}")
+        raise CouponError(f"no column {name}; its columns: {_names(columns)}")
     return columns[name]
 
 
@@ -126,13 +124,13 @@ def _measured(
     """A column, or what was measured over a size of the specimen; ``word``: the option for it."""
     if name in columns:
         if size is not None:
-            raise ValueError(f"--{word} has no effect, as there is a column {name}")
+            raise CouponError(f"--{word} has no effect, as there is a column {name}")
         return columns[name]
     if raw not in columns:
         wrong = f"no column {name}, and no {raw} in its place"
-        raise ValueError(f"{wrong}; its columns: {_names(columns)}; units are those of the names")
+        raise CouponError(f"{wrong}; its columns: {_names(columns)}; units are those of the names")
     if size is None:
-        raise ValueError(f"{raw} in place of {name}: needed: --{word}")
+        raise CouponError(f"{raw} in place of {name}: needed: --{word}")
     return unit * columns[raw] / size
 
 
@@ -140,23 +138,23 @@ def _check(coupon: Coupon) -> None:
     """Refuse what is no test of a coupon, and what has other units than its heads say."""
     time, strain, stress = coupon.time, coupon.strain, coupon.stress
     if not all(np.isfinite(column).all() for column in (time, strain, stress)):
-        raise ValueError("every row must have three finite numbers")
+        raise CouponError("every row must have three finite numbers")
     steps = np.diff(time)
     if (steps <= 0.0).any():
         row = int(np.argmax(steps <= 0.0)) + 2
-        raise ValueError(
+        raise CouponError(
             f"time_s does not increase from row {row - 1} to row {row}: is it rounded?"
         )
     most = np.abs(strain).max()
     if most > MOST_STRAIN:
-        raise ValueError(f"a strain of {most:g}: is it in percent? allowed: up to {MOST_STRAIN:g}")
+        raise CouponError(f"a strain of {most:g}: is it in percent? allowed: up to {MOST_STRAIN:g}")
     if most < SECANT[1]:
         wrong = f"strains up to {most:.3g}; needed: at least {SECANT[1]:g}"
-        raise ValueError(f"{wrong}; is the displacement in mm, and the gauge length right?")
+        raise CouponError(f"{wrong}; is the displacement in mm, and the gauge length right?")
     if strain.min() <= -1.0:
-        raise ValueError("a strain of -1 or less; allowed: above -1")
+        raise CouponError("a strain of -1 or less; allowed: above -1")
     if abs(strain[0]) > OFFSET[0] or abs(stress[0]) > OFFSET[1] * np.abs(stress).max():
-        raise ValueError(
+        raise CouponError(
             f"begins at a strain of {strain[0]:.3g} and {stress[0]:.3g} Pa; needed: a record that "
             "begins unloaded, with both set to zero"
         )
@@ -167,20 +165,20 @@ def _check_modulus(coupon: Coupon) -> None:
     """Refuse a modulus that no plastic has, and say which unit it may be."""
     modulus = coarse_modulus(coupon)
     if modulus == 0.0:
-        raise ValueError("the stress does not rise between 1 and 4 % strain; needed: that it does")
+        raise CouponError("the stress does not rise between 1 and 4 % strain; needed: that it does")
     if modulus < 0.0:
-        raise ValueError(
+        raise CouponError(
             "stress and strain have opposite signs between 1 and 4 %; allowed: both positive in "
             "tension, both negative in compression"
         )
     wrong = f"a modulus of {modulus:.3g} Pa between 1 and 4 % strain"
     if modulus < SOFTEST:
-        raise ValueError(
+        raise CouponError(
             f"{wrong}: is stress_Pa in MPa or kPa (needed: Pa), a force (needed: a column force_N "
             "and --area), or the strain in percent (needed: 0.1 for 10 %)?"
         )
     if modulus > STIFFEST:
-        raise ValueError(f"{wrong}: are stress_Pa or the size of the specimen in another unit?")
+        raise CouponError(f"{wrong}: are stress_Pa or the size of the specimen in another unit?")
 
 
 def coarse_modulus(coupon: Coupon) -> float:

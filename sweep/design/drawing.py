@@ -158,10 +158,15 @@ def with_outline(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
         ends = segments[..., axis] == side
         along = np.append(segments[ends][:, 1 - axis], [0.0, box[1 - axis]])
         at, _ = clusters(along, tolerance)
-        line = np.full((len(at), 2), side)
-        line[:, 1 - axis] = at
-        outline.append(np.stack([line[:-1], line[1:]], axis=1))
+        outline.append(pieces(at, side, axis))
     return np.concatenate([segments, *outline])
+
+
+def pieces(at: Floats, side: float, axis: int) -> Floats:
+    """Segments between places ``at`` (k,) on the line x (axis 0) or y = ``side``, (k - 1, 2, 2)."""
+    line = np.full((len(at), 2), side)
+    line[:, 1 - axis] = at
+    return np.stack([line[:-1], line[1:]], axis=1)
 
 
 def clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:

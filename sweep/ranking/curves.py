@@ -13,7 +13,6 @@ import numpy as np
 
 from sweep.ranking.merit import AT_ALLOWED, panel_in
 from sweep.ranking.question import in_si
-from sweep.result import Status
 from sweep.simulation.until import absorbed_until
 
 if TYPE_CHECKING:
@@ -35,8 +34,8 @@ def with_allowed(
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
     question : of the ranking. The columns are needed if it has an allowed force; NaN in rows that
-    are no finished crush. cache : values of earlier calls, which are not read again; new values
-    are added.
+    are no crush or have no curve. Of a crush that stopped, they are those so far. cache : values
+    of earlier calls, which are not read again; new values are added.
     """
     from sweep.store.read import read_runs
 
@@ -45,7 +44,7 @@ def with_allowed(
     if force is None or (of_panel and panel is None):
         return summary
     limit = in_si(force, "N")
-    crushes = (summary["loading_mode"] == "displacement") & (summary["status"] == Status.CONVERGED)
+    crushes = summary["loading_mode"] == "displacement"
     rows = summary[crushes]
     count = np.ones(len(rows))
     if of_panel and panel is not None:
@@ -65,8 +64,10 @@ def with_allowed(
 def reached(curve: DataFrame, force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
-    curve : the history of the crush. Of several cycles, the first one counts.
+    curve : the history of the crush. Of several cycles, the first one counts. NaN without rows.
     """
+    if curve.empty:
+        return float("nan"), float("nan")
     travel = curve["top_displacement_m"].to_numpy()
     end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
     borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"]).to_numpy()[:end]

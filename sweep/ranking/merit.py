@@ -18,6 +18,7 @@ from sweep.columns import (
     COLUMNS,
     absorbed_energy_column,
     correction_column,
+    end_columns,
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
@@ -50,6 +51,7 @@ AT_DENSIFICATION = (
     "absorbed_energy_at_densification_J",
     "specific_absorption_at_densification_J_per_g",
 )
+UNTIL_PACKED = "absorbed_energy_until_packed_J"
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
 
@@ -70,8 +72,9 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
 
     Other added columns: `passed_on_N`, the greatest force while that energy is absorbed, and
     `panel_force_N`; `counted_stroke_m`; `returned_share`, returned energy / work of the whole
-    crush; `ends_early`; `beyond_model`; `crossed`; `coarse`; `beyond_curve`; and errors and
-    corrections of added columns, if the energy has them.
+    crush; `ends_early`; `beyond_model`; `crossed`; `coarse`; `beyond_curve`; the ends of the
+    range for which the energy stands (`_ends`); and errors and corrections of added columns, if
+    the energy has them.
     """
     if missing := [name for name in COLUMNS if name not in finished]:
         raise RankError(f"no {missing[0]}; needed: all columns of a summary (`read_summary`)")
@@ -95,6 +98,9 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "coarse": finished["integrator_share"] > finished["loading_mode"].map(COARSE),
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
+    for k, end in enumerate([] if limited else _ends(finished, energy)):
+        added |= {end_columns(energy)[k]: end, end_columns(per_gram)[k]: end / grams}
+        added |= {} if count is None else {end_columns("panel_energy_J")[k]: count * end}
     for column in (error_column, correction_column):
         if (energy_bar := column(energy)) in finished:
             borne = finished[column(str(force.name))]
@@ -124,6 +130,21 @@ def _of_panel(
         "panel_mass_g": count * grams,
         "panel_energy_J": count * finished[energy],
     }
+
+
+def _ends(finished: DataFrame, energy: str) -> tuple[Series, ...]:
+    """The least and the greatest energy (J) at maxima of the efficiency that are nearly as high as
+    the greatest, moved as little as makes the range contain the energy; none to full stroke.
+    """
+    if energy not in (AT_DENSIFICATION[0], UNTIL_PACKED):
+        return ()
+    own, (low, high) = (
+        finished[energy],
+        (finished[name] for name in end_columns(AT_DENSIFICATION[0])),
+    )
+    length = (high - low).fillna(0.0)
+    low = low.fillna(own).clip(own - length, own)
+    return low, low + length
 
 
 def _of_crush(finished: DataFrame, counted: Series, whole: Series) -> Series:
@@ -186,7 +207,7 @@ def _counted(
         peak = finished["peak_force_at_densification_N"]
         return AT_DENSIFICATION[0], peak, "up to the strain of greatest efficiency"
     peak = finished["peak_force_until_packed_N"]
-    return "absorbed_energy_until_packed_J", peak, "until densification"
+    return UNTIL_PACKED, peak, "until densification"
 
 
 def _counted_of_panel(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from pandas import DataFrame, Series
 
-from sweep.columns import correction_column
+from sweep.columns import correction_column, end_columns
 
 
 def pareto(mass: Series, energy: Series) -> Series:
@@ -18,24 +18,37 @@ def pareto(mass: Series, energy: Series) -> Series:
 
 def places_by(rows: DataFrame, by: str) -> Series:
     """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
-    return shared_places(rows[by], rows.get(correction_column(by)))
+    return shared_places(rows[by], rows.get(correction_column(by)), *reach(rows, by))
 
 
-def shared_places(values: Series, corrections: Series | None = None) -> Series:
+def reach(rows: DataFrame, by: str) -> tuple[Series, Series]:
+    """How far the range of each value goes below and above it; 0 without a range."""
+    low, high = (rows.get(name, rows[by]) for name in end_columns(by))
+    return (rows[by] - low).clip(lower=0.0), (high - rows[by]).clip(lower=0.0)
+
+
+def shared_places(
+    values: Series,
+    corrections: Series | None = None,
+    below: Series | None = None,
+    above: Series | None = None,
+) -> Series:
     """Places of sorted values, the best first.
 
     A value shares a place if it differs from the first value of the place by no more than their
     corrections differ. An error that is common to both thus does not count. A missing correction
-    is 0. Otherwise the value starts a new place, whose number is 1 + the number of values before
-    it.
+    is 0. A value also shares it if its range, up to `above`, meets that of the first value, which
+    goes down to `below`. Otherwise the value starts a new place, whose number is 1 + the number of
+    values before it.
     """
     shifts = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
+    down, up = (np.zeros(len(values)) if one is None else one for one in (below, above))
     places: list[int] = []
-    best = first = np.nan
-    for value, correction in zip(values, shifts, strict=True):
-        if abs(value - best) <= abs(correction - first):
+    best = first = low = np.nan
+    for value, correction, under, over in zip(values, shifts, down, up, strict=True):
+        if abs(value - best) <= abs(correction - first) + low + over:
             places.append(places[-1])
         else:
-            best, first = value, correction
+            best, first, low = value, correction, under
             places.append(len(places) + 1)
     return Series(places, index=values.index, dtype=int)

@@ -20,12 +20,12 @@ from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import LEAST, Compared, merits
-from sweep.ranking.places import pareto, places_by
+from sweep.ranking.places import pareto, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label
-from sweep.result import Status
+from sweep.ranking.unfinished import PLACES, could_place, ended_early, loaded, same_scene, unloaded
 
 PER = ("specimen", "panel")
 USUAL = (
@@ -105,7 +105,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     budget_g, scene : the ranking to which a row belongs.
     place : equal values share a place, and so do values whose order the estimated errors may
         reverse (`shared_places`).
-    tied, ranked_error : with error bars: True if the place is shared; the error of the value.
+    tied : with error bars, or where an energy stands for a range: True if the place is shared.
+    ranked_error : with error bars: the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
@@ -155,8 +156,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     required, summary = limits(require), source
     if not isinstance(summary, DataFrame):
         summary = with_allowed(summary, _read(summary), question)
-    finished = summary[summary["status"] == Status.CONVERGED]
-    compared, names = merits(finished, question)
+    whole, names = merits(summary, question)
+    compared = finished = loaded(whole)
     check(compared, required)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
     by = by and _column(compared, by)
@@ -174,14 +175,25 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         for label, rows in scene_rows.items()
     ]
     parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in masses]
+    stopped = [
+        _stopped(
+            rows, same_scene(scene_rows[label], whole), order, g, names, question, required
+        ).assign(scene=label)
+        for label, (rows, order) in zip(scene_rows, scenes, strict=True)
+        for g in masses
+    ]
     return Ranking(
         table=pd.concat(parts, ignore_index=True),
+        unfinished=pd.concat(stopped, ignore_index=True),
         **names._asdict(),
         limited=allowed_force is not None,
         by=next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
         cases=len(summary),
         failed=len(summary) - len(finished),
-        unranked=sum(int(rows[order].isna().sum()) for rows, order in scenes),
+        unloaded=int(unloaded(finished).sum()),
+        unranked=sum(
+            int((rows[order].isna() & ~ended_early(rows, order)).sum()) for rows, order in scenes
+        ),
         without_bar=sum(_without_bar(rows, order) for rows, order in scenes),
         pointed=int((finished["solid_joint_share"] < 1.0).sum()),
         versions=model_versions(finished),
@@ -234,7 +246,9 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows.sort_values(order, ascending=upwards)
     error = rows.get(error_column(by))
     place = places_by(rows, by)
-    columns = {} if error is None else {"ranked_error": error, "tied": place.duplicated(keep=False)}
+    columns = {} if error is None else {"ranked_error": error}
+    if error is not None or any((length > 0.0).any() for length in reach(rows, by)):
+        columns["tied"] = place.duplicated(keep=False)
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
     columns |= {"sharing": sharing, "contenders": len(rows)}
@@ -242,6 +256,25 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]
+
+
+def _stopped(  # noqa: PLR0913  the ranking, the cases, the question
+    rows: DataFrame,
+    every: DataFrame,
+    by: str,
+    budget_g: float,
+    names: Compared,
+    question: Question,
+    required: Mapping[str, float],
+) -> DataFrame:
+    """Which of `every` case of a scene stopped, and could have had a place among `rows`."""
+    stopped = every[ended_early(every, by)]
+    named = could_place(rows, stopped, by, budget_g, names, question, required)
+    named = named.assign(
+        budget_g=budget_g if np.isfinite(budget_g) else np.nan, scene="", ranked_by=by
+    )
+    first = ["budget_g", "scene", *PLACES, "case_id", "ranked_by"]
+    return named[first + [name for name in named if name not in first]]
 
 
 def _without_bar(rows: DataFrame, by: str) -> int:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from pandas import concat
+
 from sweep.ranking.budget import greatest_mass
+from sweep.ranking.unfinished import PLACES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,16 +23,20 @@ class Ranking:
     """The best designs of each loading scene.
 
     table : a row for each design that has a place, best first; `rank` describes its columns.
+    unfinished : a row for each case that stopped and could have had a place in the table, for each
+        scene and budget; its columns are those of the table but for what a place has, and `PLACES`
+        of `sweep.ranking.unfinished`.
     mass, energy, per_gram : names of the compared columns: mass (g) and energy (J) of the panel, or
         of the specimen if there is no panel, and energy per gram (J/g).
     until : up to which point energy is counted, in words.
     limited : True if energy is counted up to an allowed force.
     by : name of the column that sorts crushed designs; without crushes, those of the first scene.
-    cases, failed : number of cases, and number of those that did not converge.
-    unranked : number of converged cases without a value in the sorting column of their scene.
+    cases, failed : number of cases, and of those that stopped before their loading was completed.
+    unloaded : number of cases that stopped after their loading.
+    unranked : number of loaded cases without a value in the sorting column of their scene.
     without_bar : number of cases with that value but without its error bar, if others have one.
-    pointed : number of converged cases with solid joints in which some walls end in points.
-    versions : number of converged cases of each version of the model, the oldest first.
+    pointed : number of loaded cases with solid joints in which some walls end in points.
+    versions : number of loaded cases of each version of the model, the oldest first.
     budgets_g : the budgets (g), each once.
     lightest_g : the least mass (g) of each scene. lightest : the row of that design.
     per : what the allowed force and the requirements are of, "specimen" or "panel".
@@ -38,6 +45,7 @@ class Ranking:
     """
 
     table: DataFrame
+    unfinished: DataFrame
     mass: str
     energy: str
     per_gram: str
@@ -46,6 +54,7 @@ class Ranking:
     by: str
     cases: int
     failed: int
+    unloaded: int
     unranked: int
     without_bar: int
     pointed: int
@@ -56,6 +65,14 @@ class Ranking:
     per: str = "specimen"
     required: Mapping[str, float] = field(default_factory=dict)
     outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)
+
+    @property
+    def with_unfinished(self) -> DataFrame:
+        """The table, and below it the unfinished cases, which have no place."""
+        if self.unfinished.empty:
+            return self.table
+        whole = concat([self.table, self.unfinished], ignore_index=True)
+        return whole.astype(dict.fromkeys(["place", *PLACES], "Int64"))
 
     @property
     def is_above_budgets(self) -> bool:

@@ -17,7 +17,7 @@ from sweep.columns import less_is_better
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import merits
 from sweep.ranking.requirements import measured, misses
-from sweep.result import Status
+from sweep.ranking.unfinished import loaded
 
 if TYPE_CHECKING:
     from pandas import Series
@@ -92,7 +92,7 @@ def spreads(
 
     summary: rows of the corners. question: that of the ranking.
     """
-    finished = summary[summary["status"] == Status.CONVERGED]
+    finished = loaded(summary)
     compared, names = merits(finished, question)
     missed = misses(compared, measured(compared, names, question.per), ranking.required) != 0.0
     compared = compared.join(missed.add_prefix(MISSED))

@@ -27,6 +27,7 @@ from sweep.report.tables.legend import legend
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
 from sweep.report.tables.sheets import ranking_sheets
+from sweep.report.tables.unfinished_notes import picture_note
 from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def publish_ranking(
     tables = markdown(ranking_sheets(shown, summary))
     explained = "" if shown.table.empty else f"\n{legend(shown)}\n"
     text.write_text(f"{tables}{explained}", encoding="utf-8")
-    ranking.table.to_csv(table, index=False)
+    ranking.with_unfinished.to_csv(table, index=False)
     figures = _sweep_figures(file, shown, ranking, drop_heights)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
 
@@ -113,6 +114,12 @@ def _sweep_figures(
     """Figures: merit over mass, patterns, trends with wall thickness, energy-absorption diagrams,
     cushion curves, shapes of the winners.
     """
+    for name, figure in _pictures(file, shown, ranking, drop_heights):
+        case_plots.footnote(figure, picture_note(shown))
+        yield name, figure
+
+
+def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequence[float]) -> Named:
     pictures = {"absorption": "displacement", "sink": "force", "passed_on": "impact"}
     drawn = {name: _some_scenes(ranking, mode) for name, mode in pictures.items()}
     for name, part in drawn.items():

@@ -147,7 +147,7 @@ def check_scheduler(scheduler: str) -> None:
         kind = LoopRunner().run_sync(_identify, scheduler)
     except (ValueError, TypeError) as error:
         allowed = "a Dask scheduler such as tcp://host:8786"
-        raise GraphError(f'"{scheduler}": {error}; allowed: {allowed}') from error
+        raise GraphError(f'"{scheduler}" is no address; allowed: {allowed}') from error
     except Exception as error:
         raise GraphError(f"no Dask scheduler answers at {scheduler}") from error
     if kind != "Scheduler":

@@ -91,7 +91,7 @@ def _converged(out: str | os.PathLike[str], cases: Iterable[str]) -> int:
 
 
 def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
-    """The function `simulate`, imported only here since it loads or compiles the kernels.
+    """The function `simulate_again`, imported only here since it loads or compiles the kernels.
 
     arcs, plates: as of `simulation.simulate.warm_up`.
     """
@@ -99,10 +99,11 @@ def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
     from kernels.compile.choice import FAST, compiler
 
     def load() -> Simulate:
-        from sweep.simulation.simulate import simulate, warm_up
+        from sweep.simulation.retries import simulate_again
+        from sweep.simulation.simulate import warm_up
 
         warm_up(arcs, plates)
-        return simulate
+        return simulate_again
 
     what = "arcs" if arcs else "marches"
     if not is_cold("arcs", what) and not (plates and is_cold("plates")):

@@ -29,8 +29,11 @@ from sweep.scene.relaxation import relaxation_of
 
 Floats = NDArray[np.float64]
 
+SECTION_FIBRES = 5  # of three, the moment has a dip of 2 to 4 % where walls fold
 FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer of three Gauss points
 OUTER = 5.0 / 18.0  # weight of these
+RADIAL = 0.5  # strain at which c of `kernels.terms.section` is found
+LINEAR = 5.0 / 3.0  # least c, that of a linear curve
 MIDDLE = 1e-9  # of half a thickness: nearer points are in the middle
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
@@ -117,10 +120,19 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
 
     The radial stress of a wall that yields is left out.
     """
-    fibre = _fibre(material, section_law(material), FibreCurve, factor)
+    curve = section_law(material)
+    fibre = _fibre(material, curve, FibreCurve, factor)
     radial = 0.0 if material.yields else 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus
-    place, weight = _fibres(material.fibres or 3)
-    return BentSection(fibre, place, weight, 2.0 * float(weight.sum()), 1.0 + nu, radial)
+    bound = _bound(curve, material.modulus)
+    place, weight = _fibres(material.fibres or SECTION_FIBRES)
+    middle = 2.0 * float(weight.sum())
+    return BentSection(fibre, place, weight, middle, 1.0 + nu, radial, bound, fibre.modulus)
+
+
+def _bound(curve: StressLaw, modulus: float) -> float:
+    """The c of `kernels.terms.section`: from the mean stress of a curve at +-`RADIAL`, Pa."""
+    stress = float(np.mean(np.abs(curve.at(np.array([-RADIAL, RADIAL])))))
+    return float(max((modulus / stress) ** 2 - RADIAL**-2, LINEAR))
 
 
 def _fibres(count: int) -> tuple[Floats, Floats]:

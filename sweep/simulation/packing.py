@@ -42,6 +42,15 @@ def packed_row(gained: Floats) -> int | None:
     return best if 0 < best < len(gained) - 1 else None
 
 
+def near_maxima(gained: Floats, within: float = ALIKE) -> list[int]:
+    """Rows of the maxima of nearly the greatest efficiency (rows,), but for the first and the last
+    row; of equal neighbours the last one counts.
+    """
+    inner, before, after = gained[1:-1], gained[:-2], gained[2:]
+    near = inner >= (1.0 - within) * gained.max()
+    return [int(row) + 1 for row in np.flatnonzero(near & (inner >= before) & (inner > after))]
+
+
 def weights(strain: Floats, gained: Floats, band: float = BAND) -> Floats:
     """Weights of the rows in a mean over strains of nearly the greatest efficiency; their sum is 1.
 

@@ -46,7 +46,7 @@ from sweep.simulation.failures import (
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.striker import rests, second_stop
-from sweep.simulation.summary import BOOK, history_columns, summarise
+from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     LARGEST,
@@ -59,6 +59,10 @@ from sweep.simulation.time_resolution import (
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
 GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
+CURABLE = {  # other steps or another imperfection may help
+    *(outcomes.ITERATIONS, outcomes.STALLED, outcomes.SINGULAR, outcomes.INACCURATE),
+    *(outcomes.UNBALANCED, outcomes.NOT_FINITE),
+}
 CREATED = 0.1  # of the work done: energy that an integrator may create
 
 
@@ -93,14 +97,20 @@ def _simulated(case: Case, stop: np.ndarray) -> Result:
         status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
+    unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
+    if status != Status.CONVERGED:
+        summary |= dict.fromkeys(OF_THE_WHOLE_RUN, np.nan)
     summary |= {
         "case_id": case.case_id,
         "status": str(status),
         "message": message,
+        "retry": "",
+        "loaded": int(status == Status.CONVERGED or (run.is_loaded() and not unresolved)),
         "steps": int(run.state.totals["steps"][0]),
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
-    return Result(case, status, message, summary, curves, frames)
+    curable = run.curable or status == Status.UNRESOLVED
+    return Result(case, status, message, summary, curves, frames, curable)
 
 
 def _of_impact(
@@ -109,8 +119,8 @@ def _of_impact(
     """Status and sentence of a finished impact: whether its steps resolve it, and it was whole."""
     if not isinstance(case.loading, Impact):
         return Status.CONVERGED, ""
-    if (share := summary["integrator_share"]) > LARGEST and striker_share(curves) > LONG:
-        return energy_unresolved(case, share)
+    if _removes_energy(case, summary, curves):
+        return energy_unresolved(case, summary["integrator_share"])
     if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > LARGEST:
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
@@ -120,6 +130,13 @@ def _of_impact(
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)
     return Status.CONVERGED, ""
+
+
+def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:
+    """Whether the integrator takes so much energy of an impact that steps do not resolve it."""
+    if not isinstance(case.loading, Impact):
+        return False
+    return bool(summary["integrator_share"] > LARGEST and striker_share(curves) > LONG)
 
 
 def _scene(case: Case) -> Scene | PlateScene:
@@ -182,7 +199,7 @@ class _Run:
         self.frame_of, kept = _frames(total + 1, count)
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
-        self.done, self.noise, self.expired = 1, 0.0, False
+        self.done, self.noise, self.expired, self.curable = 1, 0.0, False, False
 
     def _begin(self) -> None:
         """Fill the first row: initial kinetic energy and the energy of springs count as work done.
@@ -204,32 +221,44 @@ class _Run:
         with WATCH.limit(self.case.solver.time_limit, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
-                if outcome != outcomes.INTERRUPTED and self._creates_energy():
+                if outcome != outcomes.INTERRUPTED and self._creates_energy(self.done):
+                    self.curable = True
                     return energy_gained(self.case)
                 if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
                 if self.struck and self._is_over():
                     break
-        if not self._balances():
+        if not self._balances(self.done):
+            self.curable = True
             return unbalanced(self.where())
         return Status.CONVERGED, ""
 
-    def _creates_energy(self) -> bool:
-        """True if the integrator has created more than a share `CREATED` of the work done.
+    def is_loaded(self) -> bool:
+        """True if the first cycle is loaded to its end, with energies that balance until then: the
+        platen at full stroke, the load released, or the striker above its lowest place again.
+        """
+        rows = self.cycles[0].loaded + 1
+        passed = self.done > rows if self.struck else self.done >= rows
+        return passed and self._balances(rows) and not self._creates_energy(rows)
+
+    def _creates_energy(self, count: int) -> bool:
+        """True if in ``count`` rows the integrator creates more than `CREATED` of the work done.
 
         A static structure is not checked: a result of few steps is of use whatever they created.
         """
         if self.case.loading.quasi_static and self.blind:
             return False
-        rows = self.rows[: self.done]
+        rows = self.rows[:count]
         return bool(rows["integrator"].min() < -CREATED * rows["work"].max() - self.noise)
 
-    def _balances(self) -> bool:
-        """True if the residual of the energy book is below a share `GAP` of its greatest entry."""
-        rows = self.rows[: self.done]
+    def _balances(self, count: int) -> bool:
+        """True if in ``count`` rows the residual of the energy book is below a share `GAP` of its
+        greatest entry.
+        """
+        rows = self.rows[:count]
         left = np.abs(rows["residual"]).max()
         size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
-        moved = self.done * self.scene.force_scale * self.scene.size
+        moved = count * self.scene.force_scale * self.scene.size
         return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
     def _is_over(self) -> bool:
@@ -285,6 +314,7 @@ class _Run:
         where = f"while {stage}, {self.where()}"
         if self.expired:
             return timed_out(self.case, where)
+        self.curable = outcome in CURABLE
         return stopped(self.case, outcome, where, driven=self.scene.terms.coordinates.driven >= 0)
 
     def where(self) -> str:

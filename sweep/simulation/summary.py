@@ -20,7 +20,7 @@ from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.iso_13314 import figures
-from sweep.simulation.packing import efficiency, packed_row, span, weights
+from sweep.simulation.packing import efficiency, near_maxima, packed_row, span, weights
 from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,
@@ -59,6 +59,10 @@ OF_A_CRUSH = (
     "densification_strain",
     "packing_strain",
     "packing_span",
+    "lowest_densification_strain",
+    "highest_densification_strain",
+    "lowest_absorbed_energy_at_densification_J",
+    "highest_absorbed_energy_at_densification_J",
     "efficiency",
     "plateau_stress_iso_Pa",
     "plateau_stress_20_30_Pa",
@@ -69,6 +73,12 @@ OF_A_CRUSH = (
     "energy_to_plateau_end_J_per_m3",
     "efficiency_to_plateau_end",
 )
+OF_THE_WHOLE_RUN = (
+    *("returned_energy_J", "lost_energy_J", "lost_share", "lost_energy_J_per_g"),
+    *("dissipated_energy_J", *DISSIPATED, "residual_strain", "second_cycle_share"),
+    *("rebound_speed_m_per_s", "rebound_share"),
+)
+"""Columns that only a run to its end has: of unloading, and of what is lost until then."""
 ROUND_OFF = 1e-9
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 
@@ -260,11 +270,16 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
     gained = efficiency(stress, density)
     packed, share = packed_row(gained), weights(strain, gained)
     row = len(strain) - 1 if packed is None else packed
+    maxima = near_maxima(gained)
+    ends = min(maxima, default=row), max(maxima, default=row)
+    energies = loading["work_in_J"][[*maxima, row]]
     values = (
         plateau_stress(strain, density, row),
         np.nan if packed is None else strain[row],
         share @ strain,
         span(strain, gained),
+        *(np.nan if packed is None else strain[end] for end in ends),
+        *(energies.min(), energies.max()),
         gained[row],
         *figures(strain, stress, density).values(),
     )

@@ -111,14 +111,16 @@ def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
 def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
     """The case that a row was computed from. Its labels are those of the sweep that computed it."""
     from sweep.config.case import Case
+    from sweep.config.faults import MisfitError
 
     text = bytes(_read_arrays(Path(path), case_id, ["cases"]).get(TEXT, b""))
     try:
         case = Case.from_json(text.decode())
         if case.case_id != case_id:
-            raise ValueError(f"it is case {case.case_id}")
+            raise MisfitError(f"it is case {case.case_id}")
     except (ValueError, ArithmeticError) as error:
-        raise StoreError(f"{path} holds no usable case {case_id}: {error}.") from error
+        why = str(error) if isinstance(error, MisfitError) else "its numbers make no drawing"
+        raise StoreError(f"{path} holds no usable case {case_id}: {why}.") from error
     return case
 
 

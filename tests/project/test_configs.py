@@ -39,7 +39,7 @@ def test_smoke_runs_from_end_to_end(tmp_path):
     assert set(table["git_revision"]) == {read_attributes(out)["git_revision"]}
     assert (abs(table["energy_residual_J"]) < 1e-6 * table["absorbed_energy_J"]).all()
     pinned = table.loc[(3, "displacement", "glued")]
-    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(136.6, rel=1e-3)
+    assert 1e3 * pinned["absorbed_energy_J"] == pytest.approx(137.68, rel=1e-3)
     case_id = pinned["case_id"]
     assert read_history(out, case_id)["strain"].max() == pytest.approx(0.4)
     assert read_frames(out, case_id)["position_m"].shape[1:] == (100, 2)
@@ -49,9 +49,9 @@ def test_smoke_runs_from_end_to_end(tmp_path):
 @pytest.mark.parametrize(
     ("mode", "platen", "force", "energy"),
     [
-        ("displacement", "glued", None, 85.86),
-        ("displacement", "contact", None, 72.68),
-        ("force", "contact", 20.0, 176.73),
+        ("displacement", "glued", None, 86.48),
+        ("displacement", "contact", None, 73.08),
+        ("force", "contact", 20.0, 176.31),
     ],
 )
 def test_armor_holds_its_numbers(mode, platen, force, energy):
@@ -82,7 +82,7 @@ def infills():
 
 
 @pytest.mark.parametrize(
-    ("design", "energy"), [(("hex", "flat", 0), 161.4), (("diamond", None, 0), 111.43)]
+    ("design", "energy"), [(("hex", "flat", 0), 162.04), (("diamond", None, 0), 112.14)]
 )
 def test_infills_hold_their_numbers(design, energy):
     result = simulate(infills()[design])
@@ -107,8 +107,8 @@ def test_reuse_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
-    assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(19.864, rel=1e-3)
-    assert summary["second_cycle_share"] == pytest.approx(0.6435, rel=1e-3)
+    assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(20.009, rel=1e-3)
+    assert summary["second_cycle_share"] == pytest.approx(0.6453, rel=1e-3)
 
 
 def test_reuse_softens_as_it_says():
@@ -134,7 +134,7 @@ def test_slicer_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["printed_mass_g"] == pytest.approx(3.0, rel=1e-9)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
-    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(693.0, rel=2e-3)
+    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(704.3, rel=2e-3)
 
 
 def test_drop_holds_its_numbers():
@@ -148,7 +148,7 @@ def test_drop_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["impact_energy_J"] == pytest.approx(15e-3 * 9.80665 * 0.5)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
-    assert summary["peak_force_N"] == pytest.approx(8.89, rel=2e-3)
+    assert summary["peak_force_N"] == pytest.approx(8.918, rel=2e-3)
     filtered = "peak_deceleration_filtered_m_per_s2"
     assert summary[filtered] / 9.80665 == pytest.approx(76.29, rel=2e-3)
     stiff = simulate(found["square", 3, 0.8e-3]).summary

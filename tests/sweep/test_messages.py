@@ -26,7 +26,7 @@ from sweep.report.tables.search_sheets import finalist_sheet
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.report.tables.spread_sheets import spread_sheets
 from sweep.simulation import failures
-from tests.support.results.specimens import CRUSHES, IMPACTS, designs, summary
+from tests.support.results.specimens import CRUSHES, HIT, IMPACTS, designs, summary
 
 GOLDEN = Path(__file__).parents[1] / "golden" / "messages.txt"
 LOAD = {"loading_mode": "force", "peak_strain": 0.2, "force_N": 5.0}
@@ -49,6 +49,12 @@ def required(table, question, **requirements):
     return table, question | {"require": requirements}
 
 
+STOPPED = {
+    "status": "stopped",
+    "loaded": 0,
+    "message": "stopped while loading, at strain 0.2 after 80 steps: the solution diverged; try "
+    "smaller steps or a smaller load (tried in vain: solver.load_steps = 800)",
+}
 RANKINGS = {
     "force that no impact meets": required(IMPACTS, {}, max_force="60 N"),
     "panel, several requirements": required(
@@ -101,11 +107,36 @@ RANKINGS = {
     "second cycle": (summary({"second_cycle_share": 0.7}), {}),
     "no densification": (summary({"densification_strain": nan, "peak_strain": 0.5}), {}),
     "gradual densification": (summary({"packing_span": 0.21}), {}),
+    "two maxima of the efficiency": (
+        CRUSHES.assign(
+            lowest_densification_strain=[0.5, 0.5, 0.34],
+            highest_densification_strain=[0.5, 0.5, 0.52],
+            lowest_absorbed_energy_at_densification_J=[0.1, 0.18, 0.15],
+            highest_absorbed_energy_at_densification_J=[0.1, 0.18, 0.42],
+        ),
+        {"budget": "9 g"},
+    ),
     "slicer, stretched, crossed, beyond": (
         summary(
             {"printed_mass_g": 1.1, "does_not_print": "walls of 1.5 lines of 0.4 mm"},
             {"stretch_over_curve": 1.2, "max_crossings": 1, "mass_g": 2.0},
             {"absorbed_energy_within_model_J": 0.01, "mass_g": 3.0, "absorbed_energy_J": 0.3},
+        ),
+        {},
+    ),
+    "stopped cases": (
+        summary(
+            *designs([1.0, 2.0], [0.1, 0.5]),
+            {"absorbed_energy_J": 0.3, "wall_thickness_m": 6e-4} | STOPPED,
+            STOPPED | {"absorbed_energy_J": 0.9, "loaded": 1, "returned_energy_J": nan},
+            {"absorbed_energy_J": 0.2, "retry": "lattice.imperfection = 0.015"},
+        ),
+        {"budget": ["1 g", "3 g"]},
+    ),
+    "stopped impacts": (
+        summary(
+            *(HIT | {"peak_force_N": force} for force in (76.0, 90.0)),
+            *(HIT | {"peak_force_N": 10.0 + k} | STOPPED for k in range(7)),
         ),
         {},
     ),
@@ -212,7 +243,10 @@ def of_finding() -> Iterator[str]:
 def of_warnings(folder: Path) -> Iterator[str]:
     from tests.support.results.specimens import write
 
-    table = summary({}, {"status": "stopped"}, {"solid_joint_share": 0.5, "model_version": 1})
+    ended = {"status": "stopped", "loaded": 1}
+    table = summary(
+        {}, {"status": "stopped"}, ended, {"solid_joint_share": 0.5, "model_version": 1}
+    )
     file = write(folder / "trial.h5", table, {"other_cases": 2})
     for line in warnings(file, answer(table, Question())):
         yield line.replace(str(folder), "FOLDER")

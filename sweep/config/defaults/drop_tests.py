@@ -7,6 +7,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from sweep.config.faults import MisfitError
+
 PRESET = re.compile(r"(\S+)\s+(\S.*)")
 FLAT = "flat striker at equal J/cm2"
 """What a planar model can claim of a test with a dome or a head form."""
@@ -22,16 +24,16 @@ class Drop(NamedTuple):
 def in_si(preset: str, to_si: Callable[[str, str], float]) -> str:
     """A preset as a case holds it: the name of a test, a number and "kg" or "m".
 
-    to_si(quantity, unit) converts. ValueError says what is wrong.
+    to_si(quantity, unit) converts. `MisfitError` says what is wrong.
     """
     match = PRESET.fullmatch(preset)
     name = match[1] if match else preset
     limits(name)
     if match is None:
-        raise ValueError("neither a mass nor a height")
+        raise MisfitError("neither a mass nor a height")
     try:
         text = f"{name} {to_si(match[2], 'kg'):.12g} kg"
-    except ValueError:
+    except MisfitError:
         text = f"{name} {to_si(match[2], 'm'):.12g} m"
     drop_of(text)
     return text
@@ -43,20 +45,20 @@ def drop_of(preset: str) -> Drop:
     value, rows = float(number), limits(name)
     if unit == "m":
         if value not in [height for _, height in rows]:
-            raise ValueError(f"no height of {name}, which has {_listed(rows)}")
+            raise MisfitError(f"no height of {name}, which has {_listed(rows)}")
         return Drop(None, value)
     heights = [height for below, height in rows if 0.0 < value < below]
     if not heights:
-        raise ValueError(f"a mass that {name} does not have, which ends at {rows[-1][0]:g} kg")
+        raise MisfitError(f"a mass that {name} does not have, which ends at {rows[-1][0]:g} kg")
     return Drop(value, heights[0])
 
 
 def limits(name: str) -> list[tuple[float, float]]:
     """The rows of a test: below which mass (kg) it has which height (m)."""
     if name not in drops():
-        raise ValueError("unknown test")
+        raise MisfitError("unknown test")
     if not drops()[name]:
-        raise ValueError(f"a flat planar model cannot claim {name}; simulate a {FLAT}")
+        raise MisfitError(f"a flat planar model cannot claim {name}; simulate a {FLAT}")
     return drops()[name]
 
 

@@ -65,7 +65,7 @@ class Material(Table):
 
     memory "measured": loss and softening are those that the record states, unless they are given.
 
-    `bend` "fibres" is "section" with `fibres` points through the thickness in place of three.
+    `bend` "fibres" is "section" with `fibres` points through the thickness in place of five.
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve. `uncertain`: key, low and high
@@ -79,7 +79,7 @@ class Material(Table):
     name: str = "ninjaflex"
     stretch: Literal["nonlinear", "linear"] = "nonlinear"
     bend: Literal["linear", "section", "fibres", "none"] = "section"
-    fibres: Annotated[int, Field(ge=4, le=15)] | None = None
+    fibres: Annotated[int, Field(ge=3, le=15)] | None = None
     plane: Literal["strain", "stress", "strain_bending"] = "strain"
     modulus: Stress
     density: Density

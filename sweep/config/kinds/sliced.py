@@ -24,6 +24,8 @@ from sweep.design.slicer.patterns import Sliced as Lay
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
+MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
+NEAR = 0.1  # shares tried instead of one that cannot be drawn
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
@@ -125,20 +127,59 @@ def sliced(given: Given, density: float) -> Sliced:
     _check_lines(made)
     made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
     if made.mass is None:
-        return _laid(made, given["infill"])
+        return _laid(made, given["infill"], density * made.depth)
     if "infill" in given:
         raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
-    return _laid(made, _share_for(made, made.mass, density * made.depth))
+    per_area = density * made.depth
+    return _laid(made, _share_for(made, made.mass, per_area), per_area)
 
 
-def _laid(made: Sliced, share: float) -> Sliced:
-    """The infill of a share."""
+def _laid(made: Sliced, share: float, per_area: float) -> Sliced:
+    """The infill of a share; per_area: kg/m^2."""
+    most = _most_of(made.printed_as)
+    if share >= most * (1.0 - 1e-12):
+        allowed = f"below {100.0 * most:.3g} %, so that cells are twice as wide as their walls"
+        raise RefusedError("lattice.infill", share, allowed)
     laid = made.model_copy(update=_spacing(made, share))
     check_size(laid, ("infill",))
-    if laid.wall_thickness >= laid.thickest * (1.0 - 1e-12):
-        allowed = "a share that leaves cells at least twice as wide as their walls"
-        raise RefusedError("lattice.infill", share, allowed)
+    if abs(_drawn(laid) - 1.0) > MASS_ERROR:
+        raise _refused_drawing(laid, share, per_area)
     return laid
+
+
+def _most_of(pattern: Pattern) -> float:
+    """The share at which the narrowest cell is twice as wide as its walls."""
+    return 0.5 * pattern.opening * pattern.directions / pattern.wall
+
+
+def _drawn(laid: Sliced) -> float:
+    """The mass of the walls as drawn over the mass that is extruded."""
+    from sweep.design.lattice import build_network
+    from sweep.design.slicer.network import drawn_over_extruded
+
+    return drawn_over_extruded(build_network(laid.geometry), laid.geometry)
+
+
+def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedError:
+    """Why a share cannot be drawn, and the nearest whole per cent within `NEAR` that can."""
+    from sweep.design.lattice import counted_area
+
+    wrong = 100.0 * (_drawn(laid) - 1.0)
+    weight = f"{abs(wrong):.0f} % {'more' if wrong > 0.0 else 'less'} than is extruded"
+    why = f"lines that run too near the perimeters make the walls weigh {weight}"
+    near = [percent / 100.0 for percent in range(1, 100) if abs(percent / 100.0 - share) < NEAR]
+    for other in sorted(near, key=lambda other: abs(other - share)):
+        nearest = laid.model_copy(update=_spacing(laid, other))
+        if other < _most_of(laid.printed_as) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
+            if laid.mass is None:
+                allowed = f"{100.0 * other:.0f} %, for example, or another fill_angle; {why}"
+                return RefusedError("lattice.infill", share, allowed)
+            allowed = f"{per_area * counted_area(nearest.geometry):.4g} kg, for example; {why}"
+            return RefusedError("lattice.mass", laid.mass, allowed)
+    allowed = (
+        f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
+    )
+    return RefusedError("lattice.perimeters", laid.perimeters, allowed)
 
 
 def _spacing(made: Sliced, share: float) -> dict[str, Any]:
@@ -155,10 +196,9 @@ def _share_for(made: Sliced, mass: float, per_area: float) -> float:
     """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
-    pattern = made.printed_as
-    most = 0.5 * pattern.opening * pattern.directions / pattern.wall
     first = made.model_copy(update=_spacing(made, LEAST_SHARE))
-    share, *bounds = share_for(first.geometry, mass / per_area, (1.0 - 1e-9) * most)
+    most = (1.0 - 1e-9) * _most_of(made.printed_as)
+    share, *bounds = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
         light, heavy = (per_area * area for area in bounds)
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"

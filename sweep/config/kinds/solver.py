@@ -12,14 +12,16 @@ Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"
 
 
 class _Solver(Table):
-    """What all solvers have. joints: None along the cells."""
+    """What all solvers have. joints: None along the cells. retry: `simulation.retries`."""
 
-    labels: ClassVar[tuple[str, ...]] = ("time_limit",)  # a new limit does not change results
+    # Neither changes the results of a case that converges as it is.
+    labels: ClassVar[tuple[str, ...]] = ("time_limit", "retry")
     neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}
 
     tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-8
     max_iterations: Count = 100
     time_limit: Duration = 300.0
+    retry: bool = True
     element: Literal["cubic", "classical"] = "cubic"
     joints: Literal["solid", "points"] | None = None
     bend_measure: Literal["angle", "tangent"] = "angle"

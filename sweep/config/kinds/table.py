@@ -7,6 +7,8 @@ from typing import Annotated, Any, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from sweep.config.faults import MisfitError
+
 T = TypeVar("T")
 Given = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
@@ -72,7 +74,7 @@ class Table(BaseModel):
         return bool(implied.get(key, getattr(cls, key, None)) == value)
 
 
-class RefusedError(ValueError):
+class RefusedError(MisfitError):
     """A value that contradicts the rest of its case.
 
     value: None if it is missing. since: the key that implies the value, if it is not given itself.

@@ -12,14 +12,15 @@ A plastic that yields has `yield_stress_Pa` instead of columns, a `modulus_Pa`, 
 `hardening_Pa` and `fracture_strain`.
 """
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
 from pathlib import Path
 
+from sweep.config.faults import MisfitError
 from sweep.config.materials.material_header import Stated, comments, stated
+from sweep.config.reading.text import rows_of, text_of
 
 Numbers = tuple[float, ...]
 
@@ -41,7 +42,7 @@ LIMITS = {
 RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
 
 
-class RecordError(ValueError):
+class RecordError(MisfitError):
     """A record that cannot be used; the text is one line with the file and the fault."""
 
 
@@ -93,12 +94,12 @@ def locate(name: str, folder: Path | None = None) -> Path:
 def read_record(path: Path) -> Record:
     """Read and check one record. Modulus: the stated one, else the secant between 1 and 4 %."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = text_of(path, "a csv file").splitlines()
         numbers = stated(lines)
         _check_numbers(numbers)
         strain, stress = _curve(lines, "yield_stress" in numbers)
         return _record(path.stem, strain, stress, numbers, comments(lines))
-    except (OSError, ValueError) as error:
+    except MisfitError as error:
         raise RecordError(f"{path.name}: {error}") from None
 
 
@@ -165,7 +166,7 @@ def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
 
 def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
     """Strain and stress below the header."""
-    rows = list(csv.reader(line for line in lines if line.strip() and not line.startswith("#")))
+    rows = rows_of(line for line in lines if line.strip() and not line.startswith("#"))
     if not rows or [word.strip() for word in rows[0]] != COLUMNS:
         wrong = f"the first row must read {','.join(COLUMNS)}"
         raise RecordError(f"{wrong}, with a comma between the heads")

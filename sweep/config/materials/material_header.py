@@ -12,6 +12,8 @@ A comment goes on in the next line if that begins with "#  ".
 import re
 from typing import NamedTuple
 
+from sweep.config.faults import MisfitError
+
 KEYS = {
     "density_kg_m3": "density",
     "poisson": "poisson",
@@ -46,7 +48,7 @@ class Stated(NamedTuple):
 
 
 def stated(lines: list[str]) -> dict[str, Stated]:
-    """The numbers of a header by their names in a case; ValueError if one cannot be read."""
+    """The numbers of a header by their names in a case; `MisfitError` if one cannot be read."""
     matches = [match for line in lines if (match := _LINE.fullmatch(line.strip()))]
     return {KEYS[match[1]]: _number(match[1], match[2].strip()) for match in matches}
 
@@ -62,10 +64,10 @@ def _number(key: str, text: str) -> Stated:
     elif match := _BETWEEN.fullmatch(text):
         result = Stated(*map(float, match.groups()))
     else:
-        raise ValueError(f"# {key}: {text} is no number; allowed: {ALLOWED}")
+        raise MisfitError(f"# {key}: {text} is no number; allowed: {ALLOWED}")
     value, low, high = result
     if low is None or high is None or not (low < high and low <= (value or low) <= high):
-        raise ValueError(f"# {key}: {text} is no range; allowed: {ALLOWED}, the lower end first")
+        raise MisfitError(f"# {key}: {text} is no range; allowed: {ALLOWED}, the lower end first")
     return result
 
 

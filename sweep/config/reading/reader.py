@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.defaults import drop_tests
-from sweep.config.faults import Fault
+from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.table import TABLES, rounded
@@ -259,7 +259,7 @@ class Reader:
             for line in error.lines:
                 self._refuse(name, raw, line, where)
             return None
-        except ValueError as error:
+        except MisfitError as error:
             allowed = with_words(keys[name].targets[0], keys[name].allowed)
             self._refuse(name, raw, f"{error}; allowed: {allowed}", where)
             return None
@@ -273,7 +273,7 @@ class Reader:
         self.faults.append(Fault(about or name, line))
 
     def _checked(self, key: Key, raw: Any) -> Any:
-        """A value in SI; raises ValueError with the reason if it is wrong."""
+        """A value in SI; raises `MisfitError` with the reason if it is wrong."""
         if key.targets == ("material.name",) and isinstance(raw, str):
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
@@ -283,22 +283,22 @@ class Reader:
             return drop_tests.in_si(raw, self.to_si)
         many = isinstance(raw, list)
         if many and not key.is_list:
-            raise ValueError("a list, which belongs in [grid]")
+            raise MisfitError("a list, which belongs in [grid]")
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             return key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:
             kind = error.errors()[0]["type"]
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
-            raise ValueError(_REASONS.get(kind, wrong_type)) from None
+            raise MisfitError(_REASONS.get(kind, wrong_type)) from None
 
     def _in_si(self, key: Key, raw: Any) -> Any:
         """One value without its unit, if its key has one."""
         if is_range(raw):
-            raise ValueError(IN_SEARCH)
+            raise MisfitError(IN_SEARCH)
         bare = key.bare and isinstance(raw, int | float)
         if bare and raw > key.bare_most:
-            raise ValueError(
+            raise MisfitError(
                 f"a bare number above {key.bare_most:g}, which may be meant in percent"
             )
         return self.to_si(raw, key.unit) if key.unit and not bare else raw
@@ -319,7 +319,7 @@ def _material(name: str, folder: Path) -> str:
     try:
         path = locate(name, folder)
     except UnknownMaterialError:
-        raise ValueError("unknown material") from None
+        raise MisfitError("unknown material") from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
 

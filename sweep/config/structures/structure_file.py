@@ -8,6 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.config.faults import MisfitError
+from sweep.config.reading.text import text_of
 from sweep.config.structures.structure import (
     Load,
     PointMass,
@@ -24,7 +26,7 @@ _EITHER = {"wall_thickness_mm", "subdivide", "initial_velocity_mm_s"}
 _KEYS = list(dict.fromkeys(key for part in _PARTS for key in part.model_fields))
 
 
-class StructureError(ValueError):
+class StructureError(MisfitError):
     """A structure that cannot be used; `lines`: its faults, one line each."""
 
     def __init__(self, lines: Sequence[str]) -> None:
@@ -35,24 +37,29 @@ class StructureError(ValueError):
 def read_structure(path: Path) -> Structure:
     """Read and check a file; `StructureError` holds all faults."""
     try:
-        text = path.read_text(encoding="utf-8")
-        if not isinstance(json.loads(text), dict):
-            raise StructureError(["not a JSON object; allowed: { ... } with nodes_mm and walls"])
+        text = text_of(path, "a JSON file")
+        _check_object(text)
         structure = Structure.model_validate_json(text)
     except ValidationError as error:
         raise StructureError(list(_misfits(error))) from None
-    except OSError as error:
-        raise StructureError([f"cannot be read ({error.strerror}); needed: a JSON file"]) from None
-    except ValueError as error:
-        if isinstance(error, StructureError):
-            raise
-        raise StructureError([f"not JSON ({error})"]) from None
-    except RecursionError:
-        raise StructureError(["not JSON (nested too deeply)"]) from None
+    except MisfitError as error:
+        raise StructureError([str(error)]) from None
     lines = list(faults(structure))
     if lines:
         raise StructureError(lines)
     return structure
+
+
+def _check_object(text: str) -> None:
+    """Refuse a text that is no JSON object."""
+    try:
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise MisfitError(f"not JSON at line {error.lineno}, column {error.colno}") from None
+    except (ValueError, RecursionError):
+        raise MisfitError("not JSON (a number too long, or nested too deeply)") from None
+    if not isinstance(document, dict):
+        raise MisfitError("not a JSON object; allowed: { ... } with nodes_mm and walls")
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:

@@ -1,8 +1,7 @@
 """The network that a slicer prints: infill within a box of perimeters, and its extruded area.
 
 A joint of the pattern is in the middle of the box, or a cell of the honeycomb; slicers place the
-pattern otherwise. Joints nearer to one another than a line are one, and so are those between which
-less than a line is open beside the perimeters.
+pattern otherwise.
 """
 
 from functools import lru_cache
@@ -13,16 +12,15 @@ import numpy as np
 from sweep.design.drawing import (
     TOLERANCE,
     Floats,
-    Indices,
     clipped,
     on_outline,
     segments_of,
     welded,
-    with_outline,
 )
 from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 from sweep.design.network import Network
+from sweep.design.slicer.joining import joined
 from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of
 
 LEAST_SHARE = 0.01  # of infill, tried for a mass
@@ -32,8 +30,8 @@ CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once
 def build_sliced(geometry: Geometry) -> Network:
     """The infill cut at the perimeters and joined to them."""
     sliced, box = _sliced(geometry), np.array(geometry.box)
-    lines = with_outline(infill(sliced, geometry.box), box, [True, True])
-    points, walls = _merged(lines, box, sliced.line, 0.5 * max(geometry.outline))
+    least = sliced.line + 0.5 * max(geometry.outline)
+    points, walls = joined(infill(sliced, geometry.box), box, least, sliced.distance)
     thickness = np.full(len(walls), geometry.wall_thickness)
     gyration = np.full(len(walls), PATTERNS[sliced.pattern].gyration)
     for axis, outline in enumerate(geometry.outline):
@@ -47,13 +45,33 @@ def build_sliced(geometry: Geometry) -> Network:
 
 def extruded_area(geometry: Geometry) -> float:
     """What is extruded / depth, m^2: lines of infill, crossings twice, and perimeters."""
-    sliced, (width, height) = _sliced(geometry), geometry.box
-    inner = infill(sliced, geometry.box) - sliced.inset
+    (width, height), (sides, caps) = geometry.box, geometry.outline
+    lines = infill(_sliced(geometry), geometry.box)
+    return _area(geometry, lines) + 2.0 * (sides * height + caps * width)
+
+
+def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
+    """What would be extruded if the lines lay as the walls of a network, over what is extruded.
+
+    0 if the network is not as large as its box.
+    """
+    points, walls, thickness = network.points, network.walls, network.wall_thickness
+    if np.abs(np.ptp(points, axis=0) - geometry.box).max() > TOLERANCE * max(geometry.box):
+        return 0.0
+    sides = [(side, axis) for axis, size in enumerate(geometry.box) for side in (0.0, size)]
+    outer = np.any([on_outline(points, walls, *side) for side in sides], axis=0)
+    ends = points[walls]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    drawn = _area(geometry, ends[~outer]) + float(length[outer] @ thickness[outer])
+    return drawn / extruded_area(geometry)
+
+
+def _area(geometry: Geometry, lines: Floats) -> float:
+    """What is extruded along the parts of lines (s, 2, 2) that are infill / depth, m^2."""
+    sliced = _sliced(geometry)
     room = np.array(geometry.box) - 2.0 * sliced.inset
-    lines = clipped(inner, room, [True, True])
-    length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).sum()
-    sides, caps = geometry.outline
-    return float(sliced.extruded * length + 2.0 * (sides * height + caps * width))
+    inside = clipped(lines - sliced.inset, room, [True, True])
+    return sliced.extruded * float(np.linalg.norm(inside[:, 1] - inside[:, 0], axis=1).sum())
 
 
 @lru_cache(maxsize=256)
@@ -85,50 +103,6 @@ def _unturned(family: str, reach: int) -> Floats:
 
 def _upright(family: str) -> str | None:
     return "pointy" if family == "hex" else None
-
-
-def _merged(segments: Floats, box: Floats, line: float, half: float) -> tuple[Floats, Indices]:
-    """Joints (j, 2) and walls (w, 2), none shorter than a ``line``, with ``half`` the thickness of
-    the outline added beside it; all in m.
-
-    The joints of shorter walls become one: at a corner or on the outline if one of them is there,
-    else in the middle of them.
-    """
-    tolerance = TOLERANCE * box.max()
-    points, walls = welded(segments, tolerance)
-    for _ in range(len(walls)):
-        ends = points[walls]
-        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        beside = np.any((ends == 0.0) | (ends == box), axis=(1, 2))
-        short = length < (1.0 - TOLERANCE) * (line + half * beside)
-        if not short.any():
-            break
-        ends = _joined(points, walls[short], box)[walls]
-        points, walls = welded(ends[np.any(ends[:, 0] != ends[:, 1], axis=1)], tolerance)
-    return points, walls
-
-
-def _joined(points: Floats, short: Indices, box: Floats) -> Floats:
-    """The points with both ends of ``short`` walls (k, 2) at one place."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(short)), short.T), shape=(len(points),) * 2)
-    count, group = connected_components(graph, directed=False)
-    sides = (points == 0.0) | (points == box)
-    fixed = sides.sum(axis=1)  # 2: a corner, 1: on a side
-    most = np.zeros(count, np.int64)
-    np.maximum.at(most, group, fixed)
-    leads = fixed == most[group]
-    mean = np.empty((count, 2))
-    for axis in (0, 1):
-        total = np.bincount(group[leads], points[leads, axis], count)
-        mean[:, axis] = total / np.bincount(group[leads], minlength=count)
-    single = np.bincount(group, minlength=count) == 1
-    placed = mean[group]
-    for side in (np.zeros(2), box):  # means of equal numbers may differ from them by round-off
-        placed = np.where(np.abs(placed - side) < TOLERANCE * box.max(), side, placed)
-    return np.where(single[group][:, None], points, placed)
 
 
 @lru_cache(maxsize=1024)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -63,6 +64,14 @@ def save(figure: Figure, path: Path) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=160, facecolor="white")
     return path
+
+
+def footnote(figure: Figure, words: str) -> None:
+    """Write lines below everything in a figure, if there are any."""
+    if words:
+        letters = int(figure.get_figwidth() / LETTER)
+        text = "\n".join(fill(line, letters) for line in words.splitlines())
+        figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
 
 
 def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

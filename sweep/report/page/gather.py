@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.columns import ABSORBED_AT, correction_column, error_column
+from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BEHIND, BESIDE
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
@@ -21,6 +21,7 @@ from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits
 from sweep.ranking.scenes import by_scene, scene_label
+from sweep.ranking.unfinished import loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.thinning import (
@@ -32,7 +33,7 @@ from sweep.report.page.thinning import (
 )
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import meanings, unprintable
+from sweep.report.tables.legend import meanings, other_bow, unprintable
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
@@ -70,18 +71,22 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
 
     question : what the page starts with; budget (kg) and panel (m) are lists or None.
     """
-    finished = summary[summary["status"] == Status.CONVERGED]
-    counted = _counted(finished)
-    scenes = by_scene(counted[0].rows) if len(finished) else []
+    finished = loaded(summary)
+    counted = _counted(summary)
+    compared = counted[0].rows
+    scenes = by_scene(loaded(compared)) if len(finished) else []
     cases = _cases(counted, scenes, summary)
+    alike = [same_scene(rows, compared) for rows in scenes]
+    unfinished = _cases(counted, [rows[rows["loaded"] != 1] for rows in alike], summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
-    stored, by_id = _Stored(len(cases)), finished.set_index("case_id", drop=False)
-    for case in read_runs(file, _first_shown(finished, counted, question)):
-        cases[case.case_id] |= stored.take(case, by_id.loc[case.case_id])
-        if len(case.history) and by_id.loc[case.case_id, "loading_mode"] == "displacement":
-            strokes = [reached(case.history, force)[1] for force in forces]
-            cases[case.case_id]["strokes"] += _exact(strokes)
+    stored, by_id = _Stored(len(cases)), summary.set_index("case_id", drop=False)
+    for case in read_runs(file, [*_first_shown(finished, counted, question), *unfinished]):
+        row = by_id.loc[case.case_id]
+        design = cases.get(case.case_id) or unfinished[case.case_id]
+        design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
+        if len(case.history) and row["loading_mode"] == "displacement":
+            design["strokes"] += _exact(reached(case.history, force)[1] for force in forces)
     return {
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
@@ -102,6 +107,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
         "cases": list(cases.values()),
+        "unfinished": list(unfinished.values()),
         "total": len(summary),
         "failures": list(_failures(summary)),
         "drawings": stored.drawings,
@@ -121,19 +127,21 @@ def _requirements() -> dict[str, dict[str, Any]]:
     }
 
 
-def _counted(finished: DataFrame) -> list[Counted]:
+def _counted(summary: DataFrame) -> list[Counted]:
     """Energies that are known for all cases: until packed, and up to the forces of the columns."""
-    texts = [match[1] for name in finished if (match := ABSORBED_AT.fullmatch(str(name)))]
+    texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
     forces = [None, *sorted(float(text) for text in texts)]
-    return [Counted(force, *merits(finished, Question(allowed_force=force))) for force in forces]
+    return [Counted(force, *merits(summary, Question(allowed_force=force))) for force in forces]
 
 
 def _cases(
     counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
 ) -> dict[str, dict[str, Any]]:
-    """What ranks every finished case, and what its row of the table says, by its id."""
-    cases = {}
+    """What ranks every case of these scenes, and what its row of the table says, by its id."""
+    cases, ends = {}, end_columns(counted[0].names.energy)
     for number, part in enumerate(scenes):
+        if part.empty:
+            continue
         least = LEAST.get(part["loading_mode"].iloc[0])
         energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
         columns = {
@@ -147,6 +155,7 @@ def _cases(
             "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
             "gap": _exact(part["direction"].map(BEHIND)),
             "energies": list(zip(*energies, strict=True)),
+            "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
             "passed": _exact(part["passed_on_N"]),
             "peak": _exact(part["peak_force_N"]),
@@ -161,6 +170,10 @@ def _cases(
             "undrawn": unprintable(part),
             "open": part["ends_early"].tolist(),
             "struck": _exact(part["impact_energy_J"]),
+            "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),
+            "unloaded": unloaded(part).tolist(),
+            "bowed": other_bow(part).tolist(),
+            "rest": _exact(stroke_left(part)),
             "message": part["message"],
             "slicer": part["slicer_settings"],
         }
@@ -258,6 +271,13 @@ class _Stored:
             more["drawing"] = self._drawing(frames)
             self._move(case, row)
         return more
+
+    def so_far(self, case: StoredRun, row: Series) -> dict[str, Any]:
+        """What ranks a case that stopped: its curve until then."""
+        if len(case.history) < 2 or row["loading_mode"] != "displacement":
+            return {}
+        curve, stairs = self._curve(case.history, row), self._stairs(case.history, row)
+        return {"curve": curve, "stairs": stairs}
 
     def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Abscissa and ordinate of the curve of a case, as `curve_of` says."""

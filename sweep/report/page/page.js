@@ -2,6 +2,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
+const NAMED = 3; // stopped cases below the answer
 const SHOWN = 15; // rows of the table before all are asked for
 const MANY = 150; // designs of a scene: their dots are smaller
 const COLORS = 6;
@@ -283,7 +284,7 @@ function showAnswer() {
     const missed = !none && now.missing.length > 0;
     if (missed) $("sentence").textContent = `No design${limit} meets the requirements.`;
     if (now.nearest) showPicture(now.nearest);
-    const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : [])];
+    const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : []), ...stoppedText()];
     $("detail").textContent = [requiredText(), ...more].filter(Boolean).join(" ");
     showCommand();
     return;
@@ -315,11 +316,23 @@ function* words(best) {
   const tied = now.placed.filter((row) => row !== best && row.place === best.place);
   const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
   if (tied.length)
-    yield `Tied within the estimated errors: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
+    yield `Tied${now.bar ? " within the estimated errors" : ""}: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
 }
 
 function detail(best) {
-  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : [])].filter(Boolean);
+  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...stoppedText()].filter(Boolean);
+}
+
+// The stopped cases that could have had a place, each with its reason: unfinished_notes.py.
+function* stoppedText() {
+  const most = now.placed.length > SHOWN ? SHOWN : Infinity;
+  const stopped = now.stopped.filter((one) => one.best <= most);
+  for (const { row, best, least } of stopped.slice(0, NAMED)) {
+    const place = least === null ? `could have had place ${best}`
+      : `would have place ${least}${best < least ? " or better" : ""}, by what it had reached`;
+    yield `Unfinished: ${row.design.label}: ${place}; ${row.design.message}.`;
+  }
+  if (stopped.length > NAMED) yield `${stopped.length - NAMED} more unfinished cases could have had a place: see the failed cases below.`;
 }
 
 // The command that prints the same ranking, if there is one.
@@ -394,9 +407,10 @@ function requiredColumns() {
 }
 
 function placeText(row) {
-  const tied = now.bar && row.sharing > 1 ? "=" : "";
-  const { crossed, coarse, stretched, undrawn } = row.design;
-  const marks = `${row.beyond ? "!" : ""}${crossed ? "x" : ""}${coarse ? "i" : ""}${stretched ? "^" : ""}${undrawn ? "p" : ""}`;
+  const tied = (now.bar || now.ranged) && row.sharing > 1 ? "=" : "";
+  const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
+  const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
+  const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
   return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
 }
 
@@ -469,6 +483,7 @@ function notes() {
     );
   if (now.bar)
     lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
+  if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
@@ -477,6 +492,9 @@ function notes() {
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
   if (rows.some((row) => row.design.undrawn))
     lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");
+  if (rows.some((row) => row.design.unloaded))
+    lines.push("u: stopped after its loading, which determines energy, peak and densification; what only unloading tells is not known (–).");
+  if (rows.some((row) => row.design.bowed)) lines.push("b: simulated with another imperfection, as it stopped with the one asked for.");
   const over = now.rows.length - rows.length - now.missing.length;
   if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));

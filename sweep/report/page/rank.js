@@ -1,6 +1,6 @@
 // Ranks designs as sweep/ranking/rank.py does: the same sums in the same order, so the same ties.
 // Other files of that folder are repeated too: merit.py (measured), places.py (markFront,
-// markPlaces) and requirements.py (which limits a scene has, and by how much a design misses them).
+// markPlaces), unfinished.py (couldPlace) and requirements.py (which limits a scene has, and by how much a design misses them).
 // An unknown value is null, which JavaScript takes for 0: `times`, `least` and `exceeds` do not.
 
 const times = (value, by) => (value === null ? null : by * value);
@@ -129,7 +129,7 @@ function measured(data, design, question) {
     panel,
     mass: factor * design.mass,
     energy: times(energy, factor),
-    perGram: energy === null ? null : energy / design.mass,
+    perGram: energy === null || design.mass === null ? null : energy / design.mass,
     passed: force === null ? design.passed : least(design.peak, force),
     beyond: design.solid || exceeds(energy, times(design.within, 1 + slack)),
   };
@@ -143,6 +143,10 @@ function measured(data, design, question) {
   else
     bars = [row.perGram, ...[error, correction].map((v) => (v === null ? null : v / design.mass))];
   [row.value, row.error, row.correction] = bars;
+  const [low, high] = scene.least || force !== null ? [null, null] : design.ends;
+  const scaled = (end) => (question.panel || question.budget !== null ? factor * end : end / design.mass);
+  row.below = low === null ? 0 : Math.max(0, row.value - scaled(low));
+  row.above = high === null ? 0 : Math.max(0, scaled(high) - row.value);
   row.misses = missesOf(data, row, question);
   row.worst = Math.max(0, ...Object.values(row.misses));
   return row;
@@ -174,18 +178,61 @@ function markFront(rows, merit) {
 }
 
 // Places of sorted rows: a value shares the place of the first value of that place if it differs
-// from it by no more than their corrections differ; a missing one is 0.
+// from it by no more than their corrections differ, a missing one is 0, or if their ranges meet.
 function markPlaces(rows) {
   let best = NaN;
-  let first = NaN;
+  let [first, low] = [NaN, NaN];
   rows.forEach((row, i) => {
     const correction = row.correction ?? 0;
-    if (Math.abs(row.value - best) <= Math.abs(correction - first)) row.place = rows[i - 1].place;
-    else [best, first, row.place] = [row.value, correction, i + 1];
+    if (Math.abs(row.value - best) <= Math.abs(correction - first) + low + row.above) row.place = rows[i - 1].place;
+    else [best, first, low, row.place] = [row.value, correction, row.below, i + 1];
   });
   const sharing = new Map();
   for (const row of rows) sharing.set(row.place, (sharing.get(row.place) ?? 0) + 1);
   for (const row of rows) row.sharing = sharing.get(row.place);
+}
+
+// What the rest of a crush adds at most to the energy up to an allowed force, in units of the value.
+function further(data, row, question) {
+  const { design } = row;
+  if (question.force === null || data.scenes[question.scene].mode !== "displacement") return Infinity;
+  const force = question.force / (ofPanel(question) ? row.panel.specimens : 1);
+  if (exceeds(design.peak, force)) return 0;
+  if (design.rest === null) return Infinity;
+  const most = force * design.rest;
+  if (!question.panel && question.budget === null) return most / design.mass;
+  return row.panel ? most * row.panel.specimens : most;
+}
+
+// The best place that a stopped case could have had among values, the best of which is first, and
+// the one that it has at least, or null; nothing if it misses a requirement already.
+function couldPlace(data, row, values, question) {
+  const sign = data.scenes[question.scene].least ? -1 : 1;
+  const { unresolved } = row.design;
+  const value = unresolved ? null : row.value;
+  const low = value === null ? -Infinity : value;
+  const high = value === null || sign < 0 ? Infinity : value + further(data, row, question);
+  const [better, worse] = sign < 0 ? [low, high] : [high, low];
+  const sure = (name) => (data.measures[name].least ? low === high : !unresolved || name === "max_mass");
+  const missed = ([name, share]) => share > 0 && share < Infinity && sure(name);
+  if (Object.entries(row.misses).some(missed)) return null;
+  const place = (end) => 1 + values.filter((value) => sign * value > sign * end).length;
+  const certain = Object.keys(row.misses).every((name) => name === "max_mass") && Number.isFinite(worse);
+  return { row, best: place(better), least: certain ? place(worse) : null };
+}
+
+// The cases of a scene that stopped and could have had a place among the placed ones, the best first.
+function unfinished(data, placed, question) {
+  const stopped = [...data.unfinished, ...data.cases.filter((design) => design.unloaded)];
+  const most = greatestMass(data, question);
+  const values = placed.map((row) => row.value);
+  return stopped
+    .filter((design) => design.scene === question.scene)
+    .map((design) => measured(data, design, question))
+    .filter((row) => (!row.design.unloaded || row.value === null) && (row.design.mass === null || row.mass <= most))
+    .map((row) => couldPlace(data, row, values, question))
+    .filter(Boolean)
+    .sort((a, b) => a.best - b.best || (a.least ?? Infinity) - (b.least ?? Infinity) || (a.row.design.id < b.row.design.id ? -1 : 1));
 }
 
 function doubtful(row) {
@@ -195,7 +242,8 @@ function doubtful(row) {
 // All designs of a scene of known mass as `rows`; those with a place, best first, as `placed`; those
 // within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
-// lightest one to be trusted that fulfils it, of any mass.
+// lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`; `ranged`: some
+// energies stand for a range.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const weighed = (design) => design.scene === question.scene && design.mass !== null;
@@ -214,10 +262,12 @@ function ranked(data, question) {
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
+  const ranged = placed.some((row) => row.below > 0 || row.above > 0);
   markPlaces(placed);
   const sound = (row) => !doubtful(row);
   const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);
   const lightest = Math.min(...rows.map((row) => row.mass));
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting };
+  const stopped = unfinished(data, placed, question);
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged };
 }

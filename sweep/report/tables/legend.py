@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.numbers import percent
+from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
     panel_note,
@@ -54,13 +55,21 @@ UNPRINTABLE = """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these."""
 UNSURE = """\
-~: densification is gradual, or occurs at two strains: the efficiency is within 2 % of the greatest
+~: densification is gradual: the efficiency is within 2 % of the greatest
 over more than 10 % of strain."""
+TWICE = """\
+34-52: the efficiency is greatest, within 2 %, at two strains, these; the energy until densification
+is a range too (columns lowest_..., highest_...). =: a tie: the ranges of designs meet."""
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
+UNLOADED = """\
+u: stopped after its loading (message: why), which determines energy, peak and densification; what
+only unloading tells is not known (–)."""
+OTHER_BOW = """\
+b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -117,7 +126,9 @@ def marks(rows: DataFrame) -> Series:
     coarse = rows["coarse"].map({True: "i", False: ""})
     beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
     undrawn = unprintable(rows).map(lambda why: "p" * bool(why))
-    return beyond + crossed + coarse + beyond_curve + undrawn
+    stopped = unloaded(rows).map({True: "u", False: ""})
+    bowed = other_bow(rows).map({True: "b", False: ""})
+    return beyond + crossed + coarse + beyond_curve + undrawn + stopped + bowed
 
 
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
@@ -128,8 +139,15 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
         COARSE: rows["coarse"],
         UNPRINTABLE: unprintable(rows) != "",
         STRETCHED: rows["beyond_curve"],
+        UNLOADED: unloaded(rows),
+        OTHER_BOW: other_bow(rows),
     }
     return tuple(note for note, has in notes.items() if has.any())
+
+
+def other_bow(rows: DataFrame) -> Series:
+    """True for results of a retry with another imperfection."""
+    return rows["retry"].str.contains("imperfection")
 
 
 def unprintable(rows: DataFrame) -> Series:

@@ -10,9 +10,9 @@ from sweep.numbers import NOTHING, three_digits
 from sweep.ranking.merit import merits
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
+from sweep.ranking.unfinished import loaded
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.sheet import Sheet
-from sweep.result import Status
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -29,7 +29,7 @@ def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) 
     `rank`, of which requirements are left out, as they are asked of the whole models.
     """
     table = answer(estimates, question._replace(top=None, require=None)).table
-    finished = summary[summary["status"] == Status.CONVERGED]
+    finished = loaded(summary)
     usual = question._replace(by=None, allowed_force=None)
     compared = merits(finished, usual)[0].set_index("case_id")
     for (_, scene), rows in table.groupby(["budget_g", "scene"], dropna=False, sort=False):

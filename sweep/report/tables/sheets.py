@@ -8,22 +8,19 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
+from sweep.columns import end_columns
 from sweep.numbers import in_unit, numerals, percent, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import LEAST
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
-    BEYOND,
-    COARSE,
-    CROSSED,
     EARLY,
     PRINTED,
-    STRETCHED,
-    UNPRINTABLE,
+    TWICE,
     UNSURE,
+    mark_notes,
     marks,
-    unprintable,
 )
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
@@ -33,6 +30,7 @@ from sweep.report.tables.requirement_notes import (
     requirement_notes,
 )
 from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.unfinished_notes import unfinished_notes
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -42,6 +40,7 @@ if TYPE_CHECKING:
 FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
 LONG_SPAN = 0.1  # of strain
+NO_TEXT = Series(dtype=str)
 
 
 SPARE = {
@@ -68,14 +67,19 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     budgets, table = ranking.budgets_g, ranking.table
     named = partial(named_case, among=summary)
     if ranking.lightest_g and ranking.is_above_budgets:
-        yield Sheet("", [], [], notes=_missed(ranking.scenes[0], ranking, named))
+        lightest = _missed(ranking.scenes[0], ranking, named)
+        stopped = unfinished_notes(ranking.unfinished, named)
+        yield Sheet("", [], [], notes=(*lightest, *stopped))
         return
     for scene in ranking.lightest_g:
         placed = rows = table[table["scene"] == scene]
         missed = _missed(scene, ranking, named)
         requirements = tuple(requirement_notes(scene, ranking, named))
+        stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
+        unfinished = tuple(unfinished_notes(stopped, named))
         if rows.empty:
-            yield Sheet(scene, [], [], notes=(*(missed or (NO_PLACE,)), *requirements))
+            notes = (*(missed or (NO_PLACE,)), *unfinished, *requirements)
+            yield Sheet(scene, [], [], notes=notes)
             continue
         first = {}
         if len(budgets) > 1:
@@ -94,16 +98,14 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
             notes=(
-                *((BEYOND,) if rows["beyond_model"].any() else ()),
-                *((CROSSED,) if rows["crossed"].any() else ()),
-                *((COARSE,) if rows["coarse"].any() else ()),
                 *((PRINTED,) if "print g" in columns else ()),
-                *((UNPRINTABLE,) if (unprintable(rows) != "").any() else ()),
-                *((STRETCHED,) if rows["beyond_curve"].any() else ()),
+                *mark_notes(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
+                *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
                 *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
                 *_cut_off(rows),
                 *_not_shown(placed),
+                *unfinished,
                 *missed,
                 *requirements,
             ),
@@ -244,9 +246,11 @@ def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     densified = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = _unsure(rows).map({True: "~", False: ""})
+    low, high = (rows[name].map(percent) for name in end_columns("densification_strain"))
+    strain = (rows["packing_strain"].map(percent) + unsure).where(low == high, low + "-" + high)
     second = rows["second_cycle_share"]
     return {
-        "dens. %": (rows["packing_strain"].map(percent) + unsure).where(
+        "dens. %": strain.where(
             densified, rows["peak_strain"].map(lambda strain: f"> {percent(strain)}")
         ),
         "returned %": rows["returned_share"].map(percent),

@@ -27,7 +27,7 @@ from sweep.columns import ABSORBED_AT, IN_CYCLE, correction_column, error_column
 from sweep.config.case import Case
 from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
-from sweep.result import Status
+from sweep.ranking.unfinished import loaded
 from sweep.running.beside.refinement import pieces, refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
@@ -133,12 +133,12 @@ def add_error_bars(
     """
     config = sweep_of(sweep)
     cases = config.cases
-    beside, rows = file_beside(out, "companions"), _converged(out)
+    beside, rows = file_beside(out, "companions"), _comparable(out)
     designs = [case for case in cases if case.case_id in rows]
     others = companions_beside(designs, out, rerun)
     what = f"error bars of {len(designs)} designs: {len(others)} companions"
     run_beside(others, beside, what, How(workers, scheduler, rerun, simulate))
-    rows |= _converged(beside) if exists(beside) else {}
+    rows |= _comparable(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}
     with Writer(out, labels, describe_run(config_text(config))) as writer:
@@ -188,8 +188,10 @@ def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:
     return median(numbers) if numbers else 0.0
 
 
-def _converged(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
-    """Rows of the converged cases of a results file, by their id."""
-    summary = read_summary(file)
-    rows = summary[summary["status"] == Status.CONVERGED].to_dict("records")
+def _comparable(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
+    """Rows of the loaded cases of a results file, by their id, but for those of a retry: its steps
+    or its imperfection are not those of which a companion has twice as many.
+    """
+    rows = loaded(read_summary(file))
+    rows = rows[rows["retry"] == ""].to_dict("records")
     return {row["case_id"]: row for row in rows}

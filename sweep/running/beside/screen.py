@@ -27,7 +27,8 @@ from sweep.design.drawing import extent
 from sweep.design.upright_plan import mirror_fault
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
-from sweep.result import Status, design_columns
+from sweep.ranking.unfinished import loaded
+from sweep.result import design_columns
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.dask_graph import Simulate
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary
@@ -82,7 +83,7 @@ def run_columns(
     what = f"screen of {len(designs)} designs: {len(alone)} unit columns"
     run_beside(alone, beside, what, How(workers, scheduler, rerun, simulate))
     rows = read_summary(beside)
-    by_id = rows[rows["status"] == Status.CONVERGED].set_index("case_id", drop=False)
+    by_id = loaded(rows).set_index("case_id", drop=False)
     return DataFrame(
         [
             _scaled(by_id.loc[column.case_id].to_dict(), design, column.lattice)

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
-from kernels.terms.section import bent
+from kernels.terms.section import bent, middle
 from sweep.scene.material import FIBRE, OUTER, law_of_section
 from tests.support.designs.tables import material_with
 
@@ -21,12 +21,12 @@ COUNTS = (5, 7, 9)
 
 
 def plastic(count, hardening=0.0):
-    """A section of a material that yields and does not contract."""
+    """A section of a material that yields and does not contract, and whose faces never meet."""
     material = material_with(
         modulus=MODULUS, density=1200.0, poisson=0.0, yield_stress=LIMIT,
         hardening=hardening, bend="fibres", fibres=count,
     )  # fmt: skip
-    return law_of_section(material, 1.0, 0.0)
+    return law_of_section(material, 1.0, 0.0)._replace(stop=0.0)
 
 
 def new_memory(law):
@@ -38,10 +38,9 @@ def new_memory(law):
 def resultants(law, strain, curvature, memory=None):
     """Force and moment of a section of unit thickness and depth."""
     memory = new_memory(law) if memory is None else memory
-    m, stretched = law.m, 1.0 + strain
-    found = bent(law, stretched, stretched**-m, FIBRE * curvature, memory, 0)
-    middle = law.curve.respond(strain, memory, law.points() - 1)[1]
-    force = middle + OUTER * (found[1] - 0.5 * law.middle * middle)
+    found = bent(law, middle(law.m, 1.0 + strain), FIBRE * curvature, memory, 0)
+    stress = law.curve.respond(strain, memory, law.points() - 1)[1]
+    force = stress + OUTER * (found[1] - 0.5 * law.middle * stress)
     return force, OUTER * FIBRE * found[2]
 
 
@@ -111,7 +110,7 @@ def test_the_potential_of_a_section_is_stored_or_dissipated(hardening):
 
 @pytest.mark.parametrize("name", ["ninjaflex", "cheetah"])
 def test_more_fibres_find_the_moment_of_a_rubber(name):
-    """Against 15; three are those of "section"."""
+    """Against 15; five are those of "section"."""
     curvatures = np.array([0.1, 0.3, 0.6])
 
     def moments(**keys):
@@ -120,7 +119,7 @@ def test_more_fibres_find_the_moment_of_a_rubber(name):
 
     fine = moments(bend="fibres", fibres=15)
     off = [np.abs(moments(**keys) / fine - 1.0).max() for keys in (
-        {"bend": "section"}, {"bend": "fibres", "fibres": 5}, {"bend": "fibres", "fibres": 9},
+        {"bend": "fibres", "fibres": 3}, {"bend": "section"}, {"bend": "fibres", "fibres": 9},
     )]  # fmt: skip
     assert off[0] < 0.05
     assert off[2] < off[1] < off[0]

@@ -21,17 +21,18 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.load import load_config
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
-from tests.studies.stability.draw import CONFIGS, remembering, second_order
+from tests.studies.stability.draw import CONFIGS, remembering, second_order, wide
 from tests.studies.stability.structures import COUNT, structure_scene
 from tests.studies.tables import head, line, tell
 
 WORKERS = 2
 MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
+WIDE = 64  # panels of up to 48 cells side by side
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 KINDS = (
     *("static", "in time", "dead load", "impact"),
-    *("2nd order", "memory", "custom", ALL),
+    *("2nd order", "memory", "wide", "custom", ALL),
 )
 SECOND = "bdf2", "newmark"
 
@@ -40,6 +41,8 @@ def kind_of(case):
     """What is done to the lattice of a case, in words."""
     if isinstance(case.lattice, CustomStructure):
         return "custom"
+    if case.lattice.cells_x >= 12 and case.lattice.cells_y == 3:
+        return "wide"
     if case.material.remembers:
         return "memory"
     if case.solver.integrator in SECOND:
@@ -84,6 +87,7 @@ def scenes():
         *expand(load_config(CONFIGS / "extreme.toml")),
         *(case for case in lattices if case is not None),
         *(remembering(number) for number in range(MEMORIES)),
+        *(wide(number) for number in range(WIDE)),
         *(structure_scene(number) for number in range(COUNT)),
     ]
 

@@ -96,12 +96,39 @@ def second_order(number):
 def remembering(number):
     """The case of a scene beyond those of `second_order` whose material has a memory."""
     keys, _ = scene(COUNT + MEMORY + number)
+    keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
     draw = Draws(number, SEED + 1)
     while True:
         try:
             return case_of(keys | _memory(draw, keys))
         except RefusedError:
             continue
+
+
+def wide(number):
+    """The case of 12 to 48 cells side by side, pressed and released; half of them have a loss.
+
+    All families come in turn, between glued and loose platens.
+    """
+    draw = Draws(number, SEED + 2)
+    families = len(FAMILIES)
+    cells_x, pitch = 12 * draw.whole(1, 4), draw.between(2e-3, 2e-2)
+    keys = {
+        "lattice.kind": FAMILIES[number % families],
+        "lattice.cells_x": cells_x,
+        "lattice.cells_y": 3,
+        "lattice.width": float(f"{cells_x * pitch:.3g}"),
+        "lattice.height": float(f"{3 * pitch:.3g}"),
+        "lattice.depth": pitch,
+        "material.name": draw.one(*RECORDS),
+        "contact.friction": draw.one(0.0, 0.3, 1.0),
+        "loading.mode": "displacement",
+        "loading.strain": draw.between(0.3, 0.7),
+        "loading.platen": ("glued", "contact")[number // families % 2],
+    } | ({"material.loss": draw.between(0.1, 0.7)} if draw.chance(0.5) else {})
+    thin = lattice_with(**_values(keys, "lattice"), wall_thickness=1e-4 * pitch)
+    keys["lattice.wall_thickness"] = float(f"{2.0 * thin.thickest * draw.between(0.05, 0.4):.3g}")
+    return case_of(keys)
 
 
 def _memory(draw, keys):
@@ -131,7 +158,7 @@ def _memory(draw, keys):
         found |= {"material.softening_m": draw.between(1e2, 1e7), "solver.bend_measure": "angle"}
     if not by_numbers:
         found |= {"solver.bend_measure": "angle"}
-    return found | {"damping.model": None, "material.reference_time": draw.between(1e-6, 1e4)}
+    return found | {"material.reference_time": draw.between(1e-6, 1e4)}
 
 
 def case_of(keys):
@@ -261,7 +288,7 @@ def _impact(draw, lattice, material, buckling):
     own = mass(build_network(lattice.geometry), lattice.depth, material.density)
     striker, speed = own * draw.between(0.01, 1000.0), draw.between(0.1, 300.0)
     softest = np.pi * np.sqrt(striker * lattice.height / buckling)
-    steps = draw.whole(40, 200)
+    steps = draw.whole(200, 1000)
     duration = 4.0 * min(10.0 * lattice.height / speed, lattice.height / speed + softest)
     return {
         "loading.mode": "impact",
@@ -269,7 +296,7 @@ def _impact(draw, lattice, material, buckling):
         "loading.striker_speed": speed,
         "loading.platen": draw.one("glued", "contact"),
         "loading.duration": float(f"{duration:.3g}"),
-        "solver.integrator": "backward_euler",
+        "solver.integrator": draw.one("backward_euler", "bdf2"),
         "solver.time_step": float(f"{duration / steps:.3g}"),
     }
 

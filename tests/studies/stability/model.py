@@ -10,6 +10,7 @@ from scipy.interpolate import PPoly
 from scipy.spatial import cKDTree
 
 FOLD, GUARD = np.radians(20.0), -0.7
+CRUSHED, TOUCHING = 0.3, 2.0 * np.sqrt(0.15)  # of sections
 TANGENT = 1  # measure of bending
 
 
@@ -91,6 +92,15 @@ def _curvature(bend, turn):
     return turn, np.ones_like(turn)
 
 
+def _fibre(m, q):
+    """Stretch q^(1/m) of fibres and its slope, a parabola where they are crushed."""
+    inside = np.maximum(q, CRUSHED**m)
+    a, beyond = inside ** (1.0 / m), q - inside
+    slope = a / (m * inside)
+    second = (1.0 / m - 1.0) * slope / inside
+    return a + beyond * slope + 0.5 * beyond**2 * second, slope + beyond * second
+
+
 def _through_sections(turn, strain, bend):
     """Energy (m,) of bent sections, its derivatives in the turns (2, m) and in the strain (m,)."""
     law, stretched = bend.section, 1.0 + strain
@@ -99,20 +109,20 @@ def _through_sections(turn, strain, bend):
     theta = np.einsum("pik,ik->pk", rows, turn)
     curve = law.curve.relaxing.elastic.curve
     middle, stress = _curve(curve, strain)
-    energy, by_strain, by_theta = -4.0 * middle, -4.0 * stress, np.zeros_like(theta)
+    energy, by_strain = -law.middle * middle, -law.middle * stress
+    by_theta = np.zeros_like(theta)
     for p in range(2):
-        q = theta[p] ** 2
-        energy -= law.radial * q**2 / (1.0 + 5.0 * q / 3.0)
-        by_theta[p] -= (
-            law.radial * theta[p] * q * (4.0 + 10.0 * q / 3.0) / (1.0 + 5.0 * q / 3.0) ** 2
-        )
-        for side in (1.0, -1.0):
-            u = np.polynomial.Polynomial([1.0, 1.0, (1.0 - m) / 2, (1.0 - m) * (1.0 - 2.0 * m) / 6])
-            bent = side * theta[p] * stretched**-m
-            value, pulled = _curve(curve, stretched * u(bent) - 1.0)
-            energy += value
-            by_strain += pulled * (u(bent) - m * bent * u.deriv()(bent))
-            by_theta[p] += side * pulled * stretched ** (1.0 - m) * u.deriv()(bent)
+        q, c = theta[p] ** 2, law.bound
+        beyond = np.maximum(np.abs(theta[p]) - TOUCHING, 0.0)
+        energy += law.stop * beyond**3 / (3.0 * TOUCHING) - law.radial * q**2 / (1.0 + c * q)
+        by_theta[p] += law.stop * np.sign(theta[p]) * beyond**2 / TOUCHING
+        by_theta[p] -= law.radial * theta[p] * q * (4.0 + 2.0 * c * q) / (1.0 + c * q) ** 2
+        for out, weight in zip(law.place, law.weight, strict=True):
+            bent, slope = _fibre(m, stretched**m + m * out * theta[p])
+            value, pulled = _curve(curve, bent - 1.0)
+            energy += weight * value
+            by_strain += weight * pulled * slope * m * stretched ** (m - 1.0)
+            by_theta[p] += weight * out * m * pulled * slope
     sheared = bend.shear * turn.sum(axis=0)
     moments = bend.volume * np.einsum("pik,pk->ik", rows, by_theta) + sheared
     energy = bend.volume * energy + 0.5 * sheared * turn.sum(axis=0)

@@ -180,7 +180,9 @@ def fibre_of(curve: elastic.ElasticCurve) -> Fibre:
 
 def section_of(fibre: Fibre, m: float = 1.0, radial: float = 0.0) -> section.BentSection:
     """A section of three fibres."""
-    return section.BentSection(fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, m, radial)
+    return section.BentSection(
+        fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, m, radial, 5.0 / 3.0, 0.0
+    )
 
 
 def walls_of(of: Frame) -> elements.Walls:

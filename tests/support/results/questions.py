@@ -19,6 +19,7 @@ BORDER = (*FAR, *(1.0 + k * 1e-9 for k in (-3, -1.0001, -0.999, 0, 0.999, 1.0001
 """Limits are values of designs times one of these: `ROUND_OFF` is 1e-9. What the page reads from
 curves has fewer digits, and is never at the border.
 """
+SO_FAR = 9  # rows of the curve of a case that stopped
 OTHERS = (
     {"platen": "contact"},
     {"loading_mode": "force", "force_N": 5.0},
@@ -87,8 +88,15 @@ def _row(rng, mass, energy, factor):
         "stroke_left_m": float(rng.choice([1e-3, 0.0, -1e-10, -1e-8])),
         "returned_energy_J": 0.9 * energy,
         "max_crossings": int(rng.random() < 0.1),
-        "status": "stopped" if rng.random() < 0.1 else "converged",
+        "status": "stopped" if rng.random() < 0.2 else "converged",
     }
+    if rng.random() < 0.15:
+        low, high = (float(rng.choice([0.8, 1.0]) * energy), float(rng.choice([1.0, 1.3]) * energy))
+        row["lowest_absorbed_energy_at_densification_J"] = low
+        row["highest_absorbed_energy_at_densification_J"] = high
+    if row["status"] == "stopped":
+        row["loaded"] = int(rng.random() < 0.3)
+        row["status"] = "unresolved" if not row["loaded"] and rng.random() < 0.3 else "stopped"
     for force in FORCES:
         share = float(rng.choice([1.0, rng.uniform(0.2, 1.0), np.nan], p=[0.3, 0.6, 0.1]))
         row[absorbed_energy_column(force)] = share * row["absorbed_energy_J"]
@@ -102,7 +110,10 @@ def write_curves(path, table, factors):
     for row, factor in zip(table.to_dict("records"), factors, strict=True):
         case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
         history = {name: column.to_numpy() for name, column in curve(factor).items()}
-        ran = (history, squeezed_cell()) if status == "converged" else ({}, {})
+        history = {
+            name: column[: None if row["loaded"] else SO_FAR] for name, column in history.items()
+        }
+        ran = (history, squeezed_cell())
         results.append(Result(Named(case_id), Status(status), message, row, *ran))
     with Writer(path, attributes={"config": "{}"}) as writer:
         writer.append(results)

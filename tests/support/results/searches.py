@@ -45,6 +45,7 @@ def simulate(case, control=None):
     measures |= {"mass_g": grams, "printed_mass_g": nan, "cpu_s": 0.01}
     if case.lattice.wall_thickness < THIN:
         measures |= {"absorbed_energy_within_model_J": 0.5 * joules}
+    measures |= {"loaded": int(not failed), "retry": ""}
     status = Status.STOPPED if failed else Status.CONVERGED
     why = "no equilibrium" if failed else ""
     return Result(case, status, why, measures, {} if failed else history(joules))

@@ -15,6 +15,7 @@ HEIGHT, T = 10e-3, 1e-3  # of the squeezed cell
 _DEFAULTS = {
     "status": "converged",
     "message": "",
+    "retry": "",
     "lattice_kind": "square",
     "cells_x": 3,
     "cells_y": 3,
@@ -73,6 +74,7 @@ def summary(*rows):
     ids = count()
     full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]
     for row in full:
+        row.setdefault("loaded", int(row["status"] == "converged"))
         row["specific_absorption_J_per_g"] = row["absorbed_energy_J"] / row["mass_g"]
         for point in ("at_densification", "until_packed", "within_model"):
             row.setdefault(f"absorbed_energy_{point}_J", row["absorbed_energy_J"])
@@ -92,9 +94,9 @@ CRUSHES = summary(*designs([1.0, 2.0, 3.0], [0.10, 0.18, 0.40], height_m=12.5e-3
     peak_force_until_packed_N=[20.0, 30.0, 80.0]
 )
 """Three crushes: the heavier, the more energy and force."""
-_HIT = {"loading_mode": "impact", "stroke_m": np.nan, "striker_mass_g": 50.0, "height_m": 12.5e-3}
-_HIT |= {"impact_energy_J": 1.5, "peak_strain": 0.5}
-IMPACTS = summary(*(_HIT | {"peak_force_N": force} for force in (76.0, 90.0))).assign(
+HIT = {"loading_mode": "impact", "stroke_m": np.nan, "striker_mass_g": 50.0, "height_m": 12.5e-3}
+HIT |= {"impact_energy_J": 1.5, "peak_strain": 0.5}
+IMPACTS = summary(*(HIT | {"peak_force_N": force} for force in (76.0, 90.0))).assign(
     peak_deceleration_filtered_m_per_s2=[500.0, np.nan]
 )
 """Two impacts, the second without a filtered deceleration."""

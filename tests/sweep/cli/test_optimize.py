@@ -16,7 +16,7 @@ ENERGY = "absorbed_energy_J"
 @pytest.fixture
 def config(tmp_path, monkeypatch):
     """A search on invented results."""
-    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "sought.toml"
     path.write_text(TOML)

@@ -56,7 +56,7 @@ def test_missing_file(tmp_path):
 def test_not_text(tmp_path):
     path = tmp_path / "sweep.toml"
     path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(ConfigError, match="not TOML"):
+    with pytest.raises(ConfigError, match="not UTF-8 text; needed: a TOML file"):
         load_config(path)
 
 

@@ -185,3 +185,22 @@ def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypat
     assert records[2]["ranked_error"] is None
     main([*question, "--markdown"])
     assert "| 1=*" in capsys.readouterr().out
+
+
+def test_energies_that_stand_for_a_range_tie_where_their_ranges_meet():
+    """The energy per gram of the second is 0.15 or 0.42 J/g, as its efficiency has two maxima."""
+    column = "absorbed_energy_at_densification_J"
+    rows = summary(*designs([1.0, 1.0, 1.0], [0.4, 0.3, 0.2]))
+    ranged = rows.assign(
+        **{f"lowest_{column}": [0.4, 0.15, 0.2], f"highest_{column}": [0.4, 0.42, 0.2]}
+    )
+    table = rank(ranged)
+    assert list(table["place"]) == [1, 1, 3]
+    assert list(table["tied"]) == [True, True, False]
+    assert list(rank(ranged, panel=("130 mm", "50 mm"))["place"]) == [1, 1, 3]
+    assert "tied" not in rank(rows)
+    assert list(rank(ranged, by="absorbed_energy_J")["place"]) == [1, 2, 3]
+    ranged.loc[1, f"highest_{column}"] = 0.35
+    assert list(rank(ranged)["place"]) == [1, 2, 2]
+    ranged.loc[1, f"lowest_{column}"], ranged.loc[0, f"lowest_{column}"] = 0.3, 0.32
+    assert list(rank(ranged)["place"]) == [1, 1, 3]

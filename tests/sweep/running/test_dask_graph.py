@@ -180,7 +180,7 @@ def test_stop_on_a_cluster_keeps_what_has_landed():
 def test_what_is_no_address_is_refused_in_one_line(address):
     with pytest.raises(GraphError, match="such as tcp://host:8786") as refusal:
         check_scheduler(address)
-    assert str(refusal.value).startswith(f'"{address}": ')
+    assert str(refusal.value).startswith(f'"{address}" is no address')
     assert "\n" not in str(refusal.value)
 
 

@@ -24,7 +24,7 @@ def test_cases_of_other_configs_are_counted_anew_by_every_run(tmp_path):
 
 
 def test_an_edited_question_is_stored_although_no_case_is_missing(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     config = tmp_path / "trial.toml"
     for limit in ("1 g", "2 g"):
@@ -40,7 +40,7 @@ def test_an_edited_question_is_stored_although_no_case_is_missing(tmp_path, monk
 
 @pytest.mark.parametrize("verb", ["run", "rank", "status"])
 def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
-    monkeypatch.setattr(import_module("sweep.simulation.simulate"), "simulate", simulate)
+    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
     monkeypatch.chdir(tmp_path)
     config = tmp_path / "trial.toml"
     for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases belong to other")):

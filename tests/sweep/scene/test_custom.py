@@ -236,7 +236,7 @@ def test_shipped_arch_snaps_through():
     """Held at first by its compressed walls, it gives way to one side and pulls at the end."""
     (case,) = expand(load_config(CONFIGS / "custom.toml"))
     result = converged(case)
-    assert result.history["work_in_J"][-1] == pytest.approx(8.426e-3, rel=1e-3)
+    assert result.history["work_in_J"][-1] == pytest.approx(8.442e-3, rel=1e-3)
     assert case.lattice.file == "custom.json"
 
 

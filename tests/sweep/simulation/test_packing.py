@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.simulation.packing import BAND, efficiency, packed_row, span, weights
+from sweep.simulation.packing import BAND, efficiency, near_maxima, packed_row, span, weights
 from sweep.simulation.summary import crush_columns
 
 HEIGHT, AREA = 10e-3, 1e-4
@@ -156,3 +156,20 @@ def test_the_greatest_efficiency_of_the_first_or_last_row_is_no_densification():
     assert packed_row(np.array([0.0, 0.2, 0.3])) is None
     assert packed_row(np.zeros(3)) is None
     assert packed_row(np.array([0.0, 0.3, 0.2])) == 1
+
+
+def test_maxima_of_nearly_the_greatest_efficiency():
+    assert near_maxima(np.array([0.0, 0.30, 0.2, 0.301, 0.1])) == [1, 3]
+    assert near_maxima(np.array([0.0, 0.29, 0.2, 0.301, 0.1])) == [3]
+    assert near_maxima(np.array([0.3, 0.2, 0.25, 0.3])) == []
+    assert near_maxima(np.zeros(4)) == []
+
+
+def test_a_curve_with_two_maxima_says_both():
+    """Their ranks are exchanged at about 33 N; far from there one of both is the greatest alone."""
+    places = [f"{end}_densification_strain" for end in ("lowest", "highest")]
+    energies = [f"{end}_absorbed_energy_at_densification_J" for end in ("lowest", "highest")]
+    assert measured(two_rows(33.0), places) == pytest.approx([0.3, 0.5], abs=2e-3)
+    assert measured(two_rows(33.0), energies) == pytest.approx([29e-3, 93e-3], rel=0.02)
+    assert measured(two_rows(15.0), places) == pytest.approx([0.5, 0.5], abs=2e-3)
+    assert measured(two_rows(60.0), places) == pytest.approx([0.3, 0.3], abs=2e-3)

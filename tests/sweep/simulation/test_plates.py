@@ -107,7 +107,7 @@ def test_energy_within_the_model_ends_where_walls_fill_the_area(stroke, within):
 
 def test_damping_is_no_advice_as_it_is_refused(monkeypatch):
     module = import_module("sweep.simulation.simulate")
-    monkeypatch.setattr(module._Run, "_creates_energy", lambda run: True)
+    monkeypatch.setattr(module._Run, "_creates_energy", lambda run, rows: True)
     loading = dict(direction="out_of_plane", striker_mass=5e-3, striker_speed=0.3, duration=1e-4)
     steps = dict(integrator="newmark", time_step=2e-5)
     found = simulate(

@@ -97,7 +97,16 @@ UNFIT = {
     f"{SHARED}perimeters = 0": ("lattice.perimeters = 0", "1 to 23", "lattice.slicer is given"),
     f'{SHARED}layer_height = "0.5 mm"': ('lattice.layer_height = "0.5 mm"', "at most", "0.45 mm"),
     SHARED.replace("grid", "stars").replace("20 %", "60 %"): (
-        *('lattice.infill = "60 %"', "at least twice as wide"),
+        *('lattice.infill = "60 %"', "below 50 %", "twice as wide"),
+    ),
+    f'{GRID}infill = "50 %"\nfill_angle = "0 deg"\nperimeters = 1': (
+        *('lattice.infill = "50 %"', "49 %, for example", "weigh 13 % less than is extruded"),
+    ),
+    f'{GRID}mass = "2.5 g"\nfill_angle = "0 deg"': (
+        *('lattice.mass = "2.5 g"', "2.057 g, for example", "weigh 18 % less than is extruded"),
+    ),
+    f"{SHARED}fill_multiline = 6\nperimeters = 2".replace("prusa", "orca").replace("20 m", "4 m"): (
+        *("lattice.perimeters = 2", "or a larger box", "weigh 32 % less", "any infill near 20 %"),
     ),
     f'{GRID}mass = "1 g"': ('lattice.mass = "1 g"', "between 1.249 g and 6.301 g"),
     f'{SHARED}mass = "2 g"': ('lattice.mass = "2 g"', "none where lattice.infill is given"),
@@ -134,3 +143,8 @@ def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
         sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
     with pytest.raises(RefusedError, match="a key of Cells: "):
         Case.of(lattice=dict(fill_multiline=2))
+
+
+@pytest.mark.parametrize("wish", [{"infill": 0.49}, {"infill": 0.5, "fill_angle": 0.3}])
+def test_what_a_refusal_of_a_drawing_allows_is_drawn(wish):
+    assert sliced(**{"fill_angle": 0.0, "perimeters": 1} | wish).infill == wish["infill"]

@@ -105,7 +105,11 @@ def test_all_mistakes_are_told(lines):
 
 @pytest.mark.parametrize(
     ("text", "wanted"),
-    [("{", "not JSON ("), ("[]", "not a JSON object"), ('{"walls": [[0, 1]]}', "nodes_mm is miss")],
+    [
+        ("{", "not JSON at line 1, column 2"),
+        ("[]", "not a JSON object"),
+        ('{"walls": [[0, 1]]}', "nodes_mm is miss"),
+    ],
 )
 def test_what_is_no_structure(lines, text, wanted):
     (line,) = lines(text)

@@ -12,6 +12,7 @@ from py_mini_racer import MiniRacer
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
+from sweep.ranking.unfinished import PLACES
 from sweep.report.page import gather
 from sweep.report.page.gather import page_data
 from tests.support.results.questions import (
@@ -34,12 +35,14 @@ function told({ data, questions }) {
     const found = ranked(data, asked);
     return {
       placed: found.placed.map((row) => ({
-        case_id: row.design.id, place: row.place, tied: Boolean(found.bar) && row.sharing > 1,
-        pareto: row.pareto, beyond_model: row.beyond, crossed: row.design.crossed,
+        case_id: row.design.id, place: row.place, pareto: row.pareto,
+        tied: Boolean(found.bar || found.ranged) && row.sharing > 1,
+        beyond_model: row.beyond, crossed: row.design.crossed,
         value: row.value, mass: row.mass, early: row.early || row.open,
       })),
       missing: found.missing.length,
       nearest: found.nearest ? found.nearest.design.id : null,
+      stopped: found.stopped.map(({ row, best, least }) => [row.design.id, best, least]),
       lightest: found.lightestMeeting ? found.lightestMeeting.design.id : null,
       misses: found.nearest ? found.nearest.misses : {},
       needed: rectangle(data, found.rows, asked),
@@ -87,6 +90,9 @@ def expected(table, question):
         placed = frame[frame["scene"] == label][names].to_dict("records")
         outcome = ranking.outcomes[label][0] if question["require"] else None
         scenes[label] = {"placed": placed} | _of_requirements(outcome)
+        stopped = ranking.unfinished[ranking.unfinished["scene"] == label]
+        columns = stopped[["case_id", *PLACES]].itertuples(index=False, name=None)
+        scenes[label]["stopped"] = [[k, n, None if np.isnan(m) else m] for k, n, m in columns]
     return scenes
 
 
@@ -151,7 +157,7 @@ def asked_of_both(told, path, seed):
 @pytest.mark.parametrize("seed", range(SWEEPS))
 def test_page_and_python_rank_alike(told, tmp_path, seed):
     """What the page reads from curves has four digits."""
-    rows, missing, nearest, border = [], 0, 0, 0
+    rows, missing, nearest, border, stopped = [], 0, 0, 0, 0
     for question, found, wanted in asked_of_both(told, tmp_path, seed):
         one, other = of_the_page(found, wanted), wanted
         if read_from_curves(question):
@@ -160,11 +166,13 @@ def test_page_and_python_rank_alike(told, tmp_path, seed):
             assert one == other, question
         rows += found["placed"]
         missing += found["missing"]
+        stopped += sum(best > 1 for _, best, _ in found["stopped"])
+        stopped += sum(least is not None for _, _, least in found["stopped"])
         nearest += bool(found["nearest"])
         most = 1e3 * (question["budget"] or np.inf)
         border += sum(0.0 < abs(most / row["mass"] - 1.0) < 5e-9 for row in found["placed"])
     counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
-    assert min(*counts, missing) > 5
+    assert min(*counts, missing, stopped) > 5
     assert min(nearest, border) > 0
 
 

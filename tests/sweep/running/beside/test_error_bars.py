@@ -71,8 +71,15 @@ def without_coarse_meshes(case, control):
     """`first_order`, but one element a wall stops where the imperfection is 0.002."""
     result = first_order(case)
     if case.lattice.nodes_per_wall == 0 and case.lattice.imperfection == 0.002:
-        return replace(result, status=Status.STOPPED, message="No step was short enough.")
+        return stopped(result)
     return result
+
+
+def stopped(result):
+    """The same result of a case that stopped while loading."""
+    summary = {**result.summary, "loaded": 0}
+    why = "No step was short enough."
+    return replace(result, status=Status.STOPPED, message=why, summary=summary)
 
 
 @pytest.mark.parametrize(
@@ -294,7 +301,7 @@ def test_renewed_companions_are_no_older_rows_of_another_sweep(out):
 
 def test_failed_design_has_no_companions(out, log, logged):
     def stopped(case, control):
-        return replace(first_order(case), status=Status.STOPPED, message="No.")
+        return stopped(first_order(case))
 
     sweep = config(lattice__imperfection=(0.001,))
     run_sweep(sweep, out, simulate=stopped)

@@ -103,6 +103,7 @@ def crush(case, stop=None):
         "peak_strain": 0.3,
     }
     status = Status.STOPPED if kind == "brick" else Status.CONVERGED
+    measures["loaded"] = int(kind != "brick")
     return Result(case, status, "", measures, found.history, found.frames)
 
 

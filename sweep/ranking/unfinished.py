@@ -1,0 +1,177 @@
+"""Cases that stopped: which of them are ranked all the same, and which place others could have had.
+
+A case that completed its loading (column `loaded`) is ranked by what the loading determines. Of any
+other, the final value of the sorted column lies between two ends, of which one may be infinite:
+
+- energies, forces and strains only rise as a loading goes on: not below the value so far;
+- energy up to an allowed force F: at most the energy so far + F x the stroke that is left, and just
+  the energy so far if F was exceeded;
+- a mass does not change; all other columns may become anything, and so may all of an impact that
+  its steps do not resolve.
+
+The better end gives the best place that the case could have had among those ranked, the worse end
+the place that it has at least. A requirement that it already misses, or its mass, excludes it.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from pandas import DataFrame, Series
+
+from sweep.columns import less_is_better
+from sweep.ranking.budget import greatest_mass
+from sweep.ranking.merit import Compared
+from sweep.ranking.question import in_si
+from sweep.ranking.requirement_table import MEASURES
+from sweep.ranking.requirements import measured, misses
+from sweep.ranking.scenes import by_scene, scene_keys
+from sweep.result import Status
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from sweep.ranking.question import Question
+
+RISING = re.compile(
+    r"(absorbed_energy|specific_absorption|panel_energy|panel_force|peak_|passed_on|counted_stroke)"
+    r"|efficiency$"
+)
+"""Beginnings of columns whose values only rise as a loading goes on."""
+FIXED = re.compile(r"(.+_)?mass_g$|relative_density$")
+PLACES = ["best_place", "least_place"]
+"""Columns of `could_place`: the best place that a case could have had, and the one it has at least;
+the latter is NaN where nothing is certain.
+"""
+
+
+class Ends(NamedTuple):
+    """The least and the greatest final value of each row."""
+
+    low: Series
+    high: Series
+
+
+def loaded(summary: DataFrame) -> DataFrame:
+    """The rows whose loading was completed: those that are ranked."""
+    return summary[summary["loaded"] == 1]
+
+
+def ended_early(rows: DataFrame, by: str) -> Series:
+    """True for cases that stopped before they had a value to sort by that can be relied on."""
+    return (rows["status"] != Status.CONVERGED) & ((rows["loaded"] != 1) | rows[by].isna())
+
+
+def unloaded(rows: DataFrame) -> Series:
+    """True for rows that are ranked although their case stopped after the loading."""
+    return (rows["loaded"] == 1) & (rows["status"] != Status.CONVERGED)
+
+
+def same_scene(rows: DataFrame, among: DataFrame) -> DataFrame:
+    """The rows of `among` that have the loading scene of `rows`, which are of one scene."""
+    keys = scene_keys(among)
+    own = _key(rows, keys)
+    return next((part for part in by_scene(among) if _key(part, keys) == own), among[:0])
+
+
+def _key(rows: DataFrame, keys: list[str]) -> tuple[str, ...]:
+    return tuple(map(str, rows[keys].iloc[0])) if len(rows) else ()
+
+
+def could_place(  # noqa: PLR0913  the ranking, the cases, the question
+    ranked: DataFrame,
+    stopped: DataFrame,
+    by: str,
+    budget_g: float,
+    names: Compared,
+    question: Question,
+    required: Mapping[str, float],
+) -> DataFrame:
+    """The stopped cases of one scene that could have had a place among the first `question.top`
+    within a budget, the best first, with the columns `PLACES`.
+
+    ranked: rows of the scene that have a place, whatever their mass. required: limits in SI.
+    """
+    mass = stopped[names.mass]
+    fits = (mass <= greatest_mass(budget_g)) | mass.isna()
+    bounds = Ends(*(end[fits] for end in ends(stopped, by, names, question)))
+    rows = stopped[fits]
+    values = ranked[by][ranked[names.mass] <= greatest_mass(budget_g)].dropna().to_numpy()
+    less = less_is_better(by)
+    better, worse = (bounds.low, bounds.high) if less else (bounds.high, bounds.low)
+    missed, certain = _judged(rows, bounds, names, question, required)
+    best, least = (_place(end, values, less) for end in (better, worse))
+    rows = rows.assign(best_place=best, least_place=least.where(np.isfinite(worse) & certain))
+    rows = rows[~missed & (best <= (question.top or np.inf))]
+    return rows.sort_values([*PLACES, "case_id"])
+
+
+def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
+    """Between which values each case would have ended in the column `by`."""
+    value = rows[by].astype(float)
+    low, high = value * np.nan - np.inf, value * np.nan + np.inf
+    low, high = low.fillna(-np.inf), high.fillna(np.inf)
+    if FIXED.match(by):
+        return Ends(value.fillna(-np.inf), value.fillna(np.inf))
+    if RISING.match(by):
+        value = value.where(rows["status"] != Status.UNRESOLVED)
+        low = value.fillna(-np.inf)
+        if question.allowed_force is not None and by in (names.energy, names.per_gram):
+            high = (value + _further(rows, by, names, question)).fillna(np.inf)
+    return Ends(low, high)
+
+
+def _further(rows: DataFrame, by: str, names: Compared, question: Question) -> Series:
+    """What the rest of a crush adds at most to the energy up to an allowed force, in units of `by`:
+    nothing once the force was exceeded; infinite if it is no crush.
+    """
+    count = rows.get("panel_specimens", Series(1.0, rows.index))
+    force = in_si(question.allowed_force or 0.0, "N")
+    force = force / count if question.per == "panel" else Series(force, rows.index)
+    most = (force * stroke_left(rows)).where(~(rows["peak_force_N"] > force), 0.0)
+    if by == names.per_gram:
+        most = most / (rows[names.mass] / (count if names.mass == "panel_mass_g" else 1.0))
+    else:
+        most = most * (count if by == "panel_energy_J" else 1.0)
+    return most.where(rows["loading_mode"] == "displacement", np.inf)
+
+
+def stroke_left(rows: DataFrame) -> Series:
+    """Stroke (m) of a crush that is left at the strain that was reached."""
+    return (rows["stroke_m"] - rows["peak_strain"] * rows["height_m"]).clip(lower=0.0)
+
+
+def _place(value: Series, ranked: np.ndarray, less: bool) -> Series:
+    """1 + the number of ranked values that are better."""
+    better = ranked[None, :] < value.to_numpy()[:, None]
+    if not less:
+        better = ranked[None, :] > value.to_numpy()[:, None]
+    return Series(1 + better.sum(axis=1), value.index, dtype=int)
+
+
+def _judged(
+    rows: DataFrame,
+    bounds: Ends,
+    names: Compared,
+    question: Question,
+    required: Mapping[str, float],
+) -> tuple[Series, Series]:
+    """Which cases miss a requirement already, and which of them can miss none any more.
+
+    What is limited from above only rises. An energy that must be absorbed is out of reach only if
+    nothing is added to it.
+    """
+    missed = Series(False, rows.index)
+    if rows.empty:
+        return missed, missed
+    mode = rows["loading_mode"].iloc[0]
+    asked = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
+    shares = misses(rows, measured(rows, names, question.per), asked) > 0.0
+    settled = bounds.low == bounds.high
+    resolved = rows["status"] != Status.UNRESOLVED
+    for name in asked:
+        sure = settled if MEASURES[name].least else resolved | (name == "max_mass")
+        missed |= shares[name] & sure
+    return missed, Series(not set(asked) - {"max_mass"}, rows.index)

@@ -1,0 +1,89 @@
+"""A case that stops is simulated again with shorter steps, then with another imperfection.
+
+The advice of a failure is tried before it is given. What converges first has the numbers of the
+row; its column `retry` says what was changed. The id stays that of the case asked for.
+"""
+
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from sweep.config.case import Case
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.solver import Arcs, InTime
+from sweep.config.kinds.table import RefusedError
+from sweep.numbers import with_unit
+from sweep.result import Result, Status
+from sweep.simulation.simulate import simulate
+
+SHORTER = 4  # times as many steps
+BOWED, BOW = 1.5, 0.01  # times the imperfection; in place of none, in wall thicknesses
+
+
+def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
+    """The result of ``case``, or of the retry that came farthest; pure as `simulate` is.
+
+    All together may take `solver.time_limit`. stop: as of `simulate`.
+    """
+    stop = np.zeros(2, np.int64) if stop is None else stop
+    due = time.monotonic() + case.solver.time_limit
+    best = last = simulate(case, stop)
+    spent, tried = float(best.summary["cpu_s"]), list[str]()
+    for words, changed in _changes(case) if best.curable and case.solver.retry else ():
+        left = due - time.monotonic()
+        if stop[0] or left <= 0.0 or best.status is Status.CONVERGED:
+            break
+        last = simulate(_limited(changed, left), stop)
+        spent += float(last.summary["cpu_s"])
+        tried.append(words)
+        if _reach(last) > _reach(best):
+            best = replace(last, summary={**last.summary, "retry": words})
+    return _told(case, best, tried, spent)
+
+
+def _reach(result: Result) -> tuple[bool, bool]:
+    """How far a run came: to its end, or to the end of its loading."""
+    return result.status is Status.CONVERGED, result.summary["loaded"] == 1
+
+
+def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:
+    """The result as that of ``case``, with all processor time (s) and what was tried in vain."""
+    message = best.message
+    if tried and best.status is not Status.CONVERGED:
+        message = f"{message} (tried in vain: {'; '.join(tried)})"
+    own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
+    return replace(best, case=case, message=message, summary={**best.summary, **own})
+
+
+def _limited(case: Case, seconds: float) -> Case:
+    solver = case.solver.model_copy(update={"time_limit": seconds})
+    return case.model_copy(update={"solver": solver})
+
+
+def _changes(case: Case) -> Iterator[tuple[str, Case]]:
+    """What is tried in turn: the changed key with its value, and the case with it."""
+    for table, key, unit, value in _values(case):
+        change: dict[str, Any] = {key: value}
+        if key == "load_steps" and isinstance(case.solver, InTime):
+            change["time_step"] = None  # follows
+        try:
+            yield f"{table}.{key} = {with_unit(value, unit)}", case.changed(**{table: change})
+        except RefusedError:
+            continue
+
+
+def _values(case: Case) -> Iterator[tuple[str, str, str, float]]:
+    """The changed keys: table, key, unit in SI, value."""
+    match case.solver:
+        case Arcs(arc_length=length):
+            yield "solver", "arc_length", "m", length / SHORTER
+        case InTime(load_steps=None, time_step=step):
+            yield "solver", "time_step", "s", step / SHORTER
+        case solver:
+            yield "solver", "load_steps", "", SHORTER * (solver.load_steps or 1)
+    if not isinstance(case.lattice, CustomStructure):
+        bow = case.lattice.imperfection
+        yield "lattice", "imperfection", "", BOWED * bow if bow else BOW

@@ -1,0 +1,55 @@
+"""Files that cannot be read are refused in our own words, never in those of a library."""
+
+import pytest
+
+from sweep.config.faults import ConfigError, MisfitError
+from sweep.config.load import load_config
+from sweep.config.materials.material_file import read_record
+from sweep.config.structures.structure_file import read_structure
+from sweep.coupon.record import read_coupon
+
+LIBRARY = ("codec", "Errno", "Exceeds", "recursion", "embedded", "field larger", "char ")
+HEADER = b"# density_kg_m3: 1000\n# poisson: 0.4\nstrain,stress_Pa\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        ("name = 1".encode("utf-16"), "not UTF-8 text; needed: a TOML file"),
+        (b"a = " + b"[" * 5000, "not TOML"),
+        (b"a = " + b"9" * 5000, "not TOML"),
+        (b'[lattice]\nkind = "custom"\nfile = "a\\u0000.json"', "not the path of a file; needed"),
+        (b'[lattice]\nkind = "custom"\nfile = "none.json"', "cannot be read (No such file or"),
+        (b'[material]\nname = "a\\u0000.csv"', "unknown material"),
+    ],
+)
+def test_configs(content, why, tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError) as refusal:
+        load_config(path)
+    assert why in str(refusal.value)
+    assert not any(word in str(refusal.value) for word in LIBRARY)
+
+
+READERS = (read_record, read_coupon, read_structure)
+FILES = [
+    *((read, None, "cannot be read (No such file or directory); needed: a") for read in READERS),
+    *((read, "1".encode("utf-16"), "not UTF-8 text; needed: a") for read in READERS),
+    (read_record, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
+    (read_coupon, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
+    (read_structure, b"[" * 10**5, "not JSON"),
+    (read_structure, b'{"walls": ' + b"9" * 5000 + b"}", "not JSON"),
+    (read_structure, b'{\n"walls": }', "not JSON at line 2, column 10"),
+]
+
+
+@pytest.mark.parametrize(("read", "content", "why"), FILES)
+def test_files(read, content, why, tmp_path):
+    path = tmp_path / "file"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(MisfitError) as refusal:
+        read(path)
+    assert why in str(refusal.value)
+    assert not any(word in str(refusal.value) for word in LIBRARY)

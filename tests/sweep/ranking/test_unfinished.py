@@ -1,0 +1,180 @@
+"""Cases that stopped: ranked by a completed loading, else named with a place."""
+
+import numpy as np
+import pytest
+
+from sweep.columns import absorbed_energy_column
+from sweep.ranking.rank import ranked
+from sweep.simulation.packing import efficiency, packed_row, weights
+from sweep.simulation.until import absorbed_until
+from tests.support.results.specimens import designs, ids, summary
+
+NAN = float("nan")
+STOPPED = {"status": "stopped", "message": "stopped while loading: the solution diverged"}
+UNLOADED = STOPPED | {"loaded": 1, "returned_energy_J": NAN}
+ALLOWED, HEIGHT, ROWS = (5.0, 12.0), 0.02, 40
+GRIDS = 40
+
+
+def crushes(*changes):
+    """Three crushes of 1 g that absorb 0.1, 0.2 and 0.3 J, and one with these changes."""
+    return summary(*designs([1.0] * 3, [0.1, 0.2, 0.3]), {"mass_g": 1.0} | dict(*changes))
+
+
+def named(ranking):
+    """Number in the summary, best and least place of each unfinished case."""
+    columns = ranking.unfinished[["case_id", "best_place", "least_place"]]
+    return [(int(k, 16), n, m) for k, n, m in columns.itertuples(index=False)]
+
+
+def test_a_completed_loading_is_ranked_whatever_stopped_the_case_later():
+    ranking = ranked(crushes(UNLOADED | {"absorbed_energy_J": 0.4}))
+    assert ids(ranking.table) == [3, 2, 1, 0]
+    assert (ranking.failed, ranking.unloaded, named(ranking)) == (0, 1, [])
+
+
+def test_what_only_unloading_tells_of_such_a_case_is_open():
+    table = crushes(UNLOADED | {"absorbed_energy_J": 0.4, "lost_energy_J": NAN})
+    ranking = ranked(table, by="lost_energy_J")
+    assert 3 not in ids(ranking.table)
+    assert named(ranking) == [(3, 1, pytest.approx(NAN, nan_ok=True))]
+    assert ranking.unranked == 0
+
+
+@pytest.mark.parametrize(("energy", "least"), [(0.15, 3), (0.25, 2), (0.35, 1), (0.05, 4)])
+def test_energy_so_far_is_the_least_that_a_case_absorbs(energy, least):
+    ranking = ranked(crushes(STOPPED | {"absorbed_energy_J": energy}))
+    assert (ids(ranking.table), named(ranking)) == ([2, 1, 0], [(3, 1, least)])
+
+
+@pytest.mark.parametrize(("force", "best"), [(10.0, 1), (20.5, 2), (50.0, None)])
+def test_a_force_that_only_rises_gives_the_best_place(force, best):
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "mass_g": 1.0}
+    rows = [struck | {"peak_force_N": value} for value in (20.0, 30.0)]
+    ranking = ranked(summary(*rows, struck | STOPPED | {"peak_force_N": force}), top=2)
+    places = [] if best is None else [(2, best, pytest.approx(NAN, nan_ok=True))]
+    assert named(ranking) == places
+
+
+def test_an_allowed_force_limits_what_the_rest_of_the_stroke_adds():
+    column = absorbed_energy_column(10.0)
+    table = crushes(STOPPED | {"height_m": 0.01, "stroke_m": 6e-3, "peak_strain": 0.5})
+    table[column] = [0.1, 0.2, 0.3, 0.195]
+    table["peak_force_N"] = [20.0, 20.0, 20.0, 8.0]
+    assert named(ranked(table, allowed_force="10 N", budget="2 g")) == [(3, 2, 3)]  # + 10 mJ
+    table.loc[3, "peak_force_N"] = 11.0
+    assert named(ranked(table, allowed_force="10 N")) == [(3, 3, 3)]
+
+
+def test_budgets_and_requirements_that_are_missed_already_exclude():
+    heavy = crushes(STOPPED | {"mass_g": 3.0})
+    assert named(ranked(heavy, budget="2 g")) == []
+    assert named(ranked(heavy.assign(mass_g=[1, 1, 1, NAN]), budget="2 g"))
+    hard = crushes(STOPPED | {"peak_force_until_packed_N": 30.0, "absorbed_energy_J": 0.9})
+    assert named(ranked(hard, require={"max_force": "25 N"})) == []
+    (found,) = named(ranked(hard, require={"max_force": "35 N"}))
+    assert found == (3, 1, pytest.approx(NAN, nan_ok=True))  # it may exceed the force later
+
+
+def test_only_cases_of_a_ranked_scene_within_its_top_are_named():
+    table = crushes(STOPPED | {"platen": "contact", "absorbed_energy_J": 0.9})
+    assert named(ranked(table)) == []
+    fixed = crushes(STOPPED)
+    assert named(ranked(fixed.assign(mass_g=[1, 2, 3, 4]), by="mass_g", top=2)) == []
+
+
+def curve(rng):
+    """A crush to half the height with a force that rises, falls and rises: travel, force, work."""
+    travel = np.linspace(0.0, 0.5 * HEIGHT, ROWS)
+    humps = (
+        rng.uniform(0.0, 8.0, 3) @ np.sin(np.outer(rng.uniform(0.5, 4.0, 3), travel / HEIGHT)) ** 2
+    )
+    wall = rng.uniform(0.0, 30.0) * (travel / travel[-1]) ** rng.integers(4, 20)
+    force = np.abs(rng.uniform(0.5, 5.0) * np.sqrt(travel / HEIGHT) + humps + wall)
+    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
+    return travel, force, work
+
+
+def row(travel, force, work):
+    """The columns that a ranking reads, as `simulation.summary` takes them from a curve."""
+    gained, strain = efficiency(force, work), travel / HEIGHT
+    share, peak = weights(strain, gained), np.maximum.accumulate(force)
+    packed = packed_row(gained)
+    return {
+        "height_m": HEIGHT,
+        "stroke_m": 0.5 * HEIGHT,
+        "absorbed_energy_J": work[-1],
+        "absorbed_energy_until_packed_J": share @ work,
+        "absorbed_energy_at_densification_J": work[-1 if packed is None else packed],
+        "peak_force_until_packed_N": share @ peak,
+        "peak_force_N": peak[-1],
+        "efficiency": gained.max(),
+        "peak_strain": strain[-1],
+        "packing_strain": share @ strain,
+        "densification_strain": NAN if packed is None else strain[packed],
+    } | {absorbed_energy_column(limit): absorbed_until(limit, force, work) for limit in ALLOWED}
+
+
+def grids(rng):
+    """The summary of a small grid, and the same with some cases that stopped."""
+    count = int(rng.integers(2, 9))
+    masses, runs = rng.choice([1.0, 2.0, 3.0], count), [curve(rng) for _ in range(count)]
+    whole = [{"mass_g": m} | row(*run) for m, run in zip(masses, runs, strict=True)]
+    broken = list(whole)
+    for number in np.flatnonzero(rng.random(count) < 0.5):
+        rows = int(rng.integers(1, ROWS + 1))
+        so_far = {"mass_g": masses[number]} | row(*(column[:rows] for column in runs[number]))
+        broken[number] = so_far | (UNLOADED if rows == ROWS else STOPPED)
+    return summary(*whole), summary(*broken)
+
+
+def question(rng):
+    """A random question."""
+    require = {"max_force": "9 N", "max_stroke": "7 mm", "min_absorbed": "20 mJ"}
+    force = rng.choice([None, None, "5 N", "12 N"])
+    if force is not None:
+        del require["max_stroke"]  # needs curves
+    return {
+        "budget": rng.choice([None, "1.5 g", "100 g"]),
+        "panel": ("100 mm", "50 mm") if rng.random() < 0.2 else None,
+        "allowed_force": force,
+        "by": rng.choice([None, None, None, "absorbed_energy_J", "peak_force_N", "efficiency"]),
+        "require": {k: v for k, v in require.items() if rng.random() < 0.2},
+        "top": int(rng.integers(1, 5)),
+    }
+
+
+def first(ranking):
+    """Ids of the first place."""
+    return {*ranking.table["case_id"][ranking.table["place"] == 1]}
+
+
+@pytest.mark.parametrize("seed", range(GRIDS))
+def test_no_first_place_changes_without_a_word(seed):
+    """The first design of a grid with stopped cases is that of the whole grid, or the case that is
+    first there is named; no case is promised a place that it does not have.
+    """
+    rng = np.random.default_rng([38, seed])
+    (whole, broken), asked = grids(rng), question(rng)
+    right = ranked(whole, **asked | {"top": None})
+    some = ranked(broken, **asked)
+    if some.failed == some.cases:
+        return  # nothing is ranked
+    unfinished = some.unfinished.set_index("case_id")
+    for case_id in first(right) - first(some):
+        assert unfinished.loc[case_id, "best_place"] == 1
+    places = right.table.set_index("case_id")["place"]
+    for case_id, least in unfinished["least_place"].dropna().items():
+        finished = [k for k in some.table["case_id"] if k in places.index]
+        ahead = sum(places[k] < places[case_id] for k in finished)
+        assert 1 + ahead <= least
+
+
+def test_the_grids_have_first_places_that_change():
+    """Else the property above would say nothing."""
+    changed = 0
+    for seed in range(GRIDS):
+        rng = np.random.default_rng([38, seed])
+        (whole, broken), asked = grids(rng), question(rng)
+        changed += first(ranked(whole, **asked)) != first(ranked(broken, **asked))
+    assert changed > GRIDS / 8

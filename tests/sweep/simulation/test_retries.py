@@ -1,0 +1,125 @@
+"""Retries of a case that stops: what is tried, which result counts, and what its row says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.result import Status, failed_result
+from sweep.simulation import retries
+from sweep.simulation.retries import simulate_again
+from sweep.simulation.simulate import simulate
+from tests.studies.stability.draw import scene
+
+CRUSH = Case.of(loading={"mode": "displacement", "strain": 0.1})
+FAST = Case.of(loading={"mode": "displacement", "strain": 0.1, "speed": 1.0})
+LOAD = Case.of(loading={"mode": "force", "force": 1.0})
+WHY = "stopped here: try more"
+
+
+def answers(monkeypatch, *outcomes, curable=True):
+    """Let `simulate` end in these ways, one after another; return the cases that it is given."""
+    asked, left = [], list(outcomes)
+
+    def simulate(case, stop=None):
+        asked.append(case)
+        status, loaded = left.pop(0)
+        message = "" if status is Status.CONVERGED else WHY
+        made = failed_result(case, status, message)
+        summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
+        return replace(made, summary=summary, curable=curable and status is Status.STOPPED)
+
+    monkeypatch.setattr(retries, "simulate", simulate)
+    return asked
+
+
+STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
+
+
+def test_a_case_that_converges_is_simulated_once(monkeypatch):
+    asked = answers(monkeypatch, ENDS)
+    result = simulate_again(CRUSH)
+    assert (len(asked), result.summary["retry"], result.status) == (1, "", Status.CONVERGED)
+
+
+def test_the_first_retry_has_shorter_steps_and_gives_the_row_its_numbers(monkeypatch):
+    asked = answers(monkeypatch, STOPS, ENDS)
+    result = simulate_again(CRUSH)
+    assert asked[1].solver.load_steps == retries.SHORTER * CRUSH.solver.load_steps
+    assert result.case is CRUSH
+    assert result.summary["case_id"] == CRUSH.case_id
+    assert result.summary["retry"] == f"solver.load_steps = {asked[1].solver.load_steps}"
+    assert (result.status, result.message, result.summary["cpu_s"]) == (Status.CONVERGED, "", 2.0)
+
+
+def test_the_last_retry_has_another_imperfection_and_the_steps_asked_for(monkeypatch):
+    asked = answers(monkeypatch, *[STOPS] * 2, ENDS)
+    result = simulate_again(CRUSH)
+    assert asked[-1].solver.load_steps == CRUSH.solver.load_steps
+    assert asked[-1].lattice.imperfection == 1.5 * CRUSH.lattice.imperfection
+    assert result.summary["retry"] == "lattice.imperfection = 0.015"
+
+
+def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch):
+    answers(monkeypatch, *[STOPS] * 3)
+    result = simulate_again(CRUSH)
+    tried = "solver.load_steps = 800; lattice.imperfection = 0.015"
+    assert result.message == result.summary["message"] == f"{WHY} (tried in vain: {tried})"
+    assert result.summary["retry"] == ""
+
+
+def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch):
+    answers(monkeypatch, STOPS, LOADS, STOPS)
+    result = simulate_again(CRUSH)
+    assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 800")
+    assert "tried in vain" in result.message
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [(FAST, "solver.load_steps = 800"), (LOAD, "solver.time_step = 25 us")],
+)
+def test_steps_in_time_are_shorter_too(monkeypatch, case, words):
+    asked = answers(monkeypatch, STOPS, ENDS)
+    result = simulate_again(case)
+    assert result.summary["retry"] == words
+    assert asked[1].solver.time_step == pytest.approx(case.solver.time_step / retries.SHORTER)
+
+
+@pytest.mark.parametrize(
+    ("case", "curable", "stop"),
+    [
+        (CRUSH.changed(solver={"retry": False}), True, 0),
+        (CRUSH, False, 0),
+        (CRUSH, True, 1),
+    ],
+)
+def test_no_retry_if_it_is_off_would_not_help_or_is_interrupted(monkeypatch, case, curable, stop):
+    asked = answers(monkeypatch, STOPS, curable=curable)
+    result = simulate_again(case, np.array([stop, 0]))
+    assert (len(asked), result.message) == (1, WHY)
+
+
+def test_all_together_keep_the_time_limit(monkeypatch):
+    clock = iter((0.0, 40.0, 61.0))
+    asked = answers(monkeypatch, STOPS, STOPS)
+    monkeypatch.setattr(retries.time, "monotonic", lambda: next(clock))
+    limited = CRUSH.changed(solver={"time_limit": 60.0})
+    result = simulate_again(limited)
+    assert [case.solver.time_limit for case in asked] == [60.0, 20.0]
+    assert result.message.endswith("(tried in vain: solver.load_steps = 800)")
+
+
+def test_the_switch_is_no_part_of_the_id():
+    assert CRUSH.changed(solver={"retry": False}).case_id == CRUSH.case_id
+
+
+def test_a_drawn_scene_gains_energy_in_few_steps_and_converges_in_more():
+    case = scene(269)[1].changed(solver={"time_limit": 300.0})  # compilation may be part of it
+    alone, result = simulate(case), simulate_again(case)
+    assert (alone.status, alone.curable) == (Status.STOPPED, True)
+    assert (result.status, result.case_id) == (Status.CONVERGED, case.case_id)
+    assert result.summary["retry"] == "solver.load_steps = 24"
+    more = simulate(case.changed(solver={"load_steps": 24}))
+    assert result.summary["absorbed_energy_J"] == more.summary["absorbed_energy_J"]
