@@ -78,6 +78,10 @@ COLUMNS: dict[str, Column] = {
     "impact_energy_J": Column(
         "J", "energy of the striker at first contact; NaN unless the mode is impact"
     ),
+    "gravity": Column(
+        "",
+        "1 if the weight of the striker acts on the lattice, else 0; NaN unless the mode is impact",
+    ),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
     "printed_mass_g": Column(
@@ -133,12 +137,14 @@ COLUMNS: dict[str, Column] = {
     "lost_energy_J": Column(
         "J",
         "absorbed energy - returned energy, if that is positive; of an impact, energy of the "
-        "striker at first touch - that of its rebound; NaN if none moves back",
+        "striker at first touch - that of its rebound, with work of its weight; NaN if none moves "
+        "back",
         "more",
     ),
     "lost_share": Column(
         "1",
-        "lost energy / absorbed energy; of an impact, / energy of the striker at first contact",
+        "lost energy / absorbed energy; of an impact, / energy of the striker at first contact and "
+        "work of its weight until it stops",
         "more",
     ),
     "lost_energy_J_per_g": Column("J/g", "lost energy / mass, as extruded if known", "more"),
@@ -266,7 +272,10 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_strain": Column("1", "greatest top displacement / height", "less"),
     "peak_deceleration_m_per_s2": Column(
-        "m/s^2", "greatest deceleration of the striker; NaN without one", "less"
+        "m/s^2",
+        "greatest force on the striker / its mass, as an accelerometer on it measures: 0 in free "
+        "fall; NaN without one",
+        "less",
     ),
     "peak_deceleration_filtered_m_per_s2": Column(
         "m/s^2",
@@ -280,11 +289,14 @@ COLUMNS: dict[str, Column] = {
         "more",
     ),
     "rebound_speed_m_per_s": Column(
-        "m/s", "greatest speed of the striker upwards; NaN without one", "less"
+        "m/s",
+        "speed of the striker upwards when the lattice no longer pushes it; NaN without one",
+        "less",
     ),
     "rebound_share": Column(
         "1",
-        "energy of the striker at its rebound speed / at first contact; NaN without one",
+        "energy of the striker at its rebound / at first contact, with gravity height of the "
+        "rebound / of the fall; NaN without one",
         "less",
     ),
     "residual_strain": Column(
@@ -341,7 +353,9 @@ HISTORY_COLUMNS: dict[str, Column] = {
     ),
     "reaction_top_N": Column("N", "force on the upper platen or row, compression > 0"),
     "reaction_bottom_N": Column("N", "force on the lower platen or row, compression > 0"),
-    "work_in_J": Column("J", "work done on the lattice so far"),
+    "work_in_J": Column(
+        "J", "work done on the lattice so far; of a striker, its energy and that of its weight"
+    ),
     "kinetic_J": Column("J", "kinetic energy"),
     "stretch_J": Column("J", "stretching energy of the walls"),
     "bend_J": Column("J", "bending energy of the walls, fold barrier included"),
@@ -363,7 +377,9 @@ HISTORY_COLUMNS: dict[str, Column] = {
 
 STRIKER_COLUMNS: dict[str, Column] = {
     "striker_speed_m_per_s": Column("m/s", "speed of the striker downwards"),
-    "deceleration_m_per_s2": Column("m/s^2", "mean deceleration since the previous row"),
+    "deceleration_m_per_s2": Column(
+        "m/s^2", "force on the striker / its mass, mean since the previous row"
+    ),
 }
 """Further columns of the history of an impact."""
 

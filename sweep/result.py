@@ -24,7 +24,10 @@ if TYPE_CHECKING:
 MODEL_VERSION = 9
 """Version of the model: raised by every change of the numbers that a case gives."""
 
-LOADED = ("force_N", "stroke_m", "striker_mass_g", "striker_speed_m_per_s", "impact_energy_J")
+LOADED = (
+    *("force_N", "stroke_m"),
+    *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
+)
 """Columns of which each loading has its own."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"

@@ -43,11 +43,11 @@ allowed_forces = ["50 N", "200 N"]   # each adds a column: the energy up to this
 # cycles = 2                         # pressed twice
 """,
     "drop": """\
-mode = "drop"                        # a rigid striker hits the lattice and rebounds
+mode = "drop"                        # a rigid striker falls onto the lattice and rebounds
 striker_mass = "50 g"                # its share of a mass on several specimens
-striker_speed = "2 m/s"              # a drop of 0.2 m; of a height h it is (2 g h)^0.5
+drop_height = "0.2 m"                # at first touch 2 m/s; its weight acts in the stroke too
 platen = "contact"                   # loose between striker and support; "glued": bonded to them
-# energy = "0.1 J"                   # instead of the speed
+# energy = "0.1 J"                   # instead of the height
 """,
     "load": """\
 mode = "force"                       # a dead load, applied suddenly and removed

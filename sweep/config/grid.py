@@ -13,6 +13,7 @@ from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case, Draft, complete
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
+from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import KEYS
@@ -176,6 +177,8 @@ class _Combination:
     def _value(self, target: str) -> Any:
         """The value of a key; where its table is refused, the given one or the default."""
         table, name = target.split(".")
+        if target == "loading.mode" and self.given.get(target) == DROP:
+            return DROP  # an impact by its mode
         if table in self.draft.tables:
             return self.draft.tables[table].value(name)
         kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]

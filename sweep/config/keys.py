@@ -18,6 +18,7 @@ from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.direction import Direction
+from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sliced import Sliced
@@ -37,7 +38,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 """The kinds of a table, whose keys a config may set."""
 
 CHOICES: dict[str, Any] = {
-    "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), "custom"],
+    "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
     "loading.direction": Direction,
     "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
     "contact.model": Literal["auto", "none", "barrier", "position_based"],

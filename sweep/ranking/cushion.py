@@ -11,7 +11,7 @@ strain e at which the cushion has taken all of its energy,
 
     T W(e) = p (H + e T),    G = M(e) / p.
 
-A striker of the sweep has no weight: m g H is all that it brings, and its deceleration is M / p.
+A striker of the sweep that falls has its weight too, and G is the force on it / (m g).
 """
 
 from __future__ import annotations
@@ -96,14 +96,15 @@ def cushion_curve(crush: Crush, drop_height: float) -> tuple[Floats, Floats]:
 
 
 def drops(impacts: DataFrame) -> DataFrame:
-    """Drop height (m), static stress (Pa) and filtered deceleration (in units of gravity) of
-    impacts; NaN where the filter has too few rows.
+    """Drop height (m), static stress (Pa) and filtered deceleration (in units of gravity) of the
+    impacts with gravity; NaN where the filter has too few rows.
     """
-    area = impacts["outer_width_m"] * impacts["depth_m"]
-    return impacts.assign(
-        drop_height_m=impacts["striker_speed_m_per_s"] ** 2 / (2.0 * STANDARD_GRAVITY),
-        static_stress_Pa=to_si(impacts["striker_mass_g"], "g") * STANDARD_GRAVITY / area,
-        peak_G=impacts["peak_deceleration_filtered_m_per_s2"] / STANDARD_GRAVITY,
+    falls = impacts[impacts["gravity"] == 1.0]
+    area = falls["outer_width_m"] * falls["depth_m"]
+    return falls.assign(
+        drop_height_m=falls["striker_speed_m_per_s"] ** 2 / (2.0 * STANDARD_GRAVITY),
+        static_stress_Pa=to_si(falls["striker_mass_g"], "g") * STANDARD_GRAVITY / area,
+        peak_G=falls["peak_deceleration_filtered_m_per_s2"] / STANDARD_GRAVITY,
     )
 
 

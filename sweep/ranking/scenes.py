@@ -7,12 +7,16 @@ from pandas import DataFrame
 from sweep.columns import describe_column
 from sweep.numbers import NOTHING, energy_text, short, text_in, with_unit
 
-SCENE = ["loading_mode", "platen", "force_N", "striker_mass_g", "striker_speed_m_per_s"]
+SCENE = [
+    *("loading_mode", "platen", "force_N"),
+    *("striker_mass_g", "striker_speed_m_per_s", "gravity"),
+]
 HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
         *("mode", "direction", "platen", "force", "allowed_forces"),
         *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
+        "gravity",
     )
 )
 
@@ -63,7 +67,8 @@ def scene_label(rows: DataFrame) -> str:
     elif first["loading_mode"] == "impact":
         struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
         energy = energy_text(float(first["impact_energy_J"]))
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy})"]
+        falls = " under gravity" if first["gravity"] == 1.0 else ""
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy}){falls}"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {text_in(strains[0], '%', 6)}"]
         shown |= {"loading.strain", "loading.stroke"}

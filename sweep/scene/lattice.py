@@ -32,8 +32,12 @@ def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
 
 
 def _load(numbering: Numbering, case: Case) -> Floats:
-    """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes."""
+    """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes.
+
+    A striker has its weight; that of the lattice is left out.
+    """
     load = np.zeros(numbering.size)
+    load[numbering.high] = -striker_of(case.loading).weight
     match case.loading:
         case DeadLoad(platen="none", force=force):
             load[2 * numbering.top + 1] = -force / len(numbering.top)

@@ -87,7 +87,7 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
             return _stages_of_crush(loading, case.solver, pace, float(scene.x_rest[-1]))
         case Impact(duration=duration):
             rest = float(scene.x_rest[-1])
-            return _flight(_lasting(duration, pace, (0.0, 0.0), (rest, rest)))
+            return _flight(_lasting(duration, pace, (1.0, 1.0), (rest, rest)))
         case DeadLoad() as loading:
             return _stages_of_load(loading, pace, float(scene.x_rest[-1]))
 

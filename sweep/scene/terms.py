@@ -213,16 +213,17 @@ def driven_by(loading: Loading, numbering: BetweenPlatens) -> int:
 
 
 class Striker(NamedTuple):
-    """Mass (kg) and speed (m/s) of what hits the lattice."""
+    """Mass (kg), speed (m/s) and weight (N) of what hits the lattice; weight 0 without gravity."""
 
     mass: float = 0.0
     speed: float = 0.0
+    weight: float = 0.0
 
 
 def striker_of(loading: Loading) -> Striker:
-    """The striker of a loading; without one, of mass and speed 0."""
+    """The striker of a loading; without one, all 0."""
     if isinstance(loading, Impact):
-        return Striker(loading.striker_mass, loading.striker_speed)
+        return Striker(loading.striker_mass, loading.striker_speed, loading.weight)
     return Striker()
 
 

@@ -28,7 +28,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
-from sweep.scene.terms import Scene
+from sweep.scene.terms import Scene, striker_of
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (
     Failure,
@@ -45,6 +45,7 @@ from sweep.simulation.failures import (
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
+from sweep.simulation.striker import rests, second_stop
 from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
@@ -123,9 +124,10 @@ def _of_impact(
     if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > LARGEST:
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
-    if travel.argmax() == last:
+    if travel.argmax() == last and not rests(curves):
         return still_moving_down(where)
-    if travel[last] > 0.0 and curves["striker_speed_m_per_s"].argmin() == last:
+    speed = curves["striker_speed_m_per_s"]
+    if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)
     return Status.CONVERGED, ""
 
@@ -224,7 +226,7 @@ class _Run:
                     return energy_gained(self.case)
                 if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
-                if self.struck and self._is_back():
+                if self.struck and self._is_over():
                     break
         if not self._balances(self.done):
             self.curable = True
@@ -259,12 +261,17 @@ class _Run:
         moved = count * self.scene.force_scale * self.scene.size
         return bool(left <= GAP * size + self.case.solver.tolerance * moved)
 
-    def _is_back(self) -> bool:
-        """True if the striker is back where it started; later rows are dropped."""
+    def _is_over(self) -> bool:
+        """True if the striker is back where it started, or has stopped again under its weight.
+
+        Later rows are dropped.
+        """
         heights = self.rows["height"][: self.done]
-        back = np.flatnonzero(heights[1:] >= heights[0])
-        self.done = int(back[0]) + 2 if len(back) else self.done
-        return len(back) > 0
+        back = np.flatnonzero(heights[1:] >= heights[0]) + 1
+        again = second_stop(heights) if striker_of(self.case.loading).weight else None
+        last = back[0] if len(back) else again
+        self.done = self.done if last is None else int(last) + 1
+        return last is not None
 
     @property
     def cycles(self) -> list[CycleRows]:

@@ -1,11 +1,18 @@
 """Force, work, stop and rebound of a striker.
 
-The rebound ends when the lattice no longer pushes the striker, which is then at its greatest
-speed: after that a glued platen would hold the striker back. A run ends when the striker is back
-where it met the lattice.
+An accelerometer on the striker measures the force of the lattice on it / its mass, dv/dt + g with
+gravity: 0 in free fall, 1 g0 at rest on the lattice. This is the G of a drop test, peak force /
+weight (ASTM D1596), and it is reported as the deceleration.
+
+The striker stops at its lowest point. Its rebound ends when the lattice no longer pushes it: its
+mechanical energy, m v^2 / 2 - m g s after a descent s, is then at its greatest on the way up. Later
+a glued platen would hold it back. A run ends when the striker is back where it met the lattice, or
+when its weight has brought it down again and it has stopped less deep than before.
 """
 
+from collections.abc import Mapping
 from math import nan
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +24,7 @@ from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.deceleration import filtered_peak
 
-Curves = dict[str, Floats]
+Curves = Mapping[str, Floats]
 MEASURES = (
     "peak_deceleration_m_per_s2",
     "peak_deceleration_filtered_m_per_s2",
@@ -27,14 +34,34 @@ MEASURES = (
 )
 
 
-def striker_curves(time: Floats, velocity: Floats, mass: float) -> Curves:
-    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards; mass in kg.
+SWING = 0.1  # of the stroke, by which a striker comes down again
+STILL = 1e-3  # of the stroke; a striker that stops moves by 1 % in the last tenth of its way down
 
-    The force is the mean since the previous row: force x time = change of momentum.
+
+class Rebound(NamedTuple):
+    """Speed of a striker upwards (m/s) and its mechanical energy (J), 0 at rest at first touch."""
+
+    speed: float
+    energy: float
+
+
+def against_falling(loading: Impact, time: Floats, velocity: Floats) -> Floats:
+    """Velocity (rows,) of the striker upwards in a frame that falls freely, m/s.
+
+    Its slope is the force of the lattice on the striker / its mass.
     """
-    deceleration = np.append(0.0, np.diff(velocity) / np.diff(time))
+    return velocity + loading.weight / loading.striker_mass * time
+
+
+def striker_curves(loading: Impact, time: Floats, velocity: Floats) -> dict[str, Floats]:
+    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards.
+
+    The force is the mean since the previous row: (force - weight) x time = change of momentum.
+    """
+    pushed = against_falling(loading, time, velocity)
+    deceleration = np.append(0.0, np.diff(pushed) / np.diff(time))
     return {
-        "reaction_top_N": mass * deceleration,
+        "reaction_top_N": loading.striker_mass * deceleration,
         "striker_speed_m_per_s": -velocity,
         "deceleration_m_per_s2": deceleration,
     }
@@ -46,7 +73,7 @@ def kinetic(loading: Impact, speed: Floats | float) -> Floats | float:
 
 
 def work_on_lattice(case: Case, history: Curves) -> Floats:
-    """Work done on the lattice so far, (rows,) J; in an impact, the energy lost by the striker."""
+    """Work done on the lattice so far, (rows,) J; in an impact, by the striker and its weight."""
     if isinstance(case.loading, Impact):
         return history["work_in_J"] - kinetic(case.loading, history["striker_speed_m_per_s"])
     return history["work_in_J"]
@@ -60,17 +87,52 @@ def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> di
     loading = case.loading
     if not isinstance(loading, Impact):
         return dict.fromkeys(MEASURES, nan)
-    outer, rebound = case.lattice.outer_size, rebound_speed(history)
+    outer, thrown = case.lattice.outer_size, rebound(loading, history)
     height = case.height if case.along else outer[1]
     voids = (1.0 - relative_density(scene.network, outer)) * height
     left = voids - history["top_displacement_m"].max()
-    share = kinetic(loading, rebound) / loading.energy
+    share = max(thrown.energy, 0.0) / loading.energy
     peak = history["deceleration_m_per_s2"].max()
-    velocity, passed = -history["striker_speed_m_per_s"], loading.filter_class
-    filtered = filtered_peak(history["time_s"], velocity, passed)
-    return dict(zip(MEASURES, map(float, (peak, filtered, left, rebound, share)), strict=True))
+    time, velocity = history["time_s"], -history["striker_speed_m_per_s"]
+    pushed = against_falling(loading, time, velocity)
+    filtered = filtered_peak(time, pushed, loading.filter_class)
+    measured = peak, filtered, left, thrown.speed, share
+    return dict(zip(MEASURES, map(float, measured), strict=True))
 
 
-def rebound_speed(history: Curves) -> float:
-    """Greatest speed upwards, m/s; zero if the striker never moves up."""
-    return float(max(-history["striker_speed_m_per_s"].min(), 0.0))
+def rebound(loading: Impact, history: Curves) -> Rebound:
+    """The rebound of a striker; one that never moves up stays where it is lowest."""
+    speed, travel = history["striker_speed_m_per_s"], history["top_displacement_m"]
+    energy = np.where(speed < 0.0, kinetic(loading, speed) - loading.weight * travel, -np.inf)
+    row = int(energy.argmax())
+    if speed[row] >= 0.0:
+        return Rebound(0.0, -loading.weight * float(travel.max()))
+    return Rebound(-float(speed[row]), float(energy[row]))
+
+
+def brought(loading: Impact, history: Curves) -> float:
+    """Energy of the striker at first touch and work of its weight until it stops, J."""
+    return loading.energy + loading.weight * float(history["top_displacement_m"].max())
+
+
+def second_stop(heights: Floats) -> int | None:
+    """The row at which a striker stops again, less deep than before, if it does. heights (rows,) m.
+
+    It has come down again by a share `SWING` of its stroke: walls that swing are no second stop.
+    """
+    lowest = int(heights.argmin())
+    after = heights[lowest:]
+    sunk, moves = np.maximum.accumulate(after) - after, np.diff(after)
+    turned = (moves[:-1] < 0.0) & (moves[1:] >= 0.0)
+    stops = np.flatnonzero(turned & (sunk[1:-1] >= SWING * (heights[0] - heights[lowest])))
+    return lowest + int(stops[0]) + 1 if len(stops) else None
+
+
+def rests(history: Curves) -> bool:
+    """Whether a striker hardly moves in the last tenth of a run, by a share `STILL` of its stroke.
+
+    Under its weight it may come to rest on the lattice without moving up.
+    """
+    time, travel = history["time_s"], history["top_displacement_m"]
+    moved = travel[-1] - np.interp(0.9 * time[-1], time, travel)
+    return bool(abs(moved) <= STILL * travel.max())

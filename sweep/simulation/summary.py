@@ -31,9 +31,9 @@ from sweep.simulation.shape_checks import (
     work_within_model,
 )
 from sweep.simulation.striker import (
+    brought,
     impact_columns,
-    kinetic,
-    rebound_speed,
+    rebound,
     striker_curves,
     work_on_lattice,
 )
@@ -90,7 +90,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     below = "reaction_top" if case.lattice.endless else "reaction_bottom"
     time, loading, struck = rows["time"].copy(), case.loading, {}
     if isinstance(loading, Impact):
-        struck = striker_curves(time, rows["speed"], loading.striker_mass)
+        struck = striker_curves(loading, time, rows["speed"])
     return {
         "time_s": time,
         "strain": travel / (case.height or np.nan),
@@ -134,6 +134,7 @@ def summarise(
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
+    given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     filled = relative_density(scene.network, case.lattice.outer_size)
     return {
@@ -143,7 +144,7 @@ def summarise(
         "relative_density": filled,
         "solid_strain": 1.0 - filled if case.along else np.nan,
         "absorbed_energy_J": absorbed,
-        **lost_columns(case, absorbed, returned(case, history, cycles[0]), grams),
+        **lost_columns(given, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
         "integrator_share": integrator_share(case.loading, history),
@@ -187,25 +188,25 @@ def printed_mass(case: Case) -> float:
 def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
     """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
     if isinstance(case.loading, Impact):
-        return float(kinetic(case.loading, rebound_speed(history)))
+        thrown = rebound(case.loading, history).energy
+        return thrown + brought(case.loading, history) - case.loading.energy
     work = history["work_in_J"][cycle.released : cycle.ended + 1]
     if isinstance(case.loading, DeadLoad) or len(work) < 2:
         return np.nan
     return float(work[0] - work[-1])
 
 
-def lost_columns(case: Case, absorbed: float, back: float, grams: float) -> dict[str, float]:
+def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
     """Columns of the energy that comes back and of that which is lost.
 
-    absorbed, back: work done and given back, J; negative if a glued platen has to pull the lattice
-    back, which is no loss of the loading. grams: mass of the specimen, g.
+    given, back: work done, or brought by a striker, and given back, J; negative if a glued platen
+    has to pull the lattice back, which is no loss of the loading. grams: mass of the specimen, g.
     """
-    brought = case.loading.energy if isinstance(case.loading, Impact) else absorbed
-    lost = brought - np.maximum(back, 0.0)  # NaN stays NaN
+    lost = given - np.maximum(back, 0.0)  # NaN stays NaN
     return {
         "returned_energy_J": back,
         "lost_energy_J": float(lost),
-        "lost_share": float(lost / brought) if brought else np.nan,
+        "lost_share": float(lost / given) if given else np.nan,
         "lost_energy_J_per_g": float(lost / grams),
     }
 

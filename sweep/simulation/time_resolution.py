@@ -12,8 +12,9 @@ an impact is unresolved if the steps are also long beside the time in which the 
 Its loss by backward Euler is a measure, sum m (v' - v)^2 / 2: pi^2 / 2n of the energy in a half
 wave of n steps, more if the force has a peak.
 
-Momentum: what striker and lattice bring, p = 2 E / v of the kinetic energy E at the start, goes
-into the support: sum F dt = p - m v' - q, with q of the lattice at the end, q^2 <= 2 m_l K_l.
+Momentum: what striker and lattice bring, p = 2 E / v of the kinetic energy E at the start, and
+the impulse of the weight in the time t go into the support: sum F dt = p + m g t - m v' - q, with q
+of the lattice at the end, q^2 <= 2 m_l K_l.
 """
 
 from collections.abc import Mapping
@@ -40,9 +41,9 @@ def integrator_share(loading: Loading, history: Curves) -> float:
 
 
 def striker_share(history: Curves) -> float:
-    """Energy that backward Euler would take from the striker in these rows / energy at first."""
+    """Energy that backward Euler would take from the striker in these rows / its greatest one."""
     speed = history["striker_speed_m_per_s"]
-    return float(np.sum(np.diff(speed) ** 2) / speed[0] ** 2)
+    return float(np.sum(np.diff(speed) ** 2) / np.max(speed**2))
 
 
 def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
@@ -55,5 +56,6 @@ def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
     borne = float(np.sum(force[1:] * np.diff(history["time_s"])))
     swing = float(history["kinetic_J"][-1] - kinetic(loading, speed[-1]))
     kept = sqrt(2.0 * mass * max(swing, 0.0))
-    missing = abs(brought - loading.striker_mass * float(speed[-1]) - borne)
+    given = brought + loading.weight * float(history["time_s"][-1])
+    missing = abs(given - loading.striker_mass * float(speed[-1]) - borne)
     return max(missing - kept, 0.0) / brought

@@ -1,7 +1,7 @@
 """An impact: a striker hits the lattice; the run ends when it is back, or at `duration`."""
 
 from math import isclose, sqrt
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Final, Literal
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
 from sweep.config.kinds.crush import PLATENS
@@ -22,6 +22,7 @@ from sweep.config.kinds.table import (
 )
 from sweep.constants import STANDARD_GRAVITY
 
+DROP: Final = "drop"  # `mode` of an impact with gravity
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
@@ -31,12 +32,13 @@ class Impact(Directed):
     `drop_height` and `preset` (`drop_tests`) are other words for its speed and mass, `specimens`
     for the share of the mass of the preset that one specimen bears. `filter_class`: of the filter
     behind which its deceleration is measured (SAE J211-1); 1000 as of a head form in drop tests
-    (ASTM F1292).
+    (ASTM F1292). `gravity`: whether its weight acts after the first touch too, by default in drops:
+    with `mode` "drop", `drop_height` or `preset`.
     """
 
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"filter_class": 1000}
+    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"filter_class": 1000, "gravity": False}
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 
@@ -47,10 +49,21 @@ class Impact(Directed):
     drop_height: Length
     preset: str | None = None
     specimens: Count | None = None
+    gravity: bool = False
     filter_class: Literal[60, 180, 600, 1000] = 1000
     duration: Duration
     platen: Literal["contact", "glued", "sliding", "clamped"] = "glued"
     allowed_forces: Forces = ()
+
+    @property
+    def weight(self) -> float:
+        """The weight of the striker, N; 0 without gravity."""
+        return self.striker_mass * STANDARD_GRAVITY if self.gravity else 0.0
+
+    def greatest_speed(self, height: float) -> float:
+        """Speed (m/s) at which the striker would meet the base, if nothing were in its way."""
+        fall = 2.0 * self.weight / self.striker_mass * height
+        return sqrt(self.striker_speed**2 + fall)
 
     @property
     def columns(self) -> dict[str, float]:
@@ -59,6 +72,7 @@ class Impact(Directed):
             "striker_mass_g": 1e3 * self.striker_mass,
             "striker_speed_m_per_s": self.striker_speed,
             "impact_energy_J": self.energy,
+            "gravity": float(self.gravity),
         }
 
 
@@ -71,8 +85,13 @@ def impact(given: Given, height: float, integrator: str | None) -> Impact:
     mass, drop_height = _dropped(given)
     speed, energy, fall = _at_touch(given, mass, drop_height)
     motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy, "drop_height": fall}
-    usual = {"duration": PASSAGES * height / speed}
-    return Impact.model_validate(usual | chosen(given, Impact) | motion)
+    usual = {"duration": PASSAGES * height / speed, "gravity": is_drop(given)}
+    return Impact.model_validate(usual | chosen(given, Impact) | motion | {"mode": "impact"})
+
+
+def is_drop(given: Given) -> bool:
+    """Whether these values of an impact speak of a fall."""
+    return given.get("mode") == DROP or "drop_height" in given or "preset" in given
 
 
 def _dropped(given: Given) -> tuple[float, float | None]:

@@ -7,7 +7,7 @@ from pydantic import Field
 from sweep.config.kinds.crush import Crush, crush, mean_crush
 from sweep.config.kinds.dead_load import DeadLoad, dead_load
 from sweep.config.kinds.direction import WHERE, is_along
-from sweep.config.kinds.impact import Impact, impact
+from sweep.config.kinds.impact import DROP, Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
@@ -50,11 +50,11 @@ def loading(
 def mode_of(given: Given) -> str:
     """The mode, which keys that only one mode has imply if it is not given."""
     if "mode" in given:
-        words = [mode_word(kind) for kind in BY_MODE]
+        words = [*(mode_word(kind) for kind in BY_MODE), DROP]
         if given["mode"] not in (*words, "custom"):
             allowed = ", ".join(map('"{}"'.format, words))
             raise RefusedError("loading.mode", given["mode"], allowed)
-        return str(given["mode"])
+        return "impact" if given["mode"] == DROP else str(given["mode"])
     implied = _implied(given)
     if len(implied) > 1:
         (one, key), (other, also) = list(implied.items())[:2]

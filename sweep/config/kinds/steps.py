@@ -79,11 +79,11 @@ def _steps(
 def impact_step(loading: Impact, extent: Extent) -> float:
     """The usual time step of an impact, s: a share of the time of contact.
 
-    A fast striker is stopped within the height of the lattice. A slow one is thrown back as by a
-    spring of compliance c, after pi sqrt(m c) whatever its speed; for a solid block, this time is
-    a lower bound.
+    A fast striker is stopped within the height of the lattice, in which its weight speeds it up. A
+    slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever its speed;
+    for a solid block, this time is a lower bound.
     """
-    passage = extent.height / loading.striker_speed / STEPS_OF_PASSAGE
+    passage = extent.height / loading.greatest_speed(extent.height) / STEPS_OF_PASSAGE
     contact = pi * sqrt(loading.striker_mass * extent.compliance) / STEPS_OF_CONTACT
     return max(min(passage, contact), loading.duration / MAX_STEPS)
 

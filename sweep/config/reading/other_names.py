@@ -30,7 +30,6 @@ CHOICES: dict[str, dict[str, str]] = {
     "loading.mode": {
         "crush": "displacement",
         "compression": "displacement",
-        "drop": "impact",
         "dead load": "force",
         "load": "force",
     },

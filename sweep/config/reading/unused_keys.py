@@ -11,6 +11,7 @@ from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
+from sweep.config.kinds.impact import DROP, Impact
 from sweep.config.kinds.solver import ARCS
 from sweep.config.materials.material_file import locate, read_record
 
@@ -86,10 +87,13 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     """True if a value has an effect although the case has another value, or none.
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
-    label; contact "auto" becomes the barrier; the name of a file is that without its folder.
+    label; contact "auto" becomes the barrier, a "drop" an impact with gravity; the name of a file
+    is that without its folder.
     """
     if key == "contact.model":
         return bool(given[key] == "auto")
+    if key == "loading.mode":
+        return given[key] == DROP and isinstance(case.loading, Impact)
     if key == "solver.time_step":
         return case_value is not None and "solver.load_steps" not in given
     return key == "material.name" or (key == "loading.speed" and isinstance(case.loading, Crush))

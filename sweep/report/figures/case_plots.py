@@ -155,7 +155,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     colors = [COLORS[name] for name in parts]
     values = [in_unit(history[name], "mJ") for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
-    total = "energy of the striker" if row["loading_mode"] == "impact" else "work done"
+    total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
     ax.plot(place, work, color="black", lw=1.4, label=total)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")

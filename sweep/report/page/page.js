@@ -731,7 +731,7 @@ function showBook(design) {
     line(plot, [...place, ...[...place].reverse()], [...sum, ...back], { style: `fill: var(--p${partColor(book.parts[i])})` });
   });
   line(plot, place, work, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
-  const total = scene().mode === "impact" ? "energy of the striker" : "work done";
+  const total = scene().mode === "impact" ? "brought by the striker" : "work done";
   $("parts").replaceChildren(
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
     element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),

@@ -79,8 +79,10 @@ def build_scene(case: Case) -> Scene:
     masses = coordinates.masses(mesh, printed, striker.mass / copies)
     x_rest = coordinates.at_rest(mesh, platen)
     layout = _layout(mesh, numbering, leader, case)
+    load = np.zeros(numbering.size)
+    load[numbering.high] = -striker.weight / copies
     terms = PlateScene(
-        coordinates=_coordinates(mesh, numbering, layout, masses),
+        coordinates=_coordinates(mesh, numbering, layout, masses, load),
         law=law_of_sheet(case.material),
         shell=_shell(mesh, x_rest, case),
         contact=contact_of(mesh, numbering, case),
@@ -100,7 +102,7 @@ def build_scene(case: Case) -> Scene:
 
 
 def _coordinates(
-    mesh: PlateMesh, numbering: Numbering, layout: Layout, masses: Floats
+    mesh: PlateMesh, numbering: Numbering, layout: Layout, masses: Floats, load: Floats
 ) -> Coordinates:
     """The data of the coordinates that the solver needs; a rotation w turns by 4 w."""
     scale = np.where(_is_rotation(numbering), 4.0 * mesh.size.mean(), 1.0)
@@ -111,7 +113,7 @@ def _coordinates(
         lever=1.0 / scale,
         mass=masses,
         heavy=heavy(layout, masses),
-        load=np.zeros(numbering.size),
+        load=load,
         driven=layout.driven,
         cap=0.25 * float(mesh.plan.span.mean()),
         leap=0.01 * thickness,

@@ -37,7 +37,7 @@ def test_what_is_commented_out_may_be_used(tmp_path, kind):
         path = tmp_path / "a.toml"
         path.write_text(text.replace(line, line.removeprefix("# ")))
         if "energy" in line:
-            path.write_text(re.sub("striker_speed.*", "", path.read_text()))
+            path.write_text(re.sub("drop_height.*", "", path.read_text()))
         assert len(expand(load_config(path))) in (4, 8)
 
 

@@ -32,7 +32,7 @@ KINDS = ", ".join(
 CHOICES = {
     '[loading]\nmode = "shake"': (
         'loading.mode = "shake"; "force" ("dead load"), "displacement" ("crush"), '
-        '"impact" ("drop") or "custom"'
+        '"impact", "drop" or "custom"'
     ),
     '[lattice]\nkind = "heptagon"': f'lattice.kind = "heptagon"; {KINDS} or "custom"',
     '[material]\nbend = "curve"': (

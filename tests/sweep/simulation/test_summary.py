@@ -179,12 +179,12 @@ def test_work_is_split_where_the_platen_turns():
 
 
 def test_what_does_not_come_back_is_lost():
-    crushed_once = lost_columns(Case.of(loading=dict(strain=0.5)), 0.5, 0.2, 2.0)
+    crushed_once = lost_columns(0.5, 0.2, 2.0)
     assert list(crushed_once.values()) == pytest.approx([0.2, 0.3, 0.6, 0.15])
-    struck = lost_columns(Case.of(loading=dict(energy=0.4)), 0.5, 0.1, 2.0)
-    assert list(struck.values()) == pytest.approx([0.1, 0.3, 0.75, 0.15])
-    assert np.isnan(lost_columns(Case.of(), 0.5, np.nan, 2.0)["lost_share"])
-    assert np.isnan(lost_columns(Case.of(), 0.0, 0.0, 2.0)["lost_share"])
+    pulled = lost_columns(0.4, -0.1, 2.0)
+    assert list(pulled.values()) == pytest.approx([-0.1, 0.4, 1.0, 0.2])
+    assert np.isnan(lost_columns(0.5, np.nan, 2.0)["lost_share"])
+    assert np.isnan(lost_columns(0.0, 0.0, 2.0)["lost_share"])
 
 
 @pytest.mark.parametrize(

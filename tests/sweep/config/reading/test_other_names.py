@@ -44,9 +44,15 @@ def test_words_are_understood_in_every_table(load):
     assert kinds == [(kind, mode) for kind in ("square", "kagome") for mode in modes]
 
 
+def test_a_drop_is_an_impact_that_can_be_excluded(load):
+    text = '[grid]\nloading.mode = ["impact", "drop"]\n[[exclude]]\nloading.mode = "drop"'
+    (case,) = expand(load(text))
+    assert (case.loading.mode, case.loading.gravity) == ("impact", False)
+
+
 def test_other_words_for_the_choices_are_named(lines):
     (line,) = lines('[loading]\nmode = "crash"')
-    allowed = '"force" ("dead load"), "displacement" ("crush"), "impact" ("drop") or "custom"'
+    allowed = '"force" ("dead load"), "displacement" ("crush"), "impact", "drop" or "custom"'
     assert line == f'loading.mode = "crash": unknown choice; allowed: {allowed}'
 
 

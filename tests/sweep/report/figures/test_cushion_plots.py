@@ -21,6 +21,7 @@ HIT = {
     "loading_mode": "impact",
     "striker_mass_g": 40.0,
     "striker_speed_m_per_s": SPEED,
+    "gravity": 1.0,
     "peak_deceleration_filtered_m_per_s2": 60.0 * STANDARD_GRAVITY,
 }
 WALLS = {"wall_thickness_m": 0.4e-3, "lattice.wall_thickness": 0.4e-3, "mass_g": 0.5}
