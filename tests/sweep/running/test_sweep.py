@@ -149,9 +149,9 @@ def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, 
     fold = Writer.fold
 
     def pressed(writer, last):
-        os.kill(os.getpid(), signal.SIGINT)
         while signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-            time.sleep(0.01)  # until the wish is heard
+            os.kill(os.getpid(), signal.SIGINT)  # again, if it came as the main thread fell asleep
+            time.sleep(0.2)  # until the wish is heard
         for _ in range(3):
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(0.05)
