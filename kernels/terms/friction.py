@@ -12,10 +12,11 @@ the moves dp of the node and dc of the closest point, and the rotation omega of 
     delta = T . (dp - dc) - d omega,   linear in the moves of p, a, b, with the slopes of
                                        `LaggedContacts`.
 
-Contributions that the contact sum subtracts are taken from the normal forces of other contacts of
-the same node, those nearest to the vertex first, and none of these becomes negative: a negative
-lambda would have a concave potential, and give energy. So the normal forces of a node have the sum
-of those of contact, unless that is negative.
+Contributions that the contact sum subtracts at a vertex are taken from the other normal forces of
+the same node: from those at this vertex, then from those of segments that end there, then from all,
+in proportion, in whatever order pairs are listed. None becomes negative: a negative lambda would
+have a concave potential, and give energy. So the normal forces of a node have the sum of those of
+contact, unless that is negative.
 
 f'' is a spike at delta = 0, over which Newton's method oscillates. A primal-dual method avoids
 this: the dual w = f' is an unknown, and with f' = delta / psi(delta) the linearised equation is
@@ -38,7 +39,6 @@ from kernels.terms.contact import no_contacts as none_touching
 
 UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
 NO_CONTACT = -1
-NEGLIGIBLE = 1e-12  # of two loads that cancel: a smaller difference is round-off
 DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused: its part in a contact
 # then differs from f'' by at most a tenth of 1 / psi
 
@@ -73,7 +73,7 @@ def _room(size, pairs, n_nodes):
     return LaggedContacts(
         np.empty((size, 3), np.int64), np.empty((size, 3, 2)), np.empty(size), np.empty(size),
         np.zeros(1, np.int64), none_touching(pairs), np.empty(n_nodes, np.int64),
-        np.empty(size, np.int64),
+        np.empty(size, np.int64), np.empty(size),
     )  # fmt: skip
 
 
@@ -115,13 +115,20 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
 
 
 @jit_exact
-def deduct(load, i, j):
-    """Take the negative load ``i`` from load ``j`` as far as that stays positive."""
-    both = load[i] + load[j]
-    if abs(both) <= NEGLIGIBLE * load[j]:
-        load[i], load[j] = 0.0, 0.0
-    else:
-        load[i], load[j] = min(both, 0.0), max(both, 0.0)
+def settle(load, claim, after, first):
+    """Take claims from the loads of a node, and what is left of negative loads from all alike.
+
+    first: a contact of the node; after (n,): the next one of each, `NO_CONTACT` after the last.
+    """
+    left, total, i = 0.0, 0.0, first
+    while i != NO_CONTACT:
+        taken = load[i] if load[i] < 0.0 else min(claim[i], load[i])
+        load[i] = max(load[i] - taken, 0.0)
+        left, total, i = left - taken, total + load[i], after[i]
+    share = max(1.0 - left / total, 0.0) if left > 0.0 and total > 0.0 else 1.0
+    i = first
+    while i != NO_CONTACT:
+        load[i], i = share * load[i], after[i]
 
 
 @jit_exact
@@ -134,39 +141,44 @@ def _nearness(contact, pairs, touching, i, v):
 
 
 @jit_exact
-def _nearest(lagged_contacts, contact, pairs, i):
-    """Return the contact from which the subtracted one ``i`` is taken: of those nearest to its
-    vertex, with a load, that of the largest load; `NO_CONTACT` if there is none.
+def _claim(lagged_contacts, contact, pairs, first, v, nearness, wanted):
+    """Claim ``wanted`` in N from the loads of a node that are so near to vertex ``v``, in
+    proportion; return what they do not have.
     """
     touching, load = lagged_contacts.touching, lagged_contacts.load
-    k, found, most = touching.pair[i], NO_CONTACT, (0, 0.0)
-    v = contact.edges[pairs.edge[k], touching.end[i]]
-    j = lagged_contacts.first[pairs.node[k]]
+    total, j = 0.0, first
     while j != NO_CONTACT:
-        if load[j] > 0.0:
-            rank = _nearness(contact, pairs, touching, j, v), load[j]
-            if rank > most:
-                found, most = j, rank
+        if load[j] > 0.0 and _nearness(contact, pairs, touching, j, v) == nearness:
+            total += load[j]
         j = lagged_contacts.after[j]
-    return found
+    share = min(wanted / total, 1.0) if total > 0.0 else 0.0
+    j = first
+    while j != NO_CONTACT:
+        if load[j] > 0.0 and _nearness(contact, pairs, touching, j, v) == nearness:
+            lagged_contacts.claim[j] += share * load[j]
+        j = lagged_contacts.after[j]
+    return max(wanted - total, 0.0)
 
 
 @jit_exact
 def _fill_loads(lagged_contacts, contact, pairs):
     """Fill ``load`` with the normal force of every contact in ``touching``, N, none negative."""
-    touching, load, first = lagged_contacts.touching, lagged_contacts.load, lagged_contacts.first
+    touching, load = lagged_contacts.touching, lagged_contacts.load
+    first, after = lagged_contacts.first, lagged_contacts.after
     for p in range(first.size):
         first[p] = NO_CONTACT
     for i in range(touching.count[0]):
         load[i], p = normal_force(contact, pairs, touching, i), pairs.node[touching.pair[i]]
-        lagged_contacts.after[i], first[p] = first[p], i
+        lagged_contacts.claim[i], after[i], first[p] = 0.0, first[p], i
     for i in range(touching.count[0]):
-        while load[i] < 0.0:
-            j = _nearest(lagged_contacts, contact, pairs, i)
-            if j == NO_CONTACT:
-                load[i] = 0.0
-            else:
-                deduct(load, i, j)
+        if load[i] < 0.0:
+            k, wanted = touching.pair[i], -load[i]
+            v = contact.edges[pairs.edge[k], touching.end[i]]
+            for nearness in (2, 1):
+                start = first[pairs.node[k]]
+                wanted = _claim(lagged_contacts, contact, pairs, start, v, nearness, wanted)
+    for p in range(first.size):
+        settle(load, lagged_contacts.claim, after, first[p])
 
 
 @jit_exact
@@ -272,8 +284,8 @@ class LaggedContacts(NamedTuple):
 
     nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
     lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
-    p with slope zero. touching, first (nodes,), after (n,): scratch for the contacts, and for those
-    of each node: the first, and the one after each.
+    p with slope zero. touching, first (nodes,), after, claim (n,): scratch for the contacts, for
+    those of each node, the first and the one after each, and for what is taken from each, N.
     """
 
     nodes: np.ndarray
@@ -284,6 +296,7 @@ class LaggedContacts(NamedTuple):
     touching: Touching
     first: np.ndarray
     after: np.ndarray
+    claim: np.ndarray
 
     lag = lag
     evaluate = evaluate

@@ -20,8 +20,8 @@ delta is
 
 positive semi-definite for |w| <= 1, and the second derivative where w = delta / psi.
 `terms.friction` is the same in the plane. A negative force, where the contact sum subtracts more
-than it adds at a side or a corner, is taken from other contacts of the same node, those first with
-which it has most nodes in common, and none of these becomes negative.
+than it adds at a side or a corner, is taken from the other forces of the same node: in proportion
+from those of features that hold this side or corner, what these do not have from all.
 """
 
 import math
@@ -35,7 +35,7 @@ from kernels.geometry.space.vectors import SIZE, cross, inner, length, minus, pl
 from kernels.plates.contacts.contact import platen_block
 from kernels.plates.contacts.touching import NO_PAIR, Touching, corners, detect, shares
 from kernels.plates.contacts.touching import no_contacts as none_touching
-from kernels.terms.friction import DUAL_TOLERANCE, NO_CONTACT, UNKNOWN, deduct, smooth
+from kernels.terms.friction import DUAL_TOLERANCE, NO_CONTACT, UNKNOWN, settle, smooth
 
 
 @jit_owning
@@ -43,7 +43,7 @@ def _room(n, touching):
     """Return an empty `LaggedContacts` with room for ``n``."""
     return LaggedContacts(
         np.empty((n, 4), np.int64), np.empty(n, np.int64), np.empty((n, 4, 2, 3)), np.empty(n),
-        np.empty((n, 2)), np.zeros(1, np.int64), touching,
+        np.empty((n, 2)), np.zeros(1, np.int64), touching, np.empty(n, np.int64), np.empty(n),
     )  # fmt: skip
 
 
@@ -156,50 +156,55 @@ def _lag_platen(x, contact, upper, mu, lagged_contacts, n):
 
 
 @jit_exact
-def _in_common(touching, m, n):
-    """Return how many corners the features of the contacts ``m`` and ``n`` have in common."""
-    count = 0
+def _holds(touching, n, m):
+    """Whether the feature of contact ``n`` has all corners of that of contact ``m``."""
+    count = 1
     for i in range(1, touching.size[m]):
         for j in range(1, touching.size[n]):
             count += touching.nodes[m, i] == touching.nodes[n, j]
-    return count
+    return count == touching.size[m]
 
 
 @jit_exact
-def _nearest(touching, load, m, first):
-    """Return the contact from which the negative load ``m`` is taken: of those of its node that
-    have a load, the one with most corners in common, then of the largest load.
-
-    first: number of the first contact of the node. `NO_CONTACT`: there is none.
-    """
-    n, found, most = first, NO_CONTACT, (0, 0.0)
-    while n < touching.count[0] and touching.nodes[n, 0] == touching.nodes[m, 0]:
-        if touching.pair[n] == NO_PAIR and load[n] > 0.0:
-            rank = _in_common(touching, m, n), load[n]
-            if rank > most:
-                found, most = n, rank
-        n += 1
-    return found
+def _claim(lagged_contacts, m, first):
+    """Claim the negative load ``m`` from those loads of its node whose features hold its own."""
+    touching, load = lagged_contacts.touching, lagged_contacts.load
+    total, n = 0.0, first
+    while n != NO_CONTACT:
+        if load[n] > 0.0 and _holds(touching, n, m):
+            total += load[n]
+        n = lagged_contacts.after[n]
+    share = min(-load[m] / total, 1.0) if total > 0.0 else 0.0
+    n = first
+    while n != NO_CONTACT:
+        if load[n] > 0.0 and _holds(touching, n, m):
+            lagged_contacts.claim[n] += share * load[n]
+        n = lagged_contacts.after[n]
 
 
 @jit_exact
-def _fill_loads(touching, load):
+def _fill_loads(lagged_contacts):
     """Fill ``load`` with the normal force of every contact of a node in ``touching``, N, none
     negative; return their number. Those of two edges, which have no friction, come after them.
     """
+    touching, load, after = (
+        lagged_contacts.touching, lagged_contacts.load, lagged_contacts.after,
+    )  # fmt: skip
     count, first = 0, 0
     while count < touching.count[0] and touching.pair[count] == NO_PAIR:
-        load[count] = -touching.slope[count]
+        load[count], lagged_contacts.claim[count] = -touching.slope[count], 0.0
+        after[count] = NO_CONTACT
+        if count > 0 and touching.nodes[count, 0] == touching.nodes[count - 1, 0]:
+            after[count - 1] = count
         count += 1
     for m in range(count):
         if touching.nodes[m, 0] != touching.nodes[first, 0]:
+            settle(load, lagged_contacts.claim, after, first)
             first = m
-        while load[m] < 0.0:
-            n = _nearest(touching, load, m, first)
-            if n == NO_CONTACT:
-                load[m] = 0.0
-            else:
-                deduct(load, m, n)
+        if load[m] < 0.0:
+            _claim(lagged_contacts, m, first)
+    if count > 0:
+        settle(load, lagged_contacts.claim, after, first)
     return count
 
 
@@ -213,7 +218,7 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
     if friction.mu == 0.0:
         return
     detect(x, contact, pairs, drift, touching)
-    for m in range(_fill_loads(touching, lagged_contacts.load)):
+    for m in range(_fill_loads(lagged_contacts)):
         load = friction.mu * lagged_contacts.load[m]
         if load > 0.0:  # n <= m: loads that are still to be read are not overwritten
             _lag_triangle(x, contact, touching, m, load, lagged_contacts, n)
@@ -325,7 +330,8 @@ class LaggedContacts(NamedTuple):
 
     nodes (n, 4): p, a, b, c; size (n,): 4, or 1 for a platen, which does not move sideways. slopes
     (n, 4, 2, 3): derivatives of the slip in the moves of the nodes. load (n,): mu lambda, N. dual
-    (n, 2): w; `UNKNOWN` stands for that of the present slip. touching: scratch.
+    (n, 2): w; `UNKNOWN` stands for that of the present slip. touching, after, claim (n,): scratch,
+    the latter two as in `terms.friction`.
     """
 
     nodes: np.ndarray
@@ -335,6 +341,8 @@ class LaggedContacts(NamedTuple):
     dual: np.ndarray
     count: np.ndarray
     touching: Touching
+    after: np.ndarray
+    claim: np.ndarray
 
     lag = lag
     evaluate = evaluate

@@ -236,6 +236,18 @@ def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
     np.testing.assert_allclose(total, expected, atol=1e-11 * expected.max())
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_order_in_which_pairs_are_listed_does_not_matter(seed):
+    of, rng = two_walls(0.5, (24, 24)), np.random.default_rng(seed)
+    x = shaken(of, seed, 0.3)
+    contacts, touch, listed = lagged_of(of, x)
+    order = rng.permutation(listed.node.size)
+    other = lagged(x, touch, near_pairs.Pairs(*(column[order] for column in listed)))
+    move = 0.1 * of.unit * rng.uniform(-1, 1, of.unit.size)
+    one, two = (term_of(x, each, 1e-3).gradient(x + move) for each in (contacts, other))
+    np.testing.assert_allclose(one, two, atol=1e-12 * np.abs(one).max())
+
+
 @pytest.mark.parametrize("pieces", [(3, 2), (12, 7), (24, 24), (5, 40)])
 def test_a_node_on_a_straight_wall_has_one_contact_with_it(pieces):
     contacts, _, _ = lagged_of(of := two_walls(0.5, pieces), of.rest)
