@@ -25,7 +25,7 @@ from sweep.ranking.question import Quantity, Question, RankError, check_units, i
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import PLACES, could_place, ended_early, loaded, same_scene, unloaded
+from sweep.ranking.unfinished import could_place, ended_early, loaded, same_scene, unloaded
 
 PER = ("specimen", "panel")
 USUAL = (
@@ -176,7 +176,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     ]
     parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in masses]
     stopped = [
-        _stopped(
+        could_place(
             rows, same_scene(scene_rows[label], whole), order, g, names, question, required
         ).assign(scene=label)
         for label, (rows, order) in zip(scene_rows, scenes, strict=True)
@@ -256,25 +256,6 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]
     return rows[first + [name for name in rows if name not in first]]
-
-
-def _stopped(  # noqa: PLR0913  the ranking, the cases, the question
-    rows: DataFrame,
-    every: DataFrame,
-    by: str,
-    budget_g: float,
-    names: Compared,
-    question: Question,
-    required: Mapping[str, float],
-) -> DataFrame:
-    """Which of `every` case of a scene stopped, and could have had a place among `rows`."""
-    stopped = every[ended_early(every, by)]
-    named = could_place(rows, stopped, by, budget_g, names, question, required)
-    named = named.assign(
-        budget_g=budget_g if np.isfinite(budget_g) else np.nan, scene="", ranked_by=by
-    )
-    first = ["budget_g", "scene", *PLACES, "case_id", "ranked_by"]
-    return named[first + [name for name in named if name not in first]]
 
 
 def _without_bar(rows: DataFrame, by: str) -> int:

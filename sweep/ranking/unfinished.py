@@ -82,18 +82,19 @@ def _key(rows: DataFrame, keys: list[str]) -> tuple[str, ...]:
 
 def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     ranked: DataFrame,
-    stopped: DataFrame,
+    every: DataFrame,
     by: str,
     budget_g: float,
     names: Compared,
     question: Question,
     required: Mapping[str, float],
 ) -> DataFrame:
-    """The stopped cases of one scene that could have had a place among the first `question.top`
-    within a budget, the best first, with the columns `PLACES`.
+    """Which of `every` case of a scene stopped and could have had a place among the first
+    `question.top` within a budget, the best first, with the columns `PLACES`.
 
     ranked: rows of the scene that have a place, whatever their mass. required: limits in SI.
     """
+    stopped = every[ended_early(every, by)]
     mass = stopped[names.mass]
     fits = (mass <= greatest_mass(budget_g)) | mass.isna()
     bounds = Ends(*(end[fits] for end in ends(stopped, by, names, question)))
@@ -104,8 +105,10 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     missed, certain = _judged(rows, bounds, names, question, required)
     best, least = (_place(end, values, less) for end in (better, worse))
     rows = rows.assign(best_place=best, least_place=least.where(np.isfinite(worse) & certain))
-    rows = rows[~missed & (best <= (question.top or np.inf))]
-    return rows.sort_values([*PLACES, "case_id"])
+    rows = rows[~missed & (best <= (question.top or np.inf))].sort_values([*PLACES, "case_id"])
+    rows = rows.assign(budget_g=budget_g if np.isfinite(budget_g) else np.nan, ranked_by=by)
+    first = ["budget_g", *PLACES, "case_id", "ranked_by"]
+    return rows[first + [name for name in rows if name not in first]]
 
 
 def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:

@@ -29,7 +29,7 @@ class Mutant(NamedTuple):
     change: str
 
     @property
-    def test_file(self):
+    def own_tests(self):
         """The file that tests the mutated one."""
         folder, _, name = self.path.removesuffix(".py").rpartition("/")
         mirror = f"tests/{folder}/test_{name}.py"

@@ -56,8 +56,8 @@ def test_a_sample_is_the_same_each_time_and_has_its_tests():
     assert found == list(sample(2))
     assert {mutant.path for mutant in found} >= {INERTIA, SPRING, "kernels/arrays.py"}
     assert not any(mutant.path.startswith("kernels/compile") for mutant in found)
-    assert all((ROOT / mutant.test_file).is_file() for mutant in found)
-    assert ENERGY.test_file == "tests/kernels/terms/test_inertia.py"
+    assert all((ROOT / mutant.own_tests).is_file() for mutant in found)
+    assert ENERGY.own_tests == "tests/kernels/terms/test_inertia.py"
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +69,7 @@ def copy(tmp_path_factory):
 def test_a_mutant_turns_a_test_red_in_a_copy(mutant, copy):
     source = (ROOT / mutant.path).read_text("utf-8")
     verdict = copy.tried(mutant)
-    assert verdict.red.startswith(f"{mutant.test_file}::test_")
+    assert verdict.red.startswith(f"{mutant.own_tests}::test_")
     assert not verdict.compiled
     assert (copy.folder / mutant.path).read_text("utf-8") == source
     assert (ROOT / mutant.path).read_text("utf-8") == source

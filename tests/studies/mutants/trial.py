@@ -74,9 +74,9 @@ class Copy:
         path = self.folder / mutant.path
         source, started = path.read_text("utf-8"), time.perf_counter()
         path.write_text(mutated(source, mutant), "utf-8")
-        red, plain = self.first_red((mutant.test_file,), True), True
+        red, plain = self.first_red((mutant.own_tests,), True), True
         if red in (None, ENDLESS):
-            red, plain = self.first_red((mutant.test_file, *WIDER), False), False
+            red, plain = self.first_red((mutant.own_tests, *WIDER), False), False
         seconds = time.perf_counter() - started
         path.write_text(source, "utf-8")
         if red not in (None, ENDLESS) and self.first_red((red,), plain):
