@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures \
-        bars spread search memory stability plates plates_solid bench experiment along figures lint clean
+        bars spread effort search memory stability plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -77,6 +77,9 @@ bars: setup  ## measure whether error bars cover the error; kept in results/bars
 
 spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
 	@$(PYTHON) -m tests.studies.rankings.spread results/spread
+
+effort: setup  ## look whether stopped cases change a first design without a word; in results/effort/
+	@$(PYTHON) -m tests.studies.rankings.effort results/effort
 
 search: setup  ## compare what optimize finds with a scan and with a grid; kept in results/search/ (2 min)
 	@$(PYTHON) -m tests.studies.rankings.search results/search

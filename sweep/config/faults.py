@@ -25,8 +25,11 @@ class ConfigError(MisfitError):
     """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
 
     def __init__(self, faults: list[Fault]) -> None:
-        super().__init__("\n".join(_shown(faults)))
+        super().__init__(faults)
         self.faults = faults
+
+    def __str__(self) -> str:
+        return "\n".join(_shown(self.faults))
 
 
 def _shown(faults: list[Fault]) -> list[str]:

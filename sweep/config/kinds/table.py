@@ -81,8 +81,11 @@ class RefusedError(MisfitError):
     """
 
     def __init__(self, key: str, value: object, allowed: str, since: str | None = None) -> None:
-        super().__init__(f"{key} = {value}; allowed: {allowed}")
+        super().__init__(key, value, allowed, since)
         self.key, self.value, self.allowed, self.since = key, value, allowed, since
+
+    def __str__(self) -> str:
+        return f"{self.key} = {self.value}; allowed: {self.allowed}"
 
     @property
     def table(self) -> str:

@@ -30,8 +30,11 @@ class StructureError(MisfitError):
     """A structure that cannot be used; `lines`: its faults, one line each."""
 
     def __init__(self, lines: Sequence[str]) -> None:
-        super().__init__("\n".join(lines))
+        super().__init__(lines)
         self.lines = list(lines)
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
 
 
 def read_structure(path: Path) -> Structure:

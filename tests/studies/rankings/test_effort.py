@@ -1,0 +1,30 @@
+"""A fast slice of the study of first designs and effort."""
+
+import pandas as pd
+
+from tests.studies.rankings.effort import Grid, drawn, outcome, sheet
+
+SOME = 10  # grids
+
+
+def test_no_first_design_changes_without_a_word():
+    rows = pd.DataFrame([outcome(number) for number in range(SOME)])
+    assert not (rows["iterations"] == "changed").any()
+    assert (rows["iterations"] == "named").any(), "no first design changes: the grids say nothing"
+    assert rows["iterations_failed"].sum() < 0.1 * rows["failed"].sum()
+
+
+def test_grids_are_the_same_each_time_and_not_all_alike():
+    assert isinstance(drawn(3), Grid)
+    assert drawn(3) == drawn(3) != drawn(4)
+
+
+def test_the_table_counts_what_became_of_the_first_designs():
+    row = {"cases": 3, "failed": 1, "iterations": "same", "steps": "changed"}
+    row |= {"iterations_gap": 0.0, "steps_gap": 0.031}
+    found = sheet(pd.DataFrame([row, row | {"iterations": "named"}]))
+    assert found.rows == [
+        ["iterations", "1", "1", "0", "0", "-"],
+        ["steps", "0", "0", "2", "0", "3.1"],
+    ]
+    assert found.notes == ("2 of 6 cases stop with the small effort.",)
