@@ -40,7 +40,10 @@ def _document(path: Path) -> dict[str, Any]:
     """The TOML of a file."""
     try:
         text = text_of(path, f"a TOML file, or an example: {', '.join(examples())}")
-        return tomllib.loads(text)
+        document = tomllib.loads(text)
+        if document:
+            return document
+        wrong = "an empty config; `crumple new` writes a first one"
     except MisfitError as error:
         wrong = str(error)
     except tomllib.TOMLDecodeError as error:

@@ -30,7 +30,7 @@ def started(*arguments, **options):
 
 
 def test_scheduler_that_is_none_ends_the_command(tmp_path):
-    (tmp_path / "trial.toml").write_text("")
+    (tmp_path / "trial.toml").write_text("[lattice]")
     done = started("run", "trial.toml", "--scheduler", "nonsense", cwd=tmp_path)
     assert done.returncode == 2
     assert done.stderr.startswith('crumple run: "nonsense" is no address')

@@ -109,7 +109,7 @@ def test_labels_of_switches_are_numbers(load):
 
 def test_default_material_that_is_not_there(lines, tmp_path, monkeypatch):
     monkeypatch.setattr(material_file, "FOLDER", tmp_path)
-    (line,) = lines("")
+    (line,) = lines("[lattice]")
     assert line.startswith('material.name: "ninjaflex" is no material; allowed: ')
 
 

@@ -26,6 +26,12 @@ def test_not_toml(lines, tmp_path):
     assert line.startswith(f"{tmp_path / 'sweep.toml'}: not TOML (Expected '='")
 
 
+@pytest.mark.parametrize("text", ["", "\n  \n", "# [lattice]\n"])
+def test_an_empty_file_is_not_the_default_crush(lines, tmp_path, text):
+    (line,) = lines(text)
+    assert line.startswith(f"{tmp_path / 'sweep.toml'}: an empty config; ")
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [

@@ -12,13 +12,13 @@ from sweep.config.materials.material_file import available
 from tests.support.designs.structures import BEAM
 
 
-def test_empty_config_is_the_seed(load):
-    (case,) = expand(load(""))
+def test_config_that_says_nothing_of_its_cases_is_the_seed(load):
+    (case,) = expand(load("[lattice]"))
     assert case == Case.of()
 
 
 def test_config_keeps_its_name_and_path(load, tmp_path):
-    assert load("").name == "sweep"
+    assert load("[lattice]").name == "sweep"
     config = load('name = "armour-2"')
     assert (config.name, config.path) == ("armour-2", tmp_path / "sweep.toml")
 
@@ -49,7 +49,7 @@ def test_a_strain_may_be_a_number_or_a_share_in_percent(load):
 def test_every_share_is_a_number_or_in_percent(load, table, number, percent):
     ids = [[case.case_id for case in expand(load(table.format(v)))] for v in (number, percent)]
     assert ids[0] == ids[1]
-    assert ids[0] != [case.case_id for case in expand(load(""))]
+    assert ids[0] != [case.case_id for case in expand(load("[lattice]"))]
 
 
 def test_own_material_is_found_beside_the_config(load, tmp_path):
@@ -93,7 +93,7 @@ def test_requirements_are_in_si_and_in_no_id(load):
     found = config.require.model_dump(exclude_none=True)
     assert found == {"max_force": 60.0, "max_deceleration": 98.0665, "min_absorbed": 0.02}
     assert config.rank.per == "panel"
-    assert [case.case_id for case in expand(config)] == [case.case_id for case in expand(load(""))]
+    assert [case.case_id for case in expand(config)] == [case.case_id for case in expand(load("[lattice]"))]
 
 
 LENGTH = '"0.8 mm", above 0'
