@@ -42,7 +42,7 @@ def test_random_moves_never_meet(advance, squared, size):
     assert full > 148 if size < 0.1 else 100 < full < 140
 
 
-@pytest.mark.parametrize("speed", [1e-3, 0.49, 1.0, 10.0, 1e6])
+@pytest.mark.parametrize("speed", [1e-3, 0.49, 0.52, 1.0, 10.0, 1e6])
 @pytest.mark.parametrize(
     ("advance", "points"),
     [(advancement.point_triangle, TRIANGLE), (advancement.edge_edge, EDGES)],
