@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
+from sweep.config.kinds.steps import impact_step
+from sweep.numbers import with_unit
 from sweep.result import Status, failed_result
 from sweep.simulation import retries
 from sweep.simulation.retries import simulate_again
@@ -15,6 +17,7 @@ from tests.studies.stability.draw import scene
 CRUSH = Case.of(loading={"mode": "displacement", "strain": 0.1})
 FAST = Case.of(loading={"mode": "displacement", "strain": 0.1, "speed": 1.0})
 LOAD = Case.of(loading={"mode": "force", "force": 1.0})
+STRIKE = Case.of(loading={"mode": "impact"}, solver={"time_step": 1e-3})
 WHY = "stopped here: try more"
 
 
@@ -28,13 +31,14 @@ def answers(monkeypatch, *outcomes, curable=True):
         message = "" if status is Status.CONVERGED else WHY
         made = failed_result(case, status, message)
         summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
-        return replace(made, summary=summary, curable=curable and status is Status.STOPPED)
+        return replace(made, summary=summary, curable=curable and status is not Status.CONVERGED)
 
     monkeypatch.setattr(retries, "simulate", simulate)
     return asked
 
 
 STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
+COARSE = (Status.UNRESOLVED, 0)
 
 
 def test_a_case_that_converges_is_simulated_once(monkeypatch):
@@ -123,3 +127,27 @@ def test_a_drawn_scene_gains_energy_in_few_steps_and_converges_in_more():
     assert result.summary["retry"] == "solver.load_steps = 24"
     more = simulate(case.changed(solver={"load_steps": 24}))
     assert result.summary["absorbed_energy_J"] == more.summary["absorbed_energy_J"]
+
+
+def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):
+    asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
+    result = simulate_again(STRIKE)
+    usual = impact_step(STRIKE.loading, STRIKE.extent)
+    steps = [case.solver.time_step for case in asked]
+    assert steps == pytest.approx([1e-3, usual, usual / 4.0])
+    assert result.summary["retry"] == f"solver.time_step = {with_unit(usual / 4.0, 's')}"
+
+
+def test_another_imperfection_is_no_advice_for_steps_that_are_too_long(monkeypatch):
+    asked = answers(monkeypatch, *[COARSE] * (1 + retries.TIMES))
+    result = simulate_again(STRIKE)
+    assert (result.status, len(asked)) == (Status.UNRESOLVED, 1 + retries.TIMES)
+    assert "imperfection" not in result.message
+
+
+def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones():
+    """In steps of 1.07 ms the integrator takes 99 % of the energy."""
+    case = scene(24)[1]
+    alone, result = simulate(case), simulate_again(case)
+    assert (alone.status, result.status) == (Status.UNRESOLVED, Status.CONVERGED)
+    assert result.summary["retry"] == "solver.time_step = 30.94 us"
