@@ -1,0 +1,70 @@
+"""Crushes of strips of a panel: more and more cells side by side, with free and with tied sides.
+
+All have the same cells and walls. The widest ones with free sides stand for the panel.
+"""
+
+from typing import NamedTuple
+
+from sweep.config.case import Case
+from sweep.design.drawing import extent, pitch
+from sweep.design.infill import families, trait
+
+CELL, HEIGHT, ROWS, THICKNESS = 12.5e-3 / 3, 12.5e-3, 3, 0.4e-3
+STRAIN, PATIENCE = 0.5, 900.0  # s for a case
+WIDTHS, WIDE, WIDEST = (3, 6, 12), 24, 48  # cells side by side
+PLATENS = {
+    "glued": ("glued", 0.3),
+    "loose": ("contact", 0.3),
+    "smooth": ("contact", 0.0),
+}
+"""Platens and their friction; smooth: the period of tied sides is free."""
+
+
+class Strip(NamedTuple):
+    """A specimen: its infill, its platens, whether its sides are tied, and cells side by side."""
+
+    kind: str
+    platens: str
+    sides: str
+    cells: int
+
+
+def strips(kinds=None, platens=tuple(PLATENS), widest=WIDE):
+    """The strips of the study, the narrow ones first."""
+    widths = [*WIDTHS, *(n for n in (WIDE, WIDEST) if n <= widest)]
+    chosen = [("free", n) for n in widths] + [("periodic", n) for n in WIDTHS]
+    return [
+        Strip(kind, platen, sides, n)
+        for kind in kinds or families()
+        for platen in platens
+        for sides, n in sorted(chosen, key=lambda one: one[1])
+    ]
+
+
+def width_of(strip):
+    """Width over centre lines, m; of tied sides, the period."""
+    if strip.sides == "periodic":
+        return CELL * strip.cells
+    way = "pointy" if trait(strip.kind, "ORIENTED") else None
+    low, high = extent(strip.kind, way, (strip.cells, ROWS))
+    return float(CELL * (high - low)[0] / pitch(strip.kind, way)[0])
+
+
+def crush(strip):
+    """The crush of a strip."""
+    platen, friction = PLATENS[strip.platens]
+    sides = {} if strip.sides == "free" else {"sides": strip.sides}
+    return Case.of(
+        lattice=dict(
+            kind=strip.kind,
+            cells_x=strip.cells,
+            cells_y=ROWS,
+            width=width_of(strip),
+            height=HEIGHT,
+            wall_thickness=THICKNESS,
+            **sides,
+        ),
+        loading=dict(mode="displacement", strain=STRAIN, platen=platen, unload=False),
+        contact=dict(friction=friction),
+        solver=dict(time_limit=PATIENCE),
+    )
