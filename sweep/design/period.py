@@ -1,8 +1,9 @@
 """A lattice that repeats: the walls of one period, and copies of the walls that they may touch.
 
-It repeats in x and y without end, or in x alone, between platens, where it begins and ends in y as
-the infill of a box does. No wall passes through another, so two walls can only touch if they border the same opening. Copies
-are needed of the walls round the openings next to the period, and of no others, at any strain.
+It repeats in x and y without end; or in x alone, and begins and ends in y as the infill of a box
+does. No wall passes through another, so two walls can only touch if they border the same opening.
+Copies are needed of the walls round the openings next to the period, and of no others, at any
+strain.
 """
 
 from dataclasses import dataclass

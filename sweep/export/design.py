@@ -67,8 +67,8 @@ def design_of(case: Case) -> Design:
         )
     if case.lattice.tied:
         raise ExportError(
-            f"case {case.case_id} is one period of the middle of a wide panel (lattice.sides), which "
-            'is no part: export a panel with sides "free"; allowed here: .csv, .pvd, .vtu, .gif'
+            f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
+            'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)

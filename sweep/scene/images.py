@@ -15,12 +15,14 @@ import numpy as np
 from kernels.linear.condensed import analysis
 from kernels.terms import contact
 from sweep.config.case import Case
+from sweep.config.kinds.cells import Cells
+from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.design.period import Endless
-from sweep.scene.beams import Beams, build_beams
+from sweep.scene.beams import build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import Numbering
+from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
 from sweep.scene.terms import Parts, contact_stiffness, force_scale, solved_by, walls_of
@@ -75,10 +77,13 @@ class Period(NamedTuple):
         return self.whole.edges[len(self.mesh.edges) :]
 
 
-def draw(network: Endless, case: Case, imperfection: Shift, rows: Iterable[Ints] = ()) -> Period:
-    """The mesh of a period. rows: joints of each row that is glued to a platen."""
+def draw(case: Case, lattice: Cells, imperfection: Shift, platen: str | None) -> Period:
+    """The mesh of a period of the ``lattice`` of a case."""
+    network = build_network(lattice.geometry)
+    assert isinstance(network, Endless)
+    rows = [network.bottom, network.top] if platen in BONDED else []
     arms = _arms(network, case, rows)
-    pieces = elements_of(network, case.lattice.nodes_per_wall + 1, arms)
+    pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
     mesh = split_walls(network, pieces, 0.0, arms.length)
     inside = np.diff(mesh.start) - 1
     first = len(network.points) + np.cumsum(inside) - inside

@@ -8,8 +8,6 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
-from sweep.design.lattice import build_network
-from sweep.design.period import Endless
 from sweep.scene.beams import bends
 from sweep.scene.images import Repeated, draw, images_of, parts_of
 from sweep.scene.mesh import Floats, Ints
@@ -20,10 +18,9 @@ def build_periodic(case: Case) -> Scene:
     """Build the arrays of an endless lattice."""
     lattice = case.lattice
     assert isinstance(lattice, Cells)
-    network = build_network(lattice.geometry)
-    assert isinstance(network, Endless)
-    period = draw(network, case, lambda y: imperfection(lattice, y))
-    n_nodes, rows, anchor = len(period.origin), np.empty(0, np.int64), int(network.bottom[0])
+    period = draw(case, lattice, lambda y: imperfection(lattice, y), None)
+    network, n_nodes, rows = period.network, len(period.origin), np.empty(0, np.int64)
+    anchor = int(network.bottom[0])
     numbering = Repeated(n_nodes, rows, rows, period.origin, period.shift)
     leader = _leaders(numbering, anchor, case)
     images = images_of(numbering, leader, (numbering.low, numbering.high), np.ones(2))

@@ -11,8 +11,6 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
-from sweep.design.lattice import build_network
-from sweep.design.period import Endless
 from sweep.scene.beams import bends
 from sweep.scene.coordinates import BONDED, held, leaders
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
@@ -40,11 +38,8 @@ def build_tied(case: Case) -> Scene:
     """Build the arrays of a lattice with tied sides."""
     lattice, loading = case.lattice, case.loading
     assert isinstance(lattice, Cells)
-    network = build_network(lattice.geometry)
-    assert isinstance(network, Endless)
-    rows = [network.bottom, network.top] if loading.platen in BONDED else []
     amplitude = lattice.imperfection * lattice.wall_thickness
-    period = draw(network, case, lambda y: bow(y, amplitude, lattice.height), rows)
+    period = draw(case, lattice, lambda y: bow(y, amplitude, lattice.height), loading.platen)
     numbering = _numbering(period)
     leader = _leaders(numbering, case)
     free = np.array([float(case.widens), 0.0])
@@ -54,7 +49,7 @@ def build_tied(case: Case) -> Scene:
     parts = parts._replace(load=load_of(numbering, case))
     rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
     return Scene(
-        period.mesh, network, assemble(case, period.mesh, numbering, parts),
+        period.mesh, period.network, assemble(case, period.mesh, numbering, parts),
         np.insert(rest, numbering.width, lattice.width),
         *reported(numbering, loading),
         force_scale=force,

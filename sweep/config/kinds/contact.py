@@ -65,9 +65,7 @@ class ByPosition(Forceless):
 Contact = NoContact | Barrier | ByPosition
 
 
-def contact(
-    values: Given | Pairs, loading: Loading, pressed: Pressed, integrator: str
-) -> Contact:
+def contact(values: Given | Pairs, loading: Loading, pressed: Pressed, integrator: str) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
