@@ -1,7 +1,4 @@
-"""Crushes of strips of a panel: more and more cells side by side, with free and with tied sides.
-
-All have the same cells and walls. The widest ones with free sides stand for the panel.
-"""
+"""Crushes of strips of a panel: more and more cells side by side, with free and with tied sides."""
 
 from typing import NamedTuple
 
@@ -11,17 +8,13 @@ from sweep.design.infill import families, trait
 
 CELL, HEIGHT, ROWS, THICKNESS = 12.5e-3 / 3, 12.5e-3, 3, 0.4e-3
 STRAIN, PATIENCE = 0.5, 900.0  # s for a case
-WIDTHS, WIDE, WIDEST = (3, 6, 12), 24, 48  # cells side by side
-PLATENS = {
-    "glued": ("glued", 0.3),
-    "loose": ("contact", 0.3),
-    "smooth": ("contact", 0.0),
-}
-"""Platens and their friction; smooth: the period of tied sides is free."""
+NARROW, WIDE = (3, 6, 12), (24, 48)  # cells side by side
+PLATENS = {"glued": ("glued", 0.3), "loose": ("contact", 0.3), "smooth": ("contact", 0.0)}
+"""Platens and their friction; between smooth ones the period of tied sides is free."""
 
 
 class Strip(NamedTuple):
-    """A specimen: its infill, its platens, whether its sides are tied, and cells side by side."""
+    """A specimen: its infill, its platens, its sides, and cells side by side."""
 
     kind: str
     platens: str
@@ -29,15 +22,15 @@ class Strip(NamedTuple):
     cells: int
 
 
-def strips(kinds=None, platens=tuple(PLATENS), widest=WIDE):
+def strips(kinds=None, platens=tuple(PLATENS), narrow=NARROW):
     """The strips of the study, the narrow ones first."""
-    widths = [*WIDTHS, *(n for n in (WIDE, WIDEST) if n <= widest)]
-    chosen = [("free", n) for n in widths] + [("periodic", n) for n in WIDTHS]
+    widths = [(n, sides) for n in narrow for sides in ("free", "periodic")]
+    widths += [(n, "free") for n in WIDE]
     return [
         Strip(kind, platen, sides, n)
         for kind in kinds or families()
         for platen in platens
-        for sides, n in sorted(chosen, key=lambda one: one[1])
+        for n, sides in widths
     ]
 
 
@@ -53,17 +46,17 @@ def width_of(strip):
 def crush(strip):
     """The crush of a strip."""
     platen, friction = PLATENS[strip.platens]
-    sides = {} if strip.sides == "free" else {"sides": strip.sides}
+    lattice = {
+        "kind": strip.kind,
+        "sides": strip.sides,
+        "cells_x": strip.cells,
+        "cells_y": ROWS,
+        "width": width_of(strip),
+        "height": HEIGHT,
+        "wall_thickness": THICKNESS,
+    }
     return Case.of(
-        lattice=dict(
-            kind=strip.kind,
-            cells_x=strip.cells,
-            cells_y=ROWS,
-            width=width_of(strip),
-            height=HEIGHT,
-            wall_thickness=THICKNESS,
-            **sides,
-        ),
+        lattice=lattice,
         loading=dict(mode="displacement", strain=STRAIN, platen=platen, unload=False),
         contact=dict(friction=friction),
         solver=dict(time_limit=PATIENCE),
