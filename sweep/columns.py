@@ -23,7 +23,7 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
-TIED = "tied"
+TIED_SIDES = "tied"
 """First word of the column `sides` where they are tied to each other."""
 
 COLUMNS: dict[str, Column] = {

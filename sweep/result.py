@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sweep.columns import COLUMNS, TIED, absorbed_energy_column, cycle_columns
+from sweep.columns import COLUMNS, TIED_SIDES, absorbed_energy_column, cycle_columns
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -107,7 +107,7 @@ def sides_of(case: Case) -> str:
     """The column `sides` of a case."""
     if not case.lattice.tied:
         return "endless" if case.lattice.endless else "free"
-    return f"{TIED}, {'free' if case.widens else 'fixed'} period"
+    return f"{TIED_SIDES}, {'free' if case.widens else 'fixed'} period"
 
 
 def failed_result(case: Case, status: Status, message: str) -> Result:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sweep.columns import (
     ABSORBED_AT,
     COLUMNS,
-    TIED,
+    TIED_SIDES,
     absorbed_energy_column,
     correction_column,
     end_columns,
@@ -169,7 +169,7 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
     """The panel of each design, in whole numbers."""
     if isinstance(panel, str) or len(panel) != 2:
         raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
-    if frame["sides"].str.startswith(TIED).any():
+    if frame["sides"].str.startswith(TIED_SIDES).any():
         raise RankError(
             f'panel = {panel!r}; allowed: none where lattice.sides is "periodic": a period is no '
             "specimen, but the middle of a wide panel, whose energy per gram it has"
