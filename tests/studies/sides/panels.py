@@ -8,9 +8,10 @@ from sweep.design.infill import families, trait
 
 CELL, HEIGHT, ROWS, THICKNESS = 12.5e-3 / 3, 12.5e-3, 3, 0.4e-3
 STRAIN, PATIENCE = 0.5, 900.0  # s for a case
-NARROW, WIDE = (3, 6, 12), (24, 48)  # cells side by side
+NARROW, WIDE, WIDEST = (3, 6, 12), (24, 48), 96  # cells side by side
 PLATENS = {"glued": ("glued", 0.3), "loose": ("contact", 0.3), "smooth": ("contact", 0.0)}
 """Platens and their friction; between smooth ones the period of tied sides is free."""
+FAR = ("loose",)  # platens whose friction brings free sides to bear far into a panel
 
 
 class Strip(NamedTuple):
@@ -24,14 +25,18 @@ class Strip(NamedTuple):
 
 def strips(kinds=None, platens=tuple(PLATENS), narrow=NARROW):
     """The strips of the study, the narrow ones first."""
-    widths = [(n, sides) for n in narrow for sides in ("free", "periodic")]
-    widths += [(n, "free") for n in WIDE]
+    pairs = [(n, sides) for n in narrow for sides in ("free", "periodic")]
     return [
         Strip(kind, platen, sides, n)
         for kind in kinds or families()
         for platen in platens
-        for n, sides in widths
+        for n, sides in (*pairs, *((n, "free") for n in wide(platen)))
     ]
+
+
+def wide(platens):
+    """Cells side by side of the wide strips, the last two of which give the middle of a panel."""
+    return (*WIDE, WIDEST) if platens in FAR else WIDE
 
 
 def width_of(strip):

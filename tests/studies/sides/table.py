@@ -2,7 +2,7 @@
 
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
-from tests.studies.sides.panels import NARROW, STRAIN, WIDE, Strip
+from tests.studies.sides.panels import FAR, NARROW, STRAIN, WIDE, WIDEST, Strip, wide
 
 
 def joules(row):
@@ -11,10 +11,15 @@ def joules(row):
     return 1e3 * row["specific_absorption_J_per_g"] if done else float("nan")
 
 
-def middle(narrow, wide):
-    """Energy over mass by which one row exceeds another, mJ/g: both have the same edges."""
-    gained = wide["absorbed_energy_J"] - narrow["absorbed_energy_J"]
-    return 1e3 * gained / (wide["mass_g"] - narrow["mass_g"])
+def middle(*rows):
+    """Energy over mass that the last row has more than the one before, mJ/g; NaN if one stopped.
+
+    Both have the same edges.
+    """
+    narrow, wider = rows[-2:]
+    gained = wider["absorbed_energy_J"] - narrow["absorbed_energy_J"]
+    stopped = any(row["status"] != Status.CONVERGED for row in (narrow, wider))
+    return float("nan") if stopped else 1e3 * gained / (wider["mass_g"] - narrow["mass_g"])
 
 
 def table(rows):
@@ -22,13 +27,12 @@ def table(rows):
     narrow = sorted({strip.cells for strip in rows} & {*NARROW})
     lines = []
     for kind, platens in dict.fromkeys((strip.kind, strip.platens) for strip in rows):
-        wide = [rows[Strip(kind, platens, "free", n)] for n in WIDE]
-        true = middle(*wide) if all(row["status"] == Status.CONVERGED for row in wide) else None
-        line = [kind, platens, *(f"{joules(row):.1f}" for row in wide)]
-        line.append("-" if true is None else f"{true:.1f}")
+        panel = [rows[Strip(kind, platens, "free", n)] for n in wide(platens)]
+        true = middle(*panel)
+        line = [kind, platens, *map(number, (*map(joules, panel[: len(WIDE)]), true))]
         for sides in ("free", "periodic"):
             each = [joules(rows[Strip(kind, platens, sides, n)]) for n in narrow]
-            line.append(" / ".join("-" if true is None else error(one, true) for one in each))
+            line.append(" / ".join(number(100 * (one / true - 1), "+") for one in each))
         lines.append(line)
     cells = " / ".join(map(str, narrow))
     one, two = WIDE
@@ -39,13 +43,13 @@ def table(rows):
         lines,
         notes=(
             f"Energy to {100 * STRAIN:g} %, mJ/g, of {one} and {two} cells with free sides. "
-            f"Middle: what {two} cells have more than {one}, energy / mass. Then errors in % of "
-            f"{cells} cells, with free and with tied sides. Smooth platens have no friction. "
-            "-: a crush stopped.",
+            f"Middle: what {two} cells have more than {one}, energy / mass; where platens are "
+            f"{' or '.join(FAR)}, {WIDEST} more than {two}. Then errors in % of {cells} cells, with "
+            "free and with tied sides. Smooth platens have no friction. -: a crush stopped.",
         ),
     )  # fmt: skip
 
 
-def error(value, true):
-    """A relative error in %."""
-    return "-" if value != value else f"{100 * (value / true - 1):+.1f}"
+def number(value, sign=""):
+    """A number with one decimal."""
+    return "-" if value != value else f"{value:{sign}.1f}"
