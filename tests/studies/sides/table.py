@@ -42,8 +42,8 @@ def table(rows):
          f"tied {cells}"],
         lines,
         notes=(
-            f"Energy to {100 * STRAIN:g} %, mJ/g, of {one} and {two} cells with free sides. Middle: "
-            f"what {two} cells have more than {one} (platens {' and '.join(FAR)}: {WIDEST} more "
+            f"Energy to {100 * STRAIN:g} %, mJ/g, of {one} and {two} cells with free sides. "
+            f"Middle: what {two} cells have more than {one} ({', '.join(FAR)}: {WIDEST} more "
             f"than {two}), energy / mass. Then errors in % of {cells} cells, with free and with "
             "tied sides. Smooth platens have no friction. -: a crush stopped.",
         ),
