@@ -1,5 +1,6 @@
 """The kinds of loading, and which of them a config means."""
 
+from math import inf
 from typing import Annotated, NamedTuple
 
 from pydantic import Field
@@ -10,6 +11,7 @@ from sweep.config.kinds.direction import WHERE, is_along
 from sweep.config.kinds.impact import DROP, Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.striker import struck
 from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
 from sweep.config.structures.structure import Structure
 
@@ -21,11 +23,12 @@ PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
 class Pressed(NamedTuple):
-    """What a loading presses: its height (m), the custom structure, whether it is endless."""
+    """What a loading presses: height and width (m), a custom structure, whether it is endless."""
 
     height: float
     structure: Structure | None = None
     endless: bool = False
+    width: float = inf
 
 
 def loading(
@@ -38,6 +41,7 @@ def loading(
         return of_file(given, pressed.structure, integrator)
     mode = mode_of(given)
     _check(given, mode, pressed, integrator)
+    given = struck(given, pressed.width, pressed.endless)
     if pressed.endless:
         return mean_crush(given, pressed.height, integrator, relaxes)
     if mode == "force":
