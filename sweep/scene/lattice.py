@@ -13,7 +13,7 @@ from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BASE, BONDED, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
-from sweep.scene.profiles import gripped, standing, with_profiles
+from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.terms import (
     Parts,
     Scene,
@@ -60,7 +60,7 @@ def build_scene(case: Case) -> Scene:
     )
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
-    fixed = held(numbering, platen)
+    fixed = np.union1d(held(numbering, platen), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
     tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)

@@ -26,6 +26,20 @@ def gripped(loading: Loading) -> str:
     return BASE if struck and loading.platen == "glued" else loading.platen
 
 
+def anchor(mesh: Mesh, numbering: Numbering, case: Case) -> Ints:
+    """The x of a node in the middle of the lower row, of a loose lattice in statics.
+
+    A striker that is not flat pushes sideways from the first step on, friction lags by one, and
+    without inertia the lattice would slide from under it.
+    """
+    struck = isinstance(case.loading, Struck) and case.loading.striker != "flat"
+    if not (struck and case.loading.quasi_static and case.loading.platen == "contact"):
+        return np.empty(0, np.int64)
+    x = mesh.points[numbering.bottom, 0]
+    middle = numbering.bottom[np.argmin(np.abs(x - x.mean()))]
+    return np.array([2 * middle])
+
+
 def with_profiles(
     touch: contact.Contact, mesh: Mesh, network: Network, numbering: Numbering, case: Case
 ) -> contact.Contact:
