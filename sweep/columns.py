@@ -69,6 +69,10 @@ COLUMNS: dict[str, Column] = {
     ),
     "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact, glued, sliding or clamped"),
+    "striker": Column(
+        "", "flat, or the shape that hits the whole depth of the lattice as a line, and where"
+    ),
+    "base": Column("", "flat, or the ribs on which the lattice lies"),
     "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),

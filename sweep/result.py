@@ -96,6 +96,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
         "platen": loading.platen,
+        **loading.shape_columns,
         **dict.fromkeys(LOADED, nan) | loading.columns,
         "contact_model": case.contact.model,
         "model_version": MODEL_VERSION,

@@ -22,8 +22,7 @@ NO_PROFILES = Profiles(
 
 def gripped(loading: Loading) -> str:
     """Which rows are held: `loading.platen`, or `BASE` of a lattice that is glued to its base."""
-    struck = isinstance(loading, Struck) and loading.is_shaped
-    return BASE if struck and loading.platen == "glued" else loading.platen
+    return BASE if loading.is_shaped and loading.platen == "glued" else loading.platen
 
 
 def anchor(mesh: Mesh, numbering: Numbering, case: Case) -> Ints:

@@ -105,6 +105,9 @@ def _by_position(loading: Loading, structure: Structure | None, integrator: str)
         raise RefusedError(key, model, f"{allowed}loading.quasi_static")
     if loading.platen == "contact":
         raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
+    if loading.is_shaped:
+        flat = 'unless loading.striker and loading.base are "flat"'
+        raise RefusedError(key, model, f'"none" or "barrier" {flat}')
     if structure is not None:
         raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
     if integrator != "backward_euler":

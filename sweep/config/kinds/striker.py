@@ -5,6 +5,7 @@ plane a tooth is as long as the panel is deep. The lattice then stands on its ba
 `loading.platen` is about.
 """
 
+from collections.abc import Iterator
 from math import degrees, pi
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -12,6 +13,7 @@ from pydantic import Field
 
 from sweep.config.kinds.direction import WHERE, Directed, is_along
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Table, chosen, given_or
+from sweep.numbers import text_in
 
 if TYPE_CHECKING:
     from sweep.design.profile import Profile
@@ -34,8 +36,8 @@ class Flat(Table):
 class Round(Flat):
     """A cylinder across the depth."""
 
-    striker_at: Place = 0.5
     striker_radius: Radius = 5e-3
+    striker_at: Place = 0.5
 
     def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
         """A circle."""
@@ -47,9 +49,9 @@ class Round(Flat):
 class Edge(Flat):
     """A wedge of an included angle, rounded at its tip."""
 
-    striker_at: Place = 0.5
     striker_angle: Angle = pi / 2
     striker_tip: Tip = 0.5e-3
+    striker_at: Place = 0.5
 
     def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
         """A wedge."""
@@ -61,9 +63,9 @@ class Edge(Flat):
 class Punch(Flat):
     """A flat face, rounded at its corners."""
 
-    striker_at: Place = 0.5
     striker_width: Length = 10e-3
     striker_tip: Tip = 0.5e-3
+    striker_at: Place = 0.5
 
     def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
         """A punch."""
@@ -88,6 +90,7 @@ class Ribs(Flat):
 
 STRIKERS: dict[str, type[Flat]] = {"flat": Flat, "round": Round, "edge": Edge, "punch": Punch}
 BASES: dict[str, type[Flat]] = {"flat": Flat, "ribs": Ribs}
+UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
 CHOICES = {"striker": STRIKERS, "base": BASES}
 _OF_KINDS = {
     key for kinds in CHOICES.values() for kind in kinds.values() for key in kind.model_fields
@@ -113,6 +116,22 @@ class Struck(Directed):
     def is_shaped(self) -> bool:
         """Whether the striker or the base is not flat."""
         return (self.striker, self.base) != ("flat", "flat")
+
+    @property
+    def shape_columns(self) -> dict[str, str]:
+        """Striker and base in words, such as "round, 5 mm, at 50 %", of a results file."""
+        return {key: ", ".join(self._words(key)) for key in CHOICES}
+
+    def _words(self, key: str) -> Iterator[str]:
+        """The kind of the striker or the base, and its numbers."""
+        yield str(getattr(self, key))
+        for name, value in _made(key, self.given()):
+            if name == "striker_angle":
+                yield f"{degrees(value):.4g} deg"
+            elif name == "striker_at":
+                yield f"at {text_in(value, '%')}"
+            else:
+                yield UNSAID.get(name, "") + text_in(value, "mm")
 
     def profiles(self, key: str, left: float, width: float, height: float) -> "tuple[Profile, ...]":
         """The profiles of the "striker" or the "base" (``key``) of a lattice, empty if it is flat.

@@ -141,12 +141,19 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
         "time": _few(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
         "plates": [_few(ends) for ends in plates],
+        "profiles": [_polygons(frames, name) for name in ("base_m", "striker_m")],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
         "nodes": len(used),
         "trails": [[float(f"{in_unit(t.thickness, 'mm'):.4g}"), t.nodes] for t in lines],
         "position": b64encode(counts.tobytes()).decode(),
     }
+
+
+def _polygons(frames: Mapping[str, Any], name: str) -> list[list[list[float]]]:
+    """Outlines in mm of what is in place of a platen, y above it; empty of a flat one."""
+    outlines = in_unit(frames.get(name, np.empty((0, 0, 2))), "mm")
+    return [[[float(f"{v:.4g}") for v in point] for point in outline] for outline in outlines]
 
 
 def _even(count: int) -> list[int]:
