@@ -12,7 +12,7 @@ def outlines(case: bytes, frames: Mapping[str, np.ndarray]) -> dict[str, np.ndar
 
     case: as JSON. frames: of `Result.frames`.
     """
-    loading = json.loads(case)["loading"] if case else {}
+    loading = json.loads(case or b"{}").get("loading", {})
     if {loading.get(key, "flat") for key in ("striker", "base")} == {"flat"}:
         return {}
     from sweep.config.case import Case
