@@ -425,6 +425,8 @@ FRAME_COLUMNS: dict[str, Column] = {
         "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
     ),
     "position_m": Column("m", "x and y, of plates also z, of every node, frame after frame"),
+    "striker_m": Column("m", "x and y above the upper platen, of the outline of a striker"),
+    "base_m": Column("m", "x and y above the lower platen, of the outlines of both ribs of a base"),
     "quads": Column("", "the four nodes of every quad of a plate"),
     "quad_thickness_m": Column("m", "wall thickness of every quad"),
     "edges": Column("", "the two nodes of every element"),

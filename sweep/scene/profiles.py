@@ -45,16 +45,31 @@ def with_profiles(
     """Contact with the profiles of the case in place of platens."""
     if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
         return touch
-    (left, bottom), (right, top) = network.points.min(axis=0), network.points.max(axis=0)
-    box = float(left), float(right - left), float(top - bottom)
-    above = case.loading.profiles("striker", *box)
-    below = case.loading.profiles("base", *box)
+    above, below = (_shapes(case.loading, network, key) for key in ("striker", "base"))
     carrier = np.repeat([numbering.high, numbering.low], [len(above), len(below)])
     return touch._replace(
         profiles=profiles_of([*above, *below], carrier, mesh, touch),
         low_away=np.inf if below else 0.0,
         high_away=np.inf if above else 0.0,
     )
+
+
+def _shapes(loading: Struck, network: Network, key: str) -> tuple[Profile, ...]:
+    """The profiles of the "striker" or the "base" (``key``), where they are beside a lattice."""
+    (left, bottom), (right, top) = network.points.min(axis=0), network.points.max(axis=0)
+    return loading.profiles(key, float(left), float(right - left), float(top - bottom))
+
+
+def outlines(case: Case, network: Network) -> dict[str, Floats]:
+    """Outlines of what is not flat, as in `Result.frames`; those of both ribs end to end."""
+    if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
+        return {}
+    drawn = {key: _shapes(case.loading, network, key) for key in ("striker", "base")}
+    return {
+        f"{key}_m": np.concatenate([shape.outline() for shape in shapes])
+        for key, shapes in drawn.items()
+        if shapes
+    }
 
 
 def profiles_of(

@@ -11,6 +11,7 @@ with the same case id it takes the newer one.
     /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
     /plate_points, /quads      the same of plates
+    /strikers, /bases          the same; a row is a point of an outline
     /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
 """
 
@@ -27,7 +28,6 @@ import numpy as np
 from sweep.columns import HISTORY_COLUMNS
 from sweep.result import MODEL_VERSION, Status
 from sweep.store.batch import FORMAT, FRAME_GROUPS, GROUPS, TEXT, Block, Ragged, newest
-from sweep.store.outlines import outlines
 from sweep.store.parts import list_parts
 from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
@@ -132,7 +132,7 @@ def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
 
 def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndarray]:
     """Stored shapes of one case, the arrays of `Result.frames`; empty if the case has none."""
-    return _frames(_read_arrays(Path(path), case_id, (*FRAME_GROUPS, "cases")))
+    return _frames(_read_arrays(Path(path), case_id, FRAME_GROUPS))
 
 
 def read_runs(
@@ -152,7 +152,7 @@ def read_runs(
             if case_id not in where:
                 raise StoreError(f"{path} holds no case {case_id}.")
             arrays = partial(_arrays, *where[case_id])
-            frames = _frames(arrays((*FRAME_GROUPS, "cases"))) if shapes else {}
+            frames = _frames(arrays(FRAME_GROUPS)) if shapes else {}
             yield StoredRun(case_id, _history(arrays(["histories"])), frames)
 
 
@@ -163,14 +163,10 @@ def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
 
 
 def _frames(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The arrays of `Result.frames` as they were before positions became rows of a table, with the
-    `outlines` of what is not flat. arrays: also with the text of the case.
-    """
-    case = bytes(arrays.pop(TEXT, b""))
+    """The arrays of `Result.frames` as they were before positions became rows of a table."""
     if "position_m" in arrays:
         rows = arrays["position_m"]
         arrays["position_m"] = rows.reshape(len(arrays["strain"]), -1, rows.shape[1])
-        arrays |= outlines(case, arrays)
     return arrays
 
 

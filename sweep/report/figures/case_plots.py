@@ -34,6 +34,7 @@ from sweep.report.figures.storyboard import (
     shots,
     turns,
 )  # fmt: skip
+from sweep.report.outlines import outlines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -273,14 +274,15 @@ def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate
         _plates(ax, view, frames, position, plate)
         return
     walls(ax, position, frames)
-    for name, height in (("base_m", plate[0]), ("striker_m", plate[1])):
-        for outline in in_unit(frames.get(name, np.empty((0, 0, 2))), "mm"):
-            moved = outline + np.array([0.0, height])
+    below, above = outlines(frames)
+    for shapes, height in ((below, plate[0]), (above, plate[1])):
+        for shape in shapes:
+            moved = shape + np.array([0.0, height])
             ax.add_patch(Polygon(moved, facecolor=PLATEN, edgecolor="none"))
-    below = np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0])
-    if below and "base_m" not in frames:
+    carried = np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0])
+    if carried and not below:
         _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
-    if np.isfinite(plate[1]) and "striker_m" not in frames:
+    if np.isfinite(plate[1]) and not above:
         _platen(ax, view, plate[1])
 
 

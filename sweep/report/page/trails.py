@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.numbers import in_unit
+from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
 
 if TYPE_CHECKING:
@@ -141,7 +142,7 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
         "time": _few(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
         "plates": [_few(ends) for ends in plates],
-        "profiles": [_polygons(frames, name) for name in ("base_m", "striker_m")],
+        "profiles": [[*map(_points, shapes)] for shapes in outlines(frames)],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
         "nodes": len(used),
@@ -150,10 +151,8 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
     }
 
 
-def _polygons(frames: Mapping[str, Any], name: str) -> list[list[list[float]]]:
-    """Outlines in mm of what is in place of a platen, y above it; empty of a flat one."""
-    outlines = in_unit(frames.get(name, np.empty((0, 0, 2))), "mm")
-    return [[[float(f"{v:.4g}") for v in point] for point in outline] for outline in outlines]
+def _points(outline: np.ndarray) -> list[list[float]]:
+    return [[float(f"{v:.4g}") for v in point] for point in outline]
 
 
 def _even(count: int) -> list[int]:

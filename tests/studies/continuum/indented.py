@@ -1,8 +1,9 @@
 """A panel of 6 x 3 square cells as a solid under a round striker, kept in indented.csv.
 
-python -m tests.studies.continuum.indented computes it in some minutes and prints the file. The
-striker is a circle that pushes back what is inside of it, by a spring as stiff as a layer of rubber
-of `LAYER` walls; walls do not touch one another yet. The panel is glued to its base.
+python -m tests.studies.continuum.indented computes it in some minutes and prints the file; with the
+word "table", it compares our network of walls with the file. The striker is a circle that pushes
+back what is inside of it, by a spring as stiff as a layer of rubber of `LAYER` walls; walls do not
+touch one another yet. The panel is glued to its base.
 """
 
 import csv
@@ -22,14 +23,15 @@ HEAD = """\
 # A round striker on a panel of 6 x 3 square cells as a solid body: force over stroke / height.
 # Source: python -m tests.studies.continuum.indented, quadratic finite elements in plane stress
 # 25 x 12.5 mm over centre lines, depth 12 mm, walls of 0.1 L, L = 12.5 mm / 3, bow 0.01 t, glued to
-# its base; neo-Hookean rubber, Y = 12 MPa, nu = 0.48; striker of 5 mm without friction, beside a joint
-# (0.52 of the width) and between two (7/12). across: elements through a wall.
+# its base; neo-Hookean rubber, Y = 12 MPa, nu = 0.48; striker of 5 mm without friction, beside a
+# joint (0.52 of the width) and between two (7/12). across: elements through a wall.
 at,across,strain,force_N
 """
 CELLS, ROWS = 6, 3
+WATCHED = (0.01, 0.02, 0.04, 0.06, 0.08, 0.1)
 RADIUS, LAYER = 5.0, 0.01
 PLACES, MESHES = (0.52, 7.0 / 12.0), (2, 3)
-STRAINS = 0.005 * np.arange(1, 31)
+STRAINS = 0.005 * np.arange(1, 23)
 
 
 class Circle:
@@ -147,6 +149,43 @@ def stored():
     return {key: np.array(rows).T for key, rows in curves.items()}
 
 
+def network(at, pieces):
+    """Strain and force (N) of the panel as a network of ``pieces`` elements a wall."""
+    from sweep.config.case import Case
+    from tests.studies.continuum.network import MM, material
+    from tests.support.converged import converged
+
+    up = grid(ROWS)
+    size = dict(width=CELLS * up.pitch * MM, height=up.width * MM, depth=up.depth * MM)
+    case = Case.of(
+        lattice=size
+        | dict(cells_x=CELLS, cells_y=ROWS, wall_thickness=up.thickness * MM, imperfection=up.bow)
+        | dict(kind="square", nodes_per_wall=pieces - 1),
+        material=material(RUBBERS["stress"](MODULUS, POISSON), "stress", "section"),
+        loading=dict(mode="displacement", strain=STRAINS[-1], unload=False, platen="glued")
+        | dict(striker="round", striker_radius=RADIUS * MM, striker_at=at),
+        contact=dict(friction=0.0),
+        solver=dict(load_steps=300),
+    )
+    history = converged(case).history
+    return history["strain"], history["reaction_top_N"]
+
+
+def compare():
+    """Print forces of the finest solid, and the errors of the coarser one and of networks, %."""
+    out, coarse, fine = sys.stdout, *MESHES
+    out.write("| at | strain, % | N | coarser solid | 3 elements a wall | 8 | 16 |\n|" + "---|" * 7)
+    for at in PLACES:
+        key = round(at, 4)
+        sides = [stored()[key, coarse], *(network(at, pieces) for pieces in (3, 8, 16))]
+        for strain in WATCHED:
+            truth = np.interp(strain, *stored()[key, fine])
+            errors = [f"{100.0 * (np.interp(strain, *side) / truth - 1.0):+.1f}" for side in sides]
+            cells = f"{100.0 * at:.3g} %", f"{100.0 * strain:g}", f"{truth:.3g}", *errors
+            out.write(f"\n| {' | '.join(cells)} |")
+    out.write("\n")
+
+
 def main():
     """Print the rows of both places by both meshes."""
     sys.stdout.write(HEAD)
@@ -158,4 +197,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    compare() if sys.argv[1:] == ["table"] else main()

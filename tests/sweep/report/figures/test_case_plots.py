@@ -168,7 +168,7 @@ def test_without_platens_only_the_ground_is_drawn():
 
 def test_a_striker_and_ribs_are_drawn_where_the_platens_are():
     """The outlines in place of both rectangles, at the heights of the platens."""
-    square = 1e-3 * np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]])
+    square = 1e-3 * np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     frames = squeezed_cell() | {"striker_m": square, "base_m": np.concatenate([square, square])}
     figure = case_plots.blank(8.0, 3.0)
     case_plots.deformed_shapes(figure, "", frames)

@@ -75,7 +75,7 @@ def test_moving_shape_can_be_read_back():
 
 
 def test_moving_shape_has_the_outlines_of_a_striker():
-    shape = moving_shape(squeezed_cell() | {"striker_m": np.full((1, 3, 2), 2e-3)}, [0.0] * 8)
+    shape = moving_shape(squeezed_cell() | {"striker_m": np.full((3, 2), 2e-3)}, [0.0] * 8)
     assert shape["profiles"] == [[], [[[2.0, 2.0]] * 3]]
     assert moving_shape(squeezed_cell(), [0.0] * 8)["profiles"] == [[], []]
 
