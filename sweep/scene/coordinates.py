@@ -12,6 +12,7 @@ import numpy as np
 from sweep.design.drawing import Indices
 
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
+BASE = "base"  # a base that holds the lower row, below a striker
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,8 @@ def held(numbering: Numbering, platen: str | None) -> Indices:
     low, high = np.array([numbering.low]), np.array([numbering.high])
     if platen == "contact":
         return low
+    if platen == BASE:
+        return np.concatenate([*clamped, low])
     if platen in BONDED:
         along = 2 * top if platen == "glued" else top[:0]
         return np.concatenate([*clamped, along, turning, low])
