@@ -218,6 +218,7 @@ VERBS = {verb.__name__: verb for verb in ALL}
 
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
+    from sweep.cli.cell_size import cell_sentences
     from sweep.config.load import load_config
 
     config = load_config(name)
@@ -225,6 +226,7 @@ def _config(name: str) -> Config:
         hint([f"example {name}: {config.path} (copy it to change it)"])
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
+    hint(cell_sentences(config.cases))
     return config
 
 
