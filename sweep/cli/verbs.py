@@ -89,6 +89,7 @@ def rank(arguments: Namespace) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
+    from sweep.report.tables.narrow_note import narrow_note
     from sweep.report.tables.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
@@ -106,6 +107,8 @@ def rank(arguments: Namespace) -> int:
         _warn(arguments.file, ranking, summary)
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = answer(summary, question)
+        if not arguments.markdown:
+            hint(line for scene in ranking.scenes for line in narrow_note(ranking.narrow[scene]))
         if arguments.csv:
             say(ranking.with_unfinished.to_csv(index=False), end="")
         elif arguments.json:

@@ -24,7 +24,7 @@ def test_no_config_is_forgotten():
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
         "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
-        "khatri_egan_square_out_of_plane", "reuse", "seed", "search", "slicer", "smoke",
+        "khatri_egan_square_out_of_plane", "panel", "reuse", "seed", "search", "slicer", "smoke",
         "thousand", "which_way", "which_way_lost",
     }  # fmt: skip
 
@@ -98,6 +98,20 @@ def test_infills_hold_their_numbers(design, energy):
 
 def test_infills_are_twelve_designs_and_more():
     assert len(infills()) == 12
+
+
+def test_panel_holds_its_numbers():
+    """The winner: kagome of 17 x 3 cells, in one piece of 100 x 50 mm."""
+    cases = expand(load_config(CONFIGS / "panel.toml"))
+    (winner,) = (
+        case
+        for case in cases
+        if (case.lattice.kind, case.lattice.wall_thickness) == ("kagome", 0.8e-3)
+    )
+    assert (winner.lattice.cells_x, winner.lattice.cells_y) == (17, 3)
+    summary = simulate(winner).summary
+    assert summary["status"] == "converged"
+    assert summary["absorbed_energy_until_packed_J"] == pytest.approx(41.233, rel=1e-3)
 
 
 def test_reuse_holds_its_numbers():
