@@ -23,6 +23,9 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
+TIED_SIDES = "tied"
+"""First word of the column `sides` where they are tied to each other."""
+
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
     "status": Column("", "converged, stopped, timed_out, unresolved or worker_died"),
@@ -50,6 +53,11 @@ COLUMNS: dict[str, Column] = {
     "does_not_print": Column(
         "",
         "walls that are not a multiple of the line width, and narrower gaps; empty if all prints",
+    ),
+    "sides": Column(
+        "",
+        "free, tied or endless (lattice.sides, lattice.boundary); tied: the width of the period is "
+        "fixed or free, and masses, forces and energies are those of one period",
     ),
     "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
     "width_m": Column("m", "width over centre lines"),

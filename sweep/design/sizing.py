@@ -3,8 +3,10 @@
 from functools import lru_cache
 from math import log
 
+import numpy as np
+
 from sweep.design.box import infill_walls
-from sweep.design.drawing import FEW, extent, pitch
+from sweep.design.drawing import FEW, extent, pitch, sketch
 from sweep.design.geometry import Geometry
 from sweep.design.infill import trait
 from sweep.design.lattice import build_network
@@ -52,11 +54,9 @@ def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | 
 
 def cell_of(geometry: Geometry) -> tuple[float, float]:
     """Width and height of a cell in the box, m."""
-    if geometry.periodic:
-        (width, height), (columns, rows) = geometry.box, geometry.cells
-        return width / columns, height / rows
     low, high = extent(geometry.kind, geometry.orientation, geometry.cells)
-    width, height = pitch(geometry.kind, geometry.orientation) * geometry.box / (high - low)
+    box = np.array(sketch(geometry).box)
+    width, height = pitch(geometry.kind, geometry.orientation) * box / (high - low)
     return float(width), float(height)
 
 
@@ -80,10 +80,10 @@ def cells_of_size(geometry: Geometry, size: float, most: int) -> tuple[int, int]
 def _nearest(geometry: Geometry, axis: int, count: float, side: float) -> int:
     """The number of cells, near ``count``, whose length along an axis is nearest to ``side`` (m).
 
-    It is even where the pattern of an endless lattice repeats every two cells.
+    It is even where the lattice and, every two cells, its pattern repeat.
     """
     shifted = trait(geometry.kind, "STAGGERED") and axis == (geometry.orientation != "flat")
-    step = 2 if geometry.periodic and shifted else 1
+    step = 2 if geometry.periodic[axis] and shifted else 1
     middle = step * round(count / step)
 
     def missed(n: int) -> float:

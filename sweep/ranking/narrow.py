@@ -16,7 +16,7 @@ def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
 
     None if all rows are of one pattern, as their order then says nothing about patterns.
     """
-    across = rows[(rows["direction"] == "in_plane") & (rows["platen"] != "none")]
+    across = rows[(rows["direction"] == "in_plane") & (rows["sides"] == "free")]
     if across["lattice_kind"].nunique() < 2:
         return ()
     few = across[(across["cells_x"] < WIDE) & (across["loading_mode"] != "custom")]

@@ -51,15 +51,20 @@ class Numbering(BetweenPlatens):
         return 2 * self.n_nodes + np.arange(self.n_nodes)
 
     @property
+    def _others(self) -> int:
+        """Number of coordinates that belong to no node."""
+        return self.size - self.per_node * self.n_nodes
+
+    @property
     def point(self) -> Indices:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
-        nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
+        nodes, platens = np.arange(self.n_nodes), np.full(self._others, self.n_nodes)
         return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
     def slot(self) -> Indices:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
-        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
+        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(self._others, np.int64)
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
 

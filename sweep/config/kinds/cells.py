@@ -20,6 +20,8 @@ from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
 
 CUSTOM = "custom"
+ENDLESS = 'if lattice.boundary is "periodic"'
+TIED = 'if lattice.sides is "periodic"'
 
 
 def _known(kind: str) -> str:
@@ -39,9 +41,10 @@ class Cells(Laid):
 
     `mass` sets the wall thickness; `cell_size`, the width of a regular cell, sets the numbers of
     cells; `infill`, the share of the box that lines of `line_width` fill, as slicers count, sets
-    both. boundary "periodic": one period of an
-    endless lattice, of size `width` x `height`. Opposite sides are tied to each other; the mean
-    shear strain and the mean lateral stress are zero.
+    both. boundary "periodic": one period of an endless lattice, of size `width` x `height`.
+    Opposite sides are tied to each other; the mean shear strain and the mean lateral stress are
+    zero. sides "periodic": left and right are tied to each other, between platens: the middle of a
+    wide panel, of which `width` is one period.
     """
 
     because: ClassVar[str] = "lattice.slicer is not given"
@@ -50,6 +53,7 @@ class Cells(Laid):
     kind: Kind = "square"
     orientation: Literal["pointy", "flat"] | None = None
     boundary: Literal["free", "periodic"] = "free"
+    sides: Literal["free", "periodic"] = "free"
     cells_x: Few = 3
     cells_y: Few = 3
     cell_size: Length | None = None
@@ -71,6 +75,11 @@ class Cells(Laid):
         return self.boundary == "periodic"
 
     @property
+    def tied(self) -> bool:
+        """Whether its left and right sides are tied to each other."""
+        return self.sides == "periodic"
+
+    @property
     def geometry(self) -> Geometry:
         """The numbers that define the drawing."""
         return Geometry(
@@ -81,7 +90,7 @@ class Cells(Laid):
             self.wall_thickness,
             self.grading,
             self.outline,
-            self.endless,
+            (self.endless or self.tied, self.endless),
         )
 
     @property
@@ -97,8 +106,10 @@ class Cells(Laid):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Outer width and height, m; of an endless lattice, those of the period."""
-        return (self.width, self.height) if self.endless else super().outer_size
+        """Outer width and height, m; where the lattice repeats, those of the period."""
+        across, along = self.geometry.periodic
+        width, height = super().outer_size
+        return self.width if across else width, self.height if along else height
 
     @property
     def counts(self) -> tuple[int, int]:
@@ -134,7 +145,7 @@ def cells(given: Given, density: float) -> Cells:
     made = made.model_copy(update=_lines(made))
     if made.cell_size is not None:
         made = _divided(made, made.cell_size, given)
-    if made.endless:
+    if made.endless or made.tied:
         _check_period(made)
     if made.infill is not None:
         made = _filled(made, made.infill, given)
@@ -244,13 +255,17 @@ def check_openings(made: Cells) -> None:
 
 
 def _check_period(made: Cells) -> None:
-    """Refuse a lattice that cannot be the period of an endless one."""
-    endless = 'if lattice.boundary is "periodic"'
+    """Refuse a lattice that cannot be a period, or that has two kinds of it."""
+    if made.endless and made.tied:
+        raise RefusedError("lattice.sides", "periodic", f'"free" {ENDLESS}')
+    endless = ENDLESS if made.endless else TIED
     for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
         if getattr(made, key) != value:
             text = "none" if value is None else f"{value:g}"
             raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
-    key = "cells_x" if made.orientation == "flat" else "cells_y"
-    if trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
-        allowed = f"an even number {endless}, as every other row of {made.kind} is shifted"
+    flat = made.orientation == "flat"
+    key, row = ("cells_x", "column") if flat else ("cells_y", "row")
+    repeats = made.endless or flat
+    if repeats and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
+        allowed = f"an even number {endless}, as every other {row} of {made.kind} is shifted"
         raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)

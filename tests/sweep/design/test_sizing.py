@@ -86,4 +86,9 @@ def test_a_period_has_whole_pairs_of_rows_that_are_shifted():
     for kind, size in (("hex", 4e-3), ("hex", 3e-3), ("kagome", 2e-3)):
         made = lattice_with(kind=kind, wall_thickness=0.2e-3, **box | dict(cell_size=size))
         assert made.cells_y % 2 == 0
+    tied = dict(kind="hex", sides="periodic", width=30e-3, height=10e-3, cell_size=4e-3)
+    assert (lattice_with(**tied).cells_y, lattice_with(orientation="flat", **tied).cells_x % 2) == (
+        3,
+        0,
+    )
     assert cells_of_size(lattice_with(**box).geometry, 4e-3, 100) == (8, 3)

@@ -18,7 +18,7 @@ def test_wide_lattices_and_those_of_one_pattern_are_not():
 
 
 def test_sides_that_are_not_free_or_not_at_the_side_do_not_count():
-    assert narrow_patterns(summary({}, HEX).assign(platen="none")) == ()
+    assert narrow_patterns(summary({}, HEX).assign(sides="tied, fixed period")) == ()
     assert narrow_patterns(summary({}, HEX).assign(direction="out_of_plane")) == ()
 
 
