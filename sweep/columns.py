@@ -23,6 +23,9 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
+TIED_SIDES = "tied"
+"""First word of the column `sides` where they are tied to each other."""
+
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
     "status": Column("", "converged, stopped, timed_out, unresolved or worker_died"),
@@ -51,6 +54,11 @@ COLUMNS: dict[str, Column] = {
         "",
         "walls that are not a multiple of the line width, and narrower gaps; empty if all prints",
     ),
+    "sides": Column(
+        "",
+        "free, tied or endless (lattice.sides, lattice.boundary); tied: the width of the period is "
+        "fixed or free, and masses, forces and energies are those of one period",
+    ),
     "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
     "width_m": Column("m", "width over centre lines"),
     "height_m": Column(
@@ -69,6 +77,10 @@ COLUMNS: dict[str, Column] = {
     ),
     "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact, glued, sliding or clamped"),
+    "striker": Column(
+        "", "flat, or the shape that hits the whole depth of the lattice as a line, and where"
+    ),
+    "base": Column("", "flat, or the ribs on which the lattice lies"),
     "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
@@ -421,6 +433,8 @@ FRAME_COLUMNS: dict[str, Column] = {
         "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
     ),
     "position_m": Column("m", "x and y, of plates also z, of every node, frame after frame"),
+    "striker_m": Column("m", "x and y above the upper platen, of the outline of a striker"),
+    "base_m": Column("m", "x and y above the lower platen, of the outlines of both ribs of a base"),
     "quads": Column("", "the four nodes of every quad of a plate"),
     "quad_thickness_m": Column("m", "wall thickness of every quad"),
     "edges": Column("", "the two nodes of every element"),

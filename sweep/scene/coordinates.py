@@ -12,6 +12,7 @@ import numpy as np
 from sweep.design.drawing import Indices
 
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
+BASE = "base"  # a base that holds the lower row, below a striker
 
 
 @dataclass(frozen=True)
@@ -51,15 +52,20 @@ class Numbering(BetweenPlatens):
         return 2 * self.n_nodes + np.arange(self.n_nodes)
 
     @property
+    def _others(self) -> int:
+        """Number of coordinates that belong to no node."""
+        return self.size - self.per_node * self.n_nodes
+
+    @property
     def point(self) -> Indices:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
-        nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
+        nodes, platens = np.arange(self.n_nodes), np.full(self._others, self.n_nodes)
         return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
     def slot(self) -> Indices:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
-        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(2, np.int64)
+        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(self._others, np.int64)
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
 
@@ -71,6 +77,8 @@ def held(numbering: Numbering, platen: str | None) -> Indices:
     low, high = np.array([numbering.low]), np.array([numbering.high])
     if platen == "contact":
         return low
+    if platen == BASE:
+        return np.concatenate([*clamped, low])
     if platen in BONDED:
         along = 2 * top if platen == "glued" else top[:0]
         return np.concatenate([*clamped, along, turning, low])

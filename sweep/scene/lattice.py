@@ -11,8 +11,9 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BONDED, Numbering, held, leaders
+from sweep.scene.coordinates import BASE, BONDED, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
+from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.terms import (
     Parts,
     Scene,
@@ -26,12 +27,12 @@ from sweep.scene.terms import (
 )
 
 
-def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
+def initial_velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
     """Initial velocity of each coordinate, m/s: that of the striker and the row glued to it."""
     return np.where(leader == numbering.high, -striker_of(loading).speed, 0.0)
 
 
-def _load(numbering: Numbering, case: Case) -> Floats:
+def load_of(numbering: Numbering, case: Case) -> Floats:
     """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes.
 
     A striker has its weight; that of the lattice is left out.
@@ -48,7 +49,7 @@ def _load(numbering: Numbering, case: Case) -> Floats:
 
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
-    lattice, platen = case.lattice, case.loading.platen
+    lattice, platen = case.lattice, gripped(case.loading)
     assert isinstance(lattice, Laid)
     network, solid = build_network(lattice.geometry), case.solver.joints == "solid"
     mesh, arms = build_mesh(lattice, solid, platen)
@@ -59,42 +60,44 @@ def build_scene(case: Case) -> Scene:
     )
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
-    fixed = held(numbering, platen)
+    fixed = np.union1d(held(numbering, platen), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
     tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
+    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
+    touch = with_profiles(touch, mesh, network, numbering, case)
     parts = Parts(
         walls=walls,
         beams=beams,
         layout=layout,
         bend=build_bend(mesh, beams, case),
         fold=build_fold(mesh, beams.rigidity, case),
-        contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
+        contact=touch,
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
-        load=_load(numbering, case),
+        load=load_of(numbering, case),
     )
     return Scene(
         mesh, network, assemble(case, mesh, numbering, parts),
-        _rest(mesh, numbering, parts.contact.node_thickness),
-        *_reported(numbering, case.loading),
+        standing(rest_of(mesh, numbering, parts.contact.node_thickness), touch),
+        *reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
-        velocity=_velocity(numbering, layout.leader, case.loading),
+        velocity=initial_velocity(numbering, layout.leader, case.loading),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 
-def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
+def rest_of(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
     """Coordinates at rest, with platens on the outermost walls. thickness (n,): of nodes, m."""
     y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
     platens = [(y - half).min(), (y + half).max()]
     return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_nodes), platens])
 
 
-def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
+def reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction force, and of the top and the base that define the strain.
 
     The strain is the travel of a driven platen, a striker or the loaded row. Under a loose platen
@@ -103,9 +106,9 @@ def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]
     """
     bottom = 2 * numbering.bottom + 1
     low, high = np.array([numbering.low]), np.array([numbering.high])
-    bonded = dict.fromkeys(BONDED, np.append(bottom, low))
-    reaction = ({"contact": low} | bonded).get(loading.platen, bottom)
-    if not isinstance(loading, DeadLoad):
+    bonded = dict.fromkeys((*BONDED, BASE), np.append(bottom, low))
+    reaction = ({"contact": low} | bonded).get(gripped(loading), bottom)
+    if not isinstance(loading, DeadLoad) or loading.is_shaped:
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(numbering.n_nodes) + 1

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
+from sweep.columns import TIED_SIDES
 from sweep.numbers import percent
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
+    of_one,
     panel_note,
 )
 
@@ -18,8 +20,8 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
-CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
+MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
+CRUSHED = "peak: greatest force of {of}. Peak and energy are counted {until}."
 DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
@@ -40,6 +42,9 @@ LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
 force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
 closed. rebound: energy of the striker at rebound / at first contact."""
+SHAPED = """\
+striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
+of the lattice. Strain is its way after the first touch / height."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
 =: a tie: the errors may reverse the order. Errors common to all designs do not count.
@@ -70,6 +75,8 @@ u: stopped after its loading (message: why), which determines energy, peak and d
 only unloading tells is not known (–)."""
 OTHER_BOW = """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
+ONE_PERIOD = """\
+Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -81,19 +88,30 @@ too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
 
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
-    table = ranking.table
+    table, of = ranking.table, of_one(ranking.table)
     heads = {mode: meanings(table, mode) for mode in dict.fromkeys(table["loading_mode"])}
     if "displacement" in heads:
         whole = [] if ranking.limited else heads["displacement"]
-        heads["displacement"] = [CRUSHED.format(until=ranking.until), *whole]
+        heads["displacement"] = [CRUSHED.format(until=ranking.until, of=of), *whole]
     lines = [line for mode in HEADS if mode in heads for line in heads[mode]]
     lines += panel_note(table) + column_notes(ranking)
     bars = [TIED] if "ranked_error" in table else []
-    return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
+    return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *bars]))
 
 
 def meanings(rows: DataFrame, mode: str) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
+    period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
+    shaped = [SHAPED] if _is_shaped(rows) else []
+    return [*_meanings(rows, mode), *shaped, *period]
+
+
+def _is_shaped(rows: DataFrame) -> bool:
+    """Whether one of the strikers is not flat."""
+    return bool((~rows["striker"].isin(("flat", "none"))).any())
+
+
+def _meanings(rows: DataFrame, mode: str) -> list[str]:
     if mode == "displacement":
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
         return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows)]
