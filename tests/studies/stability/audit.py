@@ -157,14 +157,14 @@ def audit(case):
     """Simulate ``case`` as sweeps do, with its retries, and look for what must not be."""
     runs, started = [], time.perf_counter()
 
-    def watched(case, stop=None):
+    def watched(case, stop, seconds):
         runs.append((Watch(), None))
         watch = runs[-1][0]
         with (
             patch("kernels.solve.march.march", watch),
             patch("kernels.solve.arc_length.follow", watch.follow),
         ):
-            result = simulate(case, stop)
+            result = simulate(case, stop, seconds)
         runs[-1] = watch, result.history
         return result
 

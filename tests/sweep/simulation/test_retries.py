@@ -19,20 +19,23 @@ FAST = Case.of(loading={"mode": "displacement", "strain": 0.1, "speed": 1.0})
 LOAD = Case.of(loading={"mode": "force", "force": 1.0})
 STRIKE = Case.of(loading={"mode": "impact"}, solver={"time_step": 1e-3})
 WHY = "stopped here: try more"
+limits = []  # the seconds that each simulation may take
 
 
 def answers(monkeypatch, *outcomes, curable=True):
     """Let `simulate` end in these ways, one after another; return the cases that it is given."""
     asked, left = [], list(outcomes)
 
-    def simulate(case, stop=None):
+    def simulate(case, stop=None, seconds=None):
         asked.append(case)
+        limits.append(seconds)
         status, loaded = left.pop(0)
         message = "" if status is Status.CONVERGED else WHY
         made = failed_result(case, status, message)
         summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
         return replace(made, summary=summary, curable=curable and status is not Status.CONVERGED)
 
+    limits.clear()
     monkeypatch.setattr(retries, "simulate", simulate)
     return asked
 
@@ -107,11 +110,11 @@ def test_no_retry_if_it_is_off_would_not_help_or_is_interrupted(monkeypatch, cas
 
 def test_all_together_keep_the_time_limit(monkeypatch):
     clock = iter((0.0, 40.0, 61.0))
-    asked = answers(monkeypatch, STOPS, STOPS)
+    answers(monkeypatch, STOPS, STOPS)
     monkeypatch.setattr(retries.time, "monotonic", lambda: next(clock))
     limited = CRUSH.changed(solver={"time_limit": 60.0})
     result = simulate_again(limited)
-    assert [case.solver.time_limit for case in asked] == [60.0, 20.0]
+    assert limits == [60.0, 20.0]
     assert result.message.endswith("(tried in vain: solver.load_steps = 800)")
 
 
@@ -143,6 +146,16 @@ def test_another_imperfection_is_no_advice_for_steps_that_are_too_long(monkeypat
     result = simulate_again(STRIKE)
     assert (result.status, len(asked)) == (Status.UNRESOLVED, 1 + retries.TIMES)
     assert "imperfection" not in result.message
+
+
+def test_an_impact_in_steps_that_take_too_long_leaves_time_for_the_usual_ones(monkeypatch):
+    asked = answers(monkeypatch, (Status.TIMED_OUT, 0), ENDS)
+    case = STRIKE.changed(solver={"time_limit": 40.0})
+    result = simulate_again(case)
+    assert result.status is Status.CONVERGED
+    assert limits[0] == 10.0
+    assert limits[1] == pytest.approx(40.0, abs=1.0)
+    assert asked[1].solver.time_step == impact_step(case.loading, case.extent)
 
 
 def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones():
