@@ -34,7 +34,7 @@ def energy(case):
     return share * (1.0 - 0.1 * abs(case.lattice.cells_x - cells)) * exp(-((off / 0.047) ** 2))
 
 
-def simulate(case, control=None):
+def simulate(case, control=None, seconds=None):
     """A result of that energy; brick fails, and walls below 0.55 mm are beyond the model."""
     joules = energy(case)
     failed = case.lattice.kind == "brick"

@@ -28,7 +28,7 @@ def number_of(case):
     return round(case.lattice.imperfection / 0.001)
 
 
-def simulate(case, stop=None):
+def simulate(case, stop=None, seconds=None):
     """A result whose every number follows from the case; case 7 fails."""
     number = number_of(case)
     measures = dict.fromkeys(list(COLUMNS)[3:], float(number)) | design_columns(case)
