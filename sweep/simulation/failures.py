@@ -12,11 +12,10 @@ import numpy as np
 from kernels.solve import outcomes
 from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
-from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.solver import Arcs, InTime
-from sweep.config.kinds.steps import impact_step
+from sweep.config.kinds.solver import Arcs
 from sweep.numbers import percent, with_unit
 from sweep.result import Status
+from sweep.simulation.time_resolution import resolving_step
 
 Failure = tuple[Status, str]
 
@@ -105,14 +104,10 @@ def momentum_unresolved(case: Case, share: float) -> Failure:
 
 
 def _finer(case: Case) -> str:
-    """The usual time step of an impact, or a quarter of its own if that is shorter."""
-    loading, solver = case.loading, case.solver
-    assert isinstance(loading, Impact)
-    assert isinstance(solver, InTime)
-    step = min(impact_step(loading, case.extent), 0.25 * solver.time_step)
-    first_order = solver.integrator == "backward_euler"
+    """The time step that may resolve an impact, and the integrator of second order."""
+    first_order = case.solver.integrator == "backward_euler"
     other = ' and solver.integrator "bdf2"' if first_order else ""
-    return f"try a solver.time_step of {with_unit(step, 's')}{other}"
+    return f"try a solver.time_step of {with_unit(resolving_step(case), 's')}{other}"
 
 
 def broke(summary: Mapping[str, Any], case: Case) -> bool:

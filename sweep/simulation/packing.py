@@ -59,10 +59,15 @@ def weights(strain: Floats, gained: Floats, band: float = BAND) -> Floats:
     above = np.clip(gained - (1.0 - band) * gained.max(), 0.0, None)
     steps = np.diff(strain, prepend=strain[0]) + np.diff(strain, append=strain[-1])
     weight = above * steps  # trapezoidal rule
-    return weight / weight.sum() if weight.sum() > 0.0 else np.eye(len(strain))[-1]
+    return weight / weight.sum() if weight.sum() > 0.0 else last_row(len(strain))
 
 
 def span(strain: Floats, gained: Floats, within: float = ALIKE) -> float:
     """Strain from the first to the last row of nearly the greatest efficiency."""
     near = strain[gained >= (1.0 - within) * gained.max()]
     return float(near[-1] - near[0])
+
+
+def last_row(count: int) -> Floats:
+    """Weights (rows,) of the last of ``count`` rows alone."""
+    return np.append(np.zeros(count - 1), 1.0)

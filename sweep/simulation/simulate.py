@@ -65,24 +65,27 @@ CURABLE = {  # other steps or another imperfection may help
     *(outcomes.ITERATIONS, outcomes.STALLED, outcomes.SINGULAR, outcomes.INACCURATE),
     *(outcomes.UNBALANCED, outcomes.NOT_FINITE),
 }
+EXPIRED = 2  # what `stop[0]` is after the time limit
 CREATED = 0.1  # of the work done: energy that an integrator may create
 
 
-def simulate(case: Case, stop: np.ndarray | None = None) -> Result:
+def simulate(case: Case, stop: np.ndarray | None = None, seconds: float | None = None) -> Result:
     """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
 
-    stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt; stop[1] counts steps.
+    stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to `EXPIRED`;
+    stop[1] counts steps. seconds: what is left of `solver.time_limit`; all of it if None.
     """
     started = time.thread_time()
-    result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop)
+    left = case.solver.time_limit if seconds is None else seconds
+    result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop, left)
     spent = time.thread_time() - started  # includes the time to free the memory of the run
     return replace(result, summary={**result.summary, "cpu_s": spent})
 
 
-def _simulated(case: Case, stop: np.ndarray) -> Result:
+def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     scene = _scene(case)
     run = _Run(scene, case, stop)
-    status, message = run.complete()
+    status, message = run.complete(seconds)
     curves = history_columns(run.whole_rows(), case)
     if run.blind and isinstance(scene, Scene):
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
@@ -220,9 +223,9 @@ class _Run:
         row.height = height(scene.x_rest, scene.top, scene.base)
         row.gap = np.nan
 
-    def complete(self) -> tuple[Status, str]:
-        """March through all stages; return the status and its sentence."""
-        with WATCH.limit(self.case.solver.time_limit, self._expire):
+    def complete(self, seconds: float) -> tuple[Status, str]:
+        """March through all stages within ``seconds``; return the status and its sentence."""
+        with WATCH.limit(seconds, self._expire):
             for phase in self.stages:
                 outcome = self._through(phase.stage)
                 if outcome != outcomes.INTERRUPTED and self._creates_energy(self.done):
@@ -289,7 +292,7 @@ class _Run:
 
     def _expire(self) -> None:
         self.expired = True
-        self.control[0] = 1
+        self.control[0] = self.control[0] or EXPIRED
 
     def _through(self, stage: march.Stage) -> int:
         span = slice(self.done, self.done + stage.steps)

@@ -20,7 +20,14 @@ from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.iso_13314 import figures
-from sweep.simulation.packing import efficiency, near_maxima, packed_row, span, weights
+from sweep.simulation.packing import (
+    efficiency,
+    last_row,
+    near_maxima,
+    packed_row,
+    span,
+    weights,
+)
 from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,
@@ -221,7 +228,7 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """Columns from the force-displacement curve of the loading; only a crush can pack."""
     work, force = loading["work_in_J"], transmitted(case, loading)
-    row, share = len(work) - 1, np.eye(len(work))[-1]
+    row, share = len(work) - 1, last_row(len(work))
     columns = dict.fromkeys(OF_A_CRUSH, np.nan)
     if isinstance(case.loading, Crush):
         row, share, columns = packing_columns(case, loading)

@@ -22,8 +22,11 @@ from math import nan, sqrt
 
 import numpy as np
 
+from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.solver import InTime
+from sweep.config.kinds.steps import impact_step
 from sweep.scene.mesh import Floats
 from sweep.simulation.striker import kinetic
 
@@ -59,3 +62,11 @@ def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
     given = brought + loading.weight * float(history["time_s"][-1])
     missing = abs(given - loading.striker_mass * float(speed[-1]) - borne)
     return max(missing - kept, 0.0) / brought
+
+
+def resolving_step(case: Case) -> float:
+    """The usual time step of an impact, or a quarter of its own if that is shorter, s."""
+    loading, solver = case.loading, case.solver
+    assert isinstance(loading, Impact)
+    assert isinstance(solver, InTime)
+    return min(impact_step(loading, case.extent), 0.25 * solver.time_step)

@@ -29,6 +29,7 @@ WORKERS = 2
 MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 WIDE = 64  # panels of up to 48 cells side by side
+RETRIED = "converged in a retry"
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 KINDS = (
     *("static", "in time", "dead load", "impact"),
@@ -54,6 +55,8 @@ def kind_of(case):
 
 def outcome(found):
     """Status of a scene, with what it says where it stopped, but for the place."""
+    if found.status == "converged" and found.retry:
+        return RETRIED
     if found.status != "stopped":
         return found.status.replace("_", " ")
     why = re.split(r";|,| at strain ", found.message.split(":")[-1])[0]
@@ -101,12 +104,10 @@ def main(folder):
     tell(markdown(counted(cases, audits)), folder / "stability.md")
     with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
-        rows.writerow(("scene", "case_id", "status", "cpu_s", "violations", "message"))
+        rows.writerow(("scene", "case_id", "status", "retry", "cpu_s", "violations", "message"))
         for number, (case, found) in enumerate(zip(cases, audits, strict=True)):
-            violations = "; ".join(found.violations)
-            rows.writerow(
-                (number, case.case_id, found.status, found.cpu_s, violations, found.message)
-            )
+            told = found.status, found.retry, found.cpu_s, "; ".join(found.violations)
+            rows.writerow((number, case.case_id, *told, found.message))
     return any(found.violations for found in audits)
 
 

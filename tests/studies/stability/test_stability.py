@@ -177,7 +177,9 @@ def test_arms_that_change_places_are_seen():
 
 def test_outcomes_are_counted(drawn):
     cases = drawn[:2]
-    found = audit.Audit("stopped", "stopped while loading: no way; try less", ("wrong",), 2, 0.1)
+    found = audit.Audit(
+        "stopped", "stopped while loading: no way; try less", "", ("wrong",), 2, 0.1
+    )  # fmt: skip
     table = counted(cases, [found, found._replace(status="converged", message="", violations=())])
     assert list(table) == [
         "converged",
@@ -188,4 +190,6 @@ def test_outcomes_are_counted(drawn):
     assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
     assert markdown(table)[3].startswith("| stopped: no way | ")
     open_book = found._replace(message="work and energies do not balance at strain 1; try")
+    again = found._replace(status="converged", retry="solver.time_step = 1 us")
+    assert outcome(again) == "converged in a retry"
     assert outcome(open_book) == "stopped: work and energies do not balance"

@@ -173,3 +173,10 @@ def test_a_curve_with_two_maxima_says_both():
     assert measured(two_rows(33.0), energies) == pytest.approx([29e-3, 93e-3], rel=0.02)
     assert measured(two_rows(15.0), places) == pytest.approx([0.5, 0.5], abs=2e-3)
     assert measured(two_rows(60.0), places) == pytest.approx([0.3, 0.3], abs=2e-3)
+
+
+def test_the_memory_of_weights_grows_with_the_rows_not_with_their_square():
+    """An impact may have 200,000 rows: their square in numbers would take 320 GB."""
+    rows = np.zeros(200_000)
+    at = weights(rows, rows)
+    assert (at.sum(), at[-1]) == (1.0, 1.0)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
+from sweep.config.kinds.steps import impact_step
+from sweep.numbers import with_unit
 from sweep.result import Status, failed_result
 from sweep.simulation import retries
 from sweep.simulation.retries import simulate_again
@@ -15,26 +17,31 @@ from tests.studies.stability.draw import scene
 CRUSH = Case.of(loading={"mode": "displacement", "strain": 0.1})
 FAST = Case.of(loading={"mode": "displacement", "strain": 0.1, "speed": 1.0})
 LOAD = Case.of(loading={"mode": "force", "force": 1.0})
+STRIKE = Case.of(loading={"mode": "impact"}, solver={"time_step": 1e-3})
 WHY = "stopped here: try more"
+limits = []  # the seconds that each simulation may take
 
 
 def answers(monkeypatch, *outcomes, curable=True):
     """Let `simulate` end in these ways, one after another; return the cases that it is given."""
     asked, left = [], list(outcomes)
 
-    def simulate(case, stop=None):
+    def simulate(case, stop=None, seconds=None):
         asked.append(case)
+        limits.append(seconds)
         status, loaded = left.pop(0)
         message = "" if status is Status.CONVERGED else WHY
         made = failed_result(case, status, message)
         summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
-        return replace(made, summary=summary, curable=curable and status is Status.STOPPED)
+        return replace(made, summary=summary, curable=curable and status is not Status.CONVERGED)
 
+    limits.clear()
     monkeypatch.setattr(retries, "simulate", simulate)
     return asked
 
 
 STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
+COARSE = (Status.UNRESOLVED, 0)
 
 
 def test_a_case_that_converges_is_simulated_once(monkeypatch):
@@ -103,11 +110,11 @@ def test_no_retry_if_it_is_off_would_not_help_or_is_interrupted(monkeypatch, cas
 
 def test_all_together_keep_the_time_limit(monkeypatch):
     clock = iter((0.0, 40.0, 61.0))
-    asked = answers(monkeypatch, STOPS, STOPS)
+    answers(monkeypatch, STOPS, STOPS)
     monkeypatch.setattr(retries.time, "monotonic", lambda: next(clock))
     limited = CRUSH.changed(solver={"time_limit": 60.0})
     result = simulate_again(limited)
-    assert [case.solver.time_limit for case in asked] == [60.0, 20.0]
+    assert limits == [60.0, 20.0]
     assert result.message.endswith("(tried in vain: solver.load_steps = 800)")
 
 
@@ -123,3 +130,37 @@ def test_a_drawn_scene_gains_energy_in_few_steps_and_converges_in_more():
     assert result.summary["retry"] == "solver.load_steps = 24"
     more = simulate(case.changed(solver={"load_steps": 24}))
     assert result.summary["absorbed_energy_J"] == more.summary["absorbed_energy_J"]
+
+
+def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):
+    asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
+    result = simulate_again(STRIKE)
+    usual = impact_step(STRIKE.loading, STRIKE.extent)
+    steps = [case.solver.time_step for case in asked]
+    assert steps == pytest.approx([1e-3, usual, usual / 4.0])
+    assert result.summary["retry"] == f"solver.time_step = {with_unit(usual / 4.0, 's')}"
+
+
+def test_another_imperfection_is_no_advice_for_steps_that_are_too_long(monkeypatch):
+    asked = answers(monkeypatch, *[COARSE] * (1 + retries.TIMES))
+    result = simulate_again(STRIKE)
+    assert (result.status, len(asked)) == (Status.UNRESOLVED, 1 + retries.TIMES)
+    assert "imperfection" not in result.message
+
+
+def test_an_impact_in_steps_that_take_too_long_leaves_time_for_the_usual_ones(monkeypatch):
+    asked = answers(monkeypatch, (Status.TIMED_OUT, 0), ENDS)
+    case = STRIKE.changed(solver={"time_limit": 40.0})
+    result = simulate_again(case)
+    assert result.status is Status.CONVERGED
+    assert limits[0] == 10.0
+    assert limits[1] == pytest.approx(40.0, abs=1.0)
+    assert asked[1].solver.time_step == impact_step(case.loading, case.extent)
+
+
+def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones():
+    """In steps of 1.07 ms the integrator takes 99 % of the energy."""
+    case = scene(24)[1]
+    alone, result = simulate(case), simulate_again(case)
+    assert (alone.status, result.status) == (Status.UNRESOLVED, Status.CONVERGED)
+    assert result.summary["retry"] == "solver.time_step = 30.94 us"
