@@ -21,11 +21,11 @@ def _couple(nodes, n, a, b, c):
 def couplings(x, scene, pairs, lagged_contacts):
     """Return the couplings (c, 3) of contacts, lagged contacts, springs and folds.
 
-    A coupling of fewer than three nodes repeats one. The upper platen is node n_nodes.
+    A coupling of fewer than three nodes repeats one. The platens are node n_nodes.
     """
     layout, reach = scene.layout, 1.0 + MARGIN
     size = pairs.node.size + lagged_contacts.count[0] + scene.fold.limit.size
-    size += scene.contact.platen_nodes.size + scene.spring.l0.size
+    size += 2 * scene.contact.platen_nodes.size + scene.spring.l0.size
     nodes, n = np.empty((size, 3), np.int64), 0
     for k in range(pairs.node.size):
         if pairs.distance[k] < reach * pairs.d_contact[k]:
@@ -46,9 +46,10 @@ def couplings(x, scene, pairs, lagged_contacts):
         if fold.opening(x, scene.fold, k) < 2.0 * scene.fold.limit[k]:
             a, b, c = triple(scene.fold.nodes, k)
             n = _couple(nodes, n, a, b, c)
-    if layout.leader[scene.contact.high] >= 0 and layout.driven < 0:
-        for p in scene.contact.platen_nodes:
-            gap = x[scene.contact.high] - x[2 * p + 1]
-            if gap < 0.5 * reach * scene.contact.node_thickness[p]:
-                n = _couple(nodes, n, p, p, layout.n_nodes)
+    for platen, side in ((scene.contact.low, 1.0), (scene.contact.high, -1.0)):
+        if layout.leader[platen] >= 0 and layout.driven < 0:
+            for p in scene.contact.platen_nodes:
+                gap = side * (x[2 * p + 1] - x[platen])
+                if gap < 0.5 * reach * scene.contact.node_thickness[p]:
+                    n = _couple(nodes, n, p, p, layout.n_nodes)
     return nodes[:n]

@@ -11,7 +11,7 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BONDED, Numbering, held, leaders
+from sweep.scene.coordinates import BONDED, NONE, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.terms import (
     Parts,
@@ -22,6 +22,7 @@ from sweep.scene.terms import (
     masses_of,
     solved_by,
     striker_of,
+    target_of,
     walls_of,
 )
 
@@ -59,12 +60,13 @@ def build_scene(case: Case) -> Scene:
     )
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
-    fixed = held(numbering, platen)
+    base_moves = target_of(case.loading) is not None
+    fixed = held(numbering, platen, base_moves)
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
-    tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)
+    tied, below = (2 * row + 1 for row in _tied(numbering, platen, base_moves))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
-    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied), case)
+    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
     parts = Parts(
         walls=walls,
@@ -83,8 +85,25 @@ def build_scene(case: Case) -> Scene:
         *_reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
         velocity=_velocity(numbering, layout.leader, case.loading),
+        standing=_standing(mesh, numbering, parts.contact.platen_nodes, platen),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
+
+
+def _tied(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
+    """Nodes that follow the upper and the lower platen in y; a row held at rest follows none."""
+    bonded = platen in BONDED
+    return (
+        numbering.top if bonded else NONE,
+        numbering.bottom if bonded and base_moves else NONE,
+    )
+
+
+def _standing(mesh: Mesh, numbering: Numbering, loose: Ints, platen: str) -> Ints:
+    """Nodes that may press on the base, by x at rest: of a held row, and ``loose`` ones."""
+    row = NONE if platen == "contact" else numbering.bottom
+    nodes = np.union1d(row, loose)
+    return nodes[np.argsort(mesh.points[nodes, 0], kind="stable")]
 
 
 def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:

@@ -29,6 +29,7 @@ from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.terms import Scene, striker_of
+from sweep.simulation.base import patch_width
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (
     Failure,
@@ -45,7 +46,7 @@ from sweep.simulation.failures import (
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
-from sweep.simulation.striker import rests, second_stop
+from sweep.simulation.striker import closing_speed, rests, second_stop
 from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
@@ -126,7 +127,7 @@ def _of_impact(
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
         return still_moving_down(where)
-    speed = curves["striker_speed_m_per_s"]
+    speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)
     return Status.CONVERGED, ""
@@ -192,6 +193,7 @@ class _Run:
         self.rows = np.zeros(total + 1, ROW)
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
+        self.standing = scene.standing.copy()  # sorted in place
         self._begin()
         self.struck = isinstance(case.loading, Impact)
         early = self.struck or isinstance(case.solver, Arcs)
@@ -214,7 +216,7 @@ class _Run:
         row.work, row.kinetic, row.stretch = book.work, book.kinetic, strained
         row.speed = scene.velocity[scene.terms.contact.high]
         row.height = height(scene.x_rest, scene.top, scene.base)
-        row.gap = np.nan
+        row.gap = row.patch_at = np.nan
 
     def complete(self) -> tuple[Status, str]:
         """March through all stages; return the status and its sentence."""
@@ -298,6 +300,8 @@ class _Run:
             self.scene.base,
             self.scene.probes,
             self.probed[span],
+            self.standing,
+            patch_width(self.case),
         )
         if not self.struck:
             self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
@@ -337,6 +341,8 @@ class _Run:
         if isinstance(self.scene, PlateScene):
             for name in (*BOOK.values(), "reaction_top", "reaction_bottom"):
                 rows[name] *= self.scene.mesh.plan.copies
+        if not self.scene.standing.size:
+            rows["patch_force"] = rows["patch_at"] = np.nan
         return rows
 
     def frames(self) -> dict[str, np.ndarray]:

@@ -31,7 +31,7 @@ TEXT = "json"
 DIMENSIONS = {"points": 2, "plate_points": 3}
 """Length of a row of positions."""
 
-FORMAT = 4
+FORMAT = 5
 """Version of the layout and of the columns of a file; `read` refuses files of another."""
 
 GROUPS = ("cases", "histories", *FRAME_GROUPS)

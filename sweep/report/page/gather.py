@@ -19,7 +19,7 @@ from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
-from sweep.ranking.requirements import limits
+from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
@@ -162,6 +162,8 @@ def _cases(
             "within": _exact(part["absorbed_energy_within_model_J"]),
             "height": _exact(part["height_m"]),
             "deceleration": _exact(part["peak_deceleration_filtered_m_per_s2"]),
+            "pressure": _exact(part["peak_base_pressure_Pa"]),
+            "accelerated": _exact(part["peak_target_acceleration_m_per_s2"]),
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
@@ -169,7 +171,7 @@ def _cases(
             "stretched": part["beyond_curve"].tolist(),
             "undrawn": unprintable(part),
             "open": part["ends_early"].tolist(),
-            "struck": _exact(part["impact_energy_J"]),
+            "struck": _exact(relative_energy(part)),
             "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),
             "unloaded": unloaded(part).tolist(),
             "bowed": other_bow(part).tolist(),

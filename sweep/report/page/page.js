@@ -400,6 +400,11 @@ function requiredColumns() {
   const limits = askedOf(data, asked);
   const found = [];
   if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && inUnits(row.design.deceleration, "g0")]);
+  for (const [name, head, value] of [["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]])
+    if (name in limits) {
+      const { shown } = data.measures[name];
+      found.push([`${head} ${shown}`, (row) => row.design[value] && inUnits(row.design[value], shown)]);
+    }
   const limited = crushed() && (asked.force !== null || "max_force" in limits);
   if ((limited || "max_stroke" in limits) && now.placed.some((row) => row.stroke !== null))
     found.push(["stroke mm", (row) => row.stroke && inUnits(row.stroke, "mm")]);

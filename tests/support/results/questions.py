@@ -49,6 +49,7 @@ def random_sweep(rng, other, count=16):
     """
     rows, factors = [], []
     masses, energies = rng.uniform(0.5, 4.0, 5), np.round(rng.uniform(0.01, 0.3, 5), 3)
+    target = float(rng.choice([np.nan, 200.0]))
     for scene in ({}, other):
         for _ in range(count):
             factor = float(rng.choice([1.0, rng.uniform(0.5, 1.5)]))
@@ -57,6 +58,7 @@ def random_sweep(rng, other, count=16):
             factors.append(factor)
             if scene.get("loading_mode") == "impact":
                 rows[-1]["impact_energy_J"] = 0.056
+                rows[-1]["target_mass_g"] = target
     table = summary(*rows)
     for kind in ("error", "correction") if rng.random() < 0.7 else ():
         for name in BARS:
@@ -85,6 +87,8 @@ def _row(rng, mass, energy, factor):
         "packing_strain": float(rng.choice([0.3, 0.4, np.nan])),
         "densification_strain": float(rng.choice([0.5, np.nan])),
         "peak_deceleration_filtered_m_per_s2": float(rng.choice([300.0, near(500.0), np.nan])),
+        "peak_base_pressure_Pa": float(rng.choice([2e5, near(3e5), np.nan])),
+        "peak_target_acceleration_m_per_s2": float(rng.choice([200.0, near(400.0), np.nan])),
         "stroke_left_m": float(rng.choice([1e-3, 0.0, -1e-10, -1e-8])),
         "returned_energy_J": 0.9 * energy,
         "max_crossings": int(rng.random() < 0.1),
@@ -147,6 +151,8 @@ def _limit(rng, table, name, steps=BORDER):
     values = {
         "max_force": table["peak_force_N"],
         "max_deceleration": table["peak_deceleration_filtered_m_per_s2"],
+        "max_base_pressure": table["peak_base_pressure_Pa"],
+        "max_target_acceleration": table["peak_target_acceleration_m_per_s2"],
         "max_mass": 1e-3 * table["mass_g"],
         "min_absorbed": table["absorbed_energy_J"],
         "max_stroke": strokes,
