@@ -283,7 +283,7 @@ COLUMNS: dict[str, Column] = {
         "m", "x in the drawing of the centre of the forces on that patch; NaN without a force"
     ),
     "base_impulse_Ns": Column(
-        "N s",
+        "Ns",
         "impulse on the base until the striker rebounds; NaN unless the mode is impact",
         "less",
     ),

@@ -1,6 +1,6 @@
 """Damping that stands for a loss which is not known otherwise."""
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import Impact
@@ -51,7 +51,7 @@ def damping(values: Given | Pairs, loading: Loading, relaxes: bool) -> Damping:
     return KelvinVoigt.model_validate(chosen(given, KelvinVoigt))
 
 
-def _usual(given: Given, loading: Loading) -> Given:
+def _usual(given: Given, loading: Loading) -> dict[str, Any]:
     """The values of Rayleigh damping; none goes with the mass where the base moves freely.
 
     It would hold the lattice back in space, and take momentum from striker and base.

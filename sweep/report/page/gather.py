@@ -267,6 +267,7 @@ class _Stored:
         more: dict[str, Any] = {}
         if len(history) > 1:
             more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
+            more |= self._base(history, row)
             if row["loading_mode"] == "displacement":
                 more["stairs"] = self._stairs(history, row)
         if frames:
@@ -292,6 +293,15 @@ class _Stored:
         columns = [place, *(history[name] for name in ("work_in_J", *parts))]
         values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
         return {"label": label, "parts": list(parts.values()), "values": values}
+
+    def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
+        """Greatest pressure (kPa) on a patch of the base over the path, where there is one."""
+        pressure = in_unit(history["base_pressure_Pa"], "kPa")
+        if not pressure.max() > 0.0:
+            return {}
+        place, label = path_of(history, row)
+        values = thin_curves([place, pressure], self.points // 3)
+        return {"base": {"label": label, "values": [numbers(column) for column in values]}}
 
     def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Force (N) and work (J) of `force_stairs` while the platen comes down."""

@@ -668,6 +668,7 @@ function showOne() {
   $("one-words").textContent = said.filter(Boolean).join(" ");
   showStage(design);
   showBook(design);
+  showBase(design);
   const drawn = data.drawings[design.drawing];
   $("download").hidden = !drawn;
   if (drawn) {
@@ -741,6 +742,20 @@ function showBook(design) {
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
     element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),
   );
+}
+
+// The greatest pressure on a patch of the base.
+function showBase({ base }) {
+  $("base").replaceChildren();
+  if (!base) return;
+  const [place, pressure] = base.values;
+  const plot = chart($("base"), {
+    x: { range: [place[0], place[place.length - 1]], label: base.label },
+    y: { range: extent([pressure]), label: "pressure on a patch of the base, kPa" },
+    height: 240,
+    label: "pressure on the base over the path",
+  });
+  line(plot, place, pressure, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
 }
 
 function partColor(name) {

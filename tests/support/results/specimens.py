@@ -32,6 +32,7 @@ _DEFAULTS = {
     "platen": "glued",
     "force_N": float("nan"),
     "stroke_m": 6.1e-3,
+    "target_mass_g": float("nan"),
     "contact_model": "barrier",
     "mass_g": 1.0,
     "absorbed_energy_J": 0.05,

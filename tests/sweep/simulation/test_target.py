@@ -113,7 +113,9 @@ def test_a_heavy_target_is_a_fixed_base(platen):
     for target in (5.0, 500.0):
         heavy = run(hit(platen, target, solver=dict(time_step=fixed.case.solver.time_step)))
         for name in names:
-            assert heavy.summary[name] == pytest.approx(fixed.summary[name], rel=1.5 * MASS / target)
+            assert heavy.summary[name] == pytest.approx(
+                fixed.summary[name], rel=1.5 * MASS / target
+            )
     for name in ("target_speed_m_per_s", "peak_target_acceleration_m_per_s2"):
         assert np.isnan(fixed.summary[name])
     assert not fixed.history["target_speed_m_per_s"].any()
@@ -146,7 +148,9 @@ def test_a_target_is_not_in_contact_by_position():
 
 def test_nothing_holds_a_lattice_back_in_space():
     assert Case.of(loading={"target_mass": 1.36}).damping.mass == 0.0
-    with pytest.raises(RefusedError, match=r"damping.mass = 5.0; allowed: 0 if loading.target_mass"):
+    with pytest.raises(
+        RefusedError, match=r"damping.mass = 5.0; allowed: 0 if loading.target_mass"
+    ):
         Case.of(loading={"target_mass": 1.36}, damping={"mass": 5.0})
 
 
@@ -154,6 +158,7 @@ def test_a_drop_on_a_target_has_no_gravity():
     case = Case.of(loading={"mode": "drop", "drop_height": 0.1, "target_mass": 1.36})
     assert case.loading.gravity is False
     falling = Case.of(loading={"mode": "drop", "drop_height": 0.1})
-    assert falling.changed(
-        loading={"target_mass": 1.36}, damping={"mass": 0.0}
-    ).loading.gravity is False
+    assert (
+        falling.changed(loading={"target_mass": 1.36}, damping={"mass": 0.0}).loading.gravity
+        is False
+    )
