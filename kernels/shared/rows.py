@@ -83,7 +83,7 @@ def write(problem, out, k, state, found):
     row.reaction_bottom = 0.0
     low = problem.scene.contact.low
     for c in out.bottom:  # without the inertia of a base that moves
-        row.reaction_bottom += found.elastic[c] if c == low else found.g[c]
+        row.reaction_bottom += state.gradients.elastic[c] if c == low else found.g[c]
     row.reaction_top = -totals.reaction
     if coordinates.driven < 0:
         row.reaction_top = -totals.factor * total(coordinates.load)
