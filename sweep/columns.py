@@ -23,6 +23,9 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
+TIED_SIDES = "tied"
+"""First word of the column `sides` where they are tied to each other."""
+
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
     "status": Column("", "converged, stopped, timed_out, unresolved or worker_died"),
@@ -50,6 +53,11 @@ COLUMNS: dict[str, Column] = {
     "does_not_print": Column(
         "",
         "walls that are not a multiple of the line width, and narrower gaps; empty if all prints",
+    ),
+    "sides": Column(
+        "",
+        "free, tied or endless (lattice.sides, lattice.boundary); tied: the width of the period is "
+        "fixed or free, and masses, forces and energies are those of one period",
     ),
     "direction": Column("", "in_plane: pressed across the cells; out_of_plane: along them"),
     "width_m": Column("m", "width over centre lines"),
@@ -276,7 +284,7 @@ COLUMNS: dict[str, Column] = {
     "peak_base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, of an endless lattice and of a custom structure",
+        "cells, of a lattice that repeats and of a custom structure",
         "less",
     ),
     "peak_base_pressure_x_m": Column(
@@ -415,7 +423,7 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, of an endless lattice and of a custom structure",
+        "cells, of a lattice that repeats and of a custom structure",
     ),
     "base_pressure_x_m": Column("m", "x of the centre of the forces on that patch"),
 }

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sweep.columns import COLUMNS, absorbed_energy_column, cycle_columns
+from sweep.columns import COLUMNS, TIED_SIDES, absorbed_energy_column, cycle_columns
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -87,6 +87,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "infill_share": lattice.infill if isinstance(lattice, Sliced) else nan,
         "slicer_settings": str(slicer_settings(lattice) or ""),
         "does_not_print": what_does_not_print(lattice),
+        "sides": sides_of(case),
         "direction": loading.direction,
         "width_m": lattice.width,
         "height_m": case.height,
@@ -101,6 +102,13 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "contact_model": case.contact.model,
         "model_version": MODEL_VERSION,
     }
+
+
+def sides_of(case: Case) -> str:
+    """The column `sides` of a case."""
+    if not case.lattice.tied:
+        return "endless" if case.lattice.endless else "free"
+    return f"{TIED_SIDES}, {'free' if case.widens else 'fixed'} period"
 
 
 def failed_result(case: Case, status: Status, message: str) -> Result:

@@ -22,6 +22,13 @@ def lead(problem, move, direction):
 
 
 @jit_exact
+def tie(problem, vector):
+    """Set entries as `followers.tie`, and those of the images."""
+    followers.tie(problem, vector)
+    periodic_images.spread(problem.scene.layout.images, vector)
+
+
+@jit_exact
 def pull(problem, move, direction):
     """Fill ``direction`` (n,), zero before, with the linearised change of the gradient when the
     driven coordinate moves by ``move`` m.

@@ -11,7 +11,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory, in_python
 from kernels.planar import base_pressure, constraints, factoring, neighbour_lists, potential, steps
 from kernels.planar.neighbour_lists import Neighbours
-from kernels.shared import followers, lagging, moves, rows
+from kernels.shared import lagging, moves, rows
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
 from kernels.terms.damping import Before
@@ -56,7 +56,7 @@ class Planar(NamedTuple):
     reduce = constraints.reduce
     lead = constraints.lead
     pull = constraints.pull
-    tie = followers.tie
+    tie = constraints.tie
 
     travel = moves.travel
     step_limit = neighbour_lists.step_limit

@@ -1,7 +1,9 @@
 """Load and time stepping: steps through a stage with adaptive shares, and keeps the energy book.
 
 Every row of the history is one step of the stage. Where a step fails or is inaccurate, it is taken
-in shares: halves, quarters and so on, and longer ones again where those are easy.
+in shares: halves, quarters and so on, and longer ones again where those are easy. A large lattice
+that snaps takes many iterations in however short a static step: each failure of a share doubles the
+iterations that the next one may take.
 """
 
 from typing import NamedTuple
@@ -26,11 +28,13 @@ from kernels.solve.outcomes import (
     UNRESOLVED,
 )
 from kernels.solve.problem import Step
+from kernels.solve.residual import patient
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
+MOST_DOUBLINGS = 4  # of the iterations of a static share
 MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
@@ -324,11 +328,13 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
+        if not step.dynamic:
+            fitting = patient(fitting, min(progress.failed, MOST_DOUBLINGS))
         outcome = _equilibrate(
             state.x, problem, step, integrators.corrections(stage.scheme), fitting, workspace,
             descent, control, progress,
         )  # fmt: skip
-        if outcome == OUTGROWN and progress.minimum_iterations <= tolerance.iterations:
+        if outcome == OUTGROWN and progress.minimum_iterations <= fitting.iterations:
             return outcome, progress.row
         ratio = 0.0
         if outcome == CONVERGED:

@@ -69,3 +69,15 @@ def scaled(tolerance, factor, sharpness):
         sharpness * tolerance.resolution,
         tolerance.iterations,
     )
+
+
+@jit_exact
+def patient(tolerance, doublings):
+    """Return the tolerance with twice as many iterations, ``doublings`` times."""
+    return Tolerance(
+        tolerance.force,
+        tolerance.decrement,
+        tolerance.noise,
+        tolerance.resolution,
+        tolerance.iterations << doublings,
+    )

@@ -199,7 +199,10 @@ def _to_print(search: Search) -> Iterator[str]:
     """The command that exports the first design, or the one that comes nearest."""
     assessment = search.assessment
     first = next(iter({**assessment.by_id, **assessment.missed}), None) if assessment else None
-    if first is None or search.cases[first].lattice.endless:
+    if first is None:
+        return
+    lattice = search.cases[first].lattice
+    if lattice.endless or lattice.tied:
         return
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
     panel = search.question.panel or ()

@@ -88,6 +88,16 @@ class Case(BaseModel):
         return (width, height) if self.along else (width, self.lattice.depth)
 
     @property
+    def widens(self) -> bool:
+        """Whether the period of tied sides is free: no platen holds it, nor does inertia.
+
+        Between platens without friction the mean lateral force of a crush is zero. An endless panel
+        that moves cannot widen in a finite time.
+        """
+        loose = self.loading.platen == "contact" and self.contact.friction == 0.0
+        return self.lattice.tied and loose and self.loading.quasi_static
+
+    @property
     def case_id(self) -> str:
         """Hash of all parameters except labels: 16 hexadecimal digits."""
         tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
@@ -197,7 +207,7 @@ def _numerics(
     solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
-    contact = (pairs["contact"], loading, pressed.structure, solver.integrator)
+    contact = (pairs["contact"], loading, pressed, solver.integrator)
     if draft.add("contact", contacts.contact, *contact):
         draft.add("damping", dampings.damping, pairs["damping"], loading, relaxes)
         draft.add("solver", steps.in_the_plane, solver, material, loading)
@@ -209,7 +219,7 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     if lattice is None:
         return Pressed(given.get(key, Specimen.model_fields[key].default))
     structure = lattice.structure if isinstance(lattice, CustomStructure) else None
-    return Pressed(getattr(lattice, key), structure, lattice.endless)
+    return Pressed(getattr(lattice, key), structure, lattice.endless, lattice.tied)
 
 
 def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
 TOLERANCE = 1e-9  # of the box: points nearer than that are one point
 FEW = 4  # cells in a row, enough to tell how numbers and sizes grow with the number of cells
@@ -40,9 +41,10 @@ class Sketch(NamedTuple):
 def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
     """The sketch of a lattice; without ``outlined`` that of its infill alone, in whole cells."""
     kind, orientation, cells, box = geometry[:4]
-    if geometry.periodic:
+    if any(geometry.periodic):
         low, high = extent(kind, orientation, cells)
-        box = tuple((high - low) / (pitch(kind, orientation) * cells) * box)
+        whole = (high - low) / (pitch(kind, orientation) * cells)
+        box = tuple(np.where(geometry.periodic, whole, 1.0) * box)
     closed, capped = (outlined and thickness > 0.0 for thickness in geometry.outline)
     return Sketch(kind, orientation, cells, box, closed, capped)
 
@@ -126,9 +128,9 @@ def _with_cells(sketch: Sketch, axis: int, n: int) -> Sketch:
     return sketch._replace(cells=cells, box=(float(width), float(height)))
 
 
-def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> NDArray[np.bool_]:
+def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> Flags:
     """Which walls lie on the line x (axis 0) or y (axis 1) = ``side``, (w,)."""
-    on: NDArray[np.bool_] = np.all(points[walls][..., axis] == side, axis=1)
+    on: Flags = np.all(points[walls][..., axis] == side, axis=1)
     return on
 
 

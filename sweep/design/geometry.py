@@ -9,10 +9,10 @@ class Geometry(NamedTuple):
     """A family of infill in a box; lengths in m.
 
     kind, orientation: as in `infill`. cells: columns and rows. box: width and height over centre
-    lines, those of one period if ``periodic``. grading: thickness of the walls at the top over
-    that at the bottom. outline: thickness of the walls round the infill, at the left and right
-    sides and at the bottom and top; 0: no outline. sliced: how a slicer lays the infill; then kind,
-    orientation and cells have no meaning.
+    lines, or of one period where the lattice repeats. periodic: whether it repeats in x and in y.
+    grading: thickness of the walls at the top over that at the bottom. outline: thickness of the
+    walls round the infill, at the left and right sides and at the bottom and top; 0: no outline.
+    sliced: how a slicer lays the infill; then kind, orientation and cells have no meaning.
     """
 
     kind: str
@@ -22,5 +22,5 @@ class Geometry(NamedTuple):
     wall_thickness: float
     grading: float = 1.0
     outline: tuple[float, float] = (0.0, 0.0)
-    periodic: bool = False
+    periodic: tuple[bool, bool] = (False, False)
     sliced: Sliced | None = None

@@ -1,4 +1,4 @@
-"""The lattice as drawn: the infill of a box, one period of an endless one, or a slicer's."""
+"""The lattice as drawn: the infill of a box, one period of what repeats, or a slicer's."""
 
 from functools import lru_cache
 
@@ -14,7 +14,7 @@ def build_network(geometry: Geometry) -> Network:
     """The joints and walls of a lattice."""
     if geometry.sliced is not None:
         return build_sliced(geometry)
-    return build_period(geometry) if geometry.periodic else build_box(geometry)
+    return build_period(geometry) if any(geometry.periodic) else build_box(geometry)
 
 
 def counted_area(geometry: Geometry) -> float:

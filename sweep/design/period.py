@@ -1,7 +1,9 @@
-"""An endless lattice: the walls of one period, and copies of the walls that they may touch.
+"""A lattice that repeats: the walls of one period, and copies of the walls that they may touch.
 
-No wall passes through another, so two walls can only touch if they border the same opening. Copies
-are needed of the walls round the openings next to the period, and of no others, at any strain.
+It repeats in x and y without end; or in x alone, and begins and ends in y as the infill of a box
+does. No wall passes through another, so two walls can only touch if they border the same opening.
+Copies are needed of the walls round the openings next to the period, and of no others, at any
+strain.
 """
 
 from dataclasses import dataclass
@@ -12,6 +14,7 @@ import numpy as np
 from sweep.design.drawing import (
     SPILL,
     TOLERANCE,
+    Flags,
     Floats,
     Indices,
     clusters,
@@ -32,13 +35,15 @@ FAR = 3  # periods: distance of the farthest copy within reach of a period of on
 class Endless(Network):
     """The walls of a period, then copies of walls, in the direction of their originals.
 
-    period (2,): width and height in m. own: number of walls of the period. original (w,): the
-    wall of the period that each wall copies. origin (j,): the joint of the period that each joint
-    is or copies; shift (j, 2): by how many periods it is moved in x and y. The joints of the
-    period come first. bottom, top: a joint, and its image one period above.
+    period (2,): width and height in m. repeats (2,): whether it repeats in x and in y. own: number
+    of walls of the period. original (w,): the wall of the period that each wall copies. origin
+    (j,): the joint of the period that each joint is or copies; shift (j, 2): by how many periods it
+    is moved in x and y. The joints of the period come first. bottom, top: the rows of the period;
+    where it repeats in y, a joint, and its image one period above.
     """
 
     period: Floats
+    repeats: Flags
     own: int
     original: Indices
     origin: Indices
@@ -49,16 +54,20 @@ class Endless(Network):
         """Area of the walls within one period, m^2."""
         from sweep.design.area import united_area  # the import loads the kernels
 
-        box = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * self.period
-        walls, inside = self.loops, float(np.prod(self.period))
+        walls = self.loops
+        low = np.where(self.repeats, 0.0, walls.min(axis=(0, 1)))
+        size = np.where(self.repeats, self.period, walls.max(axis=(0, 1)) - low)
+        box = low + np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]) * size
+        inside = float(np.prod(size))
         return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
 
 def build_period(geometry: Geometry) -> Endless:
-    """The endless lattice that repeats ``geometry``."""
-    period, cells = np.array(geometry.box), geometry.cells
+    """The lattice that repeats ``geometry``."""
+    period, cells, repeats = np.array(geometry.box), geometry.cells, np.array(geometry.periodic)
     points, ends, shift = _walls(geometry, period)
-    away = np.mgrid[-FAR : FAR + 1, -FAR : FAR + 1].reshape(2, -1).T
+    far, up = FAR * repeats
+    away = np.mgrid[-far : far + 1, -up : up + 1].reshape(2, -1).T
     middle = 0.5 * (points[ends].sum(axis=1) + shift * period)
     copied, reach = middle + away[:, None] * period, REACH * period / cells
     near = (copied >= middle.min(axis=0) - reach) & (copied <= middle.max(axis=0) + reach)
@@ -70,14 +79,20 @@ def build_period(geometry: Geometry) -> Endless:
     named, joint = np.unique(np.concatenate([start, end]), axis=0, return_inverse=True)
     order = np.argsort(named[:, :2].any(axis=1), kind="stable")
     shift, origin = named[order, :2], named[order, 2]
-    above = np.flatnonzero((shift == (0, 1)).all(axis=1))[:1]
+    if repeats[1]:
+        top = np.flatnonzero((shift == (0, 1)).all(axis=1))[:1]
+        bottom = origin[top]
+    else:
+        y = points[:, 1]
+        bottom, top = np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
     return Endless(
         points=points[origin] + shift * period,
         walls=np.argsort(order)[joint].reshape(2, -1).T,
         wall_thickness=np.full(len(original), geometry.wall_thickness),
-        bottom=origin[above],
-        top=above,
+        bottom=bottom,
+        top=top,
         period=period,
+        repeats=repeats,
         own=len(ends),
         original=original,
         origin=origin,
@@ -93,14 +108,18 @@ def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices
     """
     drawn = sketch(geometry)
     low, high = extent(drawn.kind, drawn.orientation, drawn.cells)
-    columns, rows = (range(-2 * SPILL, n + 2 * SPILL) for n in drawn.cells)
+    repeats = np.array(geometry.periodic)
+    columns, rows = (
+        range(-spill, n + spill) for n, spill in zip(drawn.cells, 2 * SPILL * repeats, strict=True)
+    )
     segments = segments_of(drawer(drawn.kind, drawn.orientation)(columns, rows))
     tolerance = TOLERANCE * period.max()
     points, walls = welded((segments - low) * (np.array(drawn.box) / (high - low)), tolerance)
     ends = points[walls]
     middle = ends.mean(axis=1)
-    ends = ends[np.all((middle >= -tolerance) & (middle < period - tolerance), axis=1)]
-    shift = np.floor((ends + tolerance) / period).astype(np.int64)
+    within = (middle >= -tolerance) & (middle < period - tolerance)
+    ends = ends[np.all(within | ~repeats, axis=1)]
+    shift = np.floor((ends + tolerance) / period).astype(np.int64) * repeats
     phase = ends - shift * period
     x, column = clusters(phase[..., 0].ravel(), tolerance)
     y, row = clusters(phase[..., 1].ravel(), tolerance)

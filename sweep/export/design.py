@@ -57,13 +57,18 @@ class Design:
 
 
 def design_of(case: Case) -> Design:
-    """The design of a case; one period of an endless lattice is no part, and refused."""
+    """The design of a case; a period is no part, and refused."""
     from sweep.design.network import mass
 
     if case.lattice.endless:
         raise ExportError(
             f"case {case.case_id} is one period of an endless lattice (lattice.boundary), which is "
             "no part; allowed: .csv, .pvd, .vtu, .gif"
+        )
+    if case.lattice.tied:
+        raise ExportError(
+            f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
+            'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)

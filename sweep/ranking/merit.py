@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from sweep.columns import (
     ABSORBED_AT,
     COLUMNS,
+    TIED_SIDES,
     absorbed_energy_column,
     correction_column,
     end_columns,
@@ -24,6 +25,7 @@ from sweep.columns import (
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import RankError, in_si
+from sweep.result import sides_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -167,6 +169,11 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
     """The panel of each design, in whole numbers."""
     if isinstance(panel, str) or len(panel) != 2:
         raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
+    if frame["sides"].str.startswith(TIED_SIDES).any():
+        raise RankError(
+            f'panel = {panel!r}; allowed: none where lattice.sides is "periodic": a period is no '
+            "specimen, but the middle of a wide panel, whose energy per gram it has"
+        )
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
     gap = frame["direction"].map(BEHIND)
     counts = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
@@ -180,8 +187,8 @@ def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
     """Refuse a panel that is smaller than half a specimen of one of these cases."""
     from pandas import DataFrame
 
-    sizes = [(case.loading.direction, *case.footprint) for case in cases]
-    panel_in(DataFrame(sizes, columns=["direction", "outer_width_m", "depth_m"]), panel)
+    sizes = [(sides_of(case), case.loading.direction, *case.footprint) for case in cases]
+    panel_in(DataFrame(sizes, columns=["sides", "direction", "outer_width_m", "depth_m"]), panel)
 
 
 def _counted(

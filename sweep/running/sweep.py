@@ -11,11 +11,19 @@ from sweep.config.grid import Config, expand, sweep_of
 from sweep.result import HOW_TO_RENEW, Status
 from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
+from sweep.running.period_note import sentences_on_periods
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.running.relaxation_warning import sentences_on_lossless
 from sweep.running.writer_thread import result_sink, writer_thread
-from sweep.store.read import ONLY_MISSING, Rerun, finished_ids, older_ids, read_statuses
+from sweep.store.read import (
+    ONLY_MISSING,
+    Rerun,
+    damaged_ids,
+    finished_ids,
+    older_ids,
+    read_statuses,
+)
 from sweep.store.write import WriteError, Writer
 
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
@@ -56,12 +64,15 @@ def run_sweep(  # noqa: PLR0913  what, where, how
             announce(f"{error} All {len(cases)} cases are in it already.")
             return len(cases) - _converged(out, cases)
         done = cases.keys() & finished_ids(out, rerun)
+        if lost := damaged_ids(out):
+            announce(f"damaged rows in {out}: {len(lost)}; their cases run again")
         if old := done & older_ids(out):
             announce(
                 f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"
             )
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
-        for line in sentences_on_lossless(list(waiting.values())):
+        asked = list(waiting.values())
+        for line in (*sentences_on_lossless(asked), *sentences_on_periods(asked)):
             announce(line)
         plates = any(case.along for case in waiting.values())
         chosen = simulate or real_simulate(plates=plates) if waiting else None

@@ -52,18 +52,25 @@ class Numbering(BetweenPlatens):
         return 2 * self.n_nodes + np.arange(self.n_nodes)
 
     @property
+    def _others(self) -> int:
+        """Number of coordinates that belong to no node."""
+        return self.size - self.per_node * self.n_nodes
+
+    @property
     def point(self) -> Indices:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
-        nodes, platens = np.arange(self.n_nodes), np.full(2, self.n_nodes)
+        nodes, platens = np.arange(self.n_nodes), np.full(self._others, self.n_nodes)
         return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
     def slot(self) -> Indices:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation.
 
-        The platens share a block, in which the upper one is the first.
+        Both platens share a block, in which the upper one is the first; the width of a period and a
+        platen that moves freely are never unknowns together.
         """
-        along, platens = np.tile([0, 1], self.n_nodes), np.array([1, 0])
+        along = np.tile([0, 1], self.n_nodes)
+        platens = np.append(np.zeros(self._others - 2, np.int64), [1, 0])
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
 

@@ -27,12 +27,12 @@ from sweep.scene.terms import (
 )
 
 
-def _velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
+def initial_velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
     """Initial velocity of each coordinate, m/s: that of the striker and the row glued to it."""
     return np.where(leader == numbering.high, -striker_of(loading).speed, 0.0)
 
 
-def _load(numbering: Numbering, case: Case) -> Floats:
+def load_of(numbering: Numbering, case: Case) -> Floats:
     """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes.
 
     A striker has its weight; that of the lattice is left out.
@@ -77,14 +77,14 @@ def build_scene(case: Case) -> Scene:
         contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
-        load=_load(numbering, case),
+        load=load_of(numbering, case),
     )
     return Scene(
         mesh, network, assemble(case, mesh, numbering, parts),
-        _rest(mesh, numbering, parts.contact.node_thickness),
-        *_reported(numbering, case.loading),
+        rest_of(mesh, numbering, parts.contact.node_thickness),
+        *reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
-        velocity=_velocity(numbering, layout.leader, case.loading),
+        velocity=initial_velocity(numbering, layout.leader, case.loading),
         standing=_standing(mesh, numbering, parts.contact.platen_nodes, platen),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
@@ -106,14 +106,14 @@ def _standing(mesh: Mesh, numbering: Numbering, loose: Ints, platen: str) -> Int
     return nodes[np.argsort(mesh.points[nodes, 0], kind="stable")]
 
 
-def _rest(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
+def rest_of(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:
     """Coordinates at rest, with platens on the outermost walls. thickness (n,): of nodes, m."""
     y, half = mesh.points[:, 1], 0.5 * thickness.round(15)
     platens = [(y - half).min(), (y + half).max()]
     return np.concatenate([mesh.points.ravel(), np.zeros(numbering.n_nodes), platens])
 
 
-def _reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
+def reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """Coordinates of the lower reaction force, and of the top and the base that define the strain.
 
     The strain is the travel of a driven platen, a striker or the loaded row. Under a loose platen

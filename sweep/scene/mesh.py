@@ -137,7 +137,7 @@ def split_walls(
     """Split every wall into equal elements and shift all points sideways.
 
     pieces: number of equal elements, one for all walls or (w,). imperfection (m): amplitude of the
-    stress-free shift in x, imperfection x sin(pi y / height). joint_length (w, 2): of the elements
+    stress-free shift in x, a `bow`. joint_length (w, 2): of the elements
     for solid joints, m; 0: none.
     """
     walls = len(network.walls)
@@ -155,8 +155,8 @@ def split_walls(
     share = (place / length[of_wall])[:, None]
     points = np.concatenate([network.points, start[of_wall] + share * (end - start)[of_wall]])
     if imperfection > 0.0:
-        height = np.ptp(network.points[:, 1])
-        points[:, 0] += imperfection * np.sin(np.pi * (points[:, 1] - points[:, 1].min()) / height)
+        height, y = np.ptp(network.points[:, 1]), points[:, 1]
+        points[:, 0] += bow(y - y.min(), imperfection, height)
     wall = np.repeat(np.arange(walls), count)
     last = np.cumsum(count) - 1
     first = last - inside
@@ -175,6 +175,11 @@ def split_walls(
         n_joints=len(network.points),
         gyration=None if network.gyration is None else np.repeat(network.gyration, count),
     )
+
+
+def bow(y: Floats, amplitude: float, height: float) -> Floats:
+    """Shift in x at heights ``y`` above the base, amplitude x sin(pi y / height); all in m."""
+    return np.asarray(amplitude * np.sin(np.pi * y / height))
 
 
 def row_nodes(network: Network, mesh: Mesh, joints: Ints) -> Ints:

@@ -132,12 +132,14 @@ def coordinates_of(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -
     lattice, layout = case.lattice, parts.layout
     scale = np.ones(numbering.size)
     scale[numbering.rotation] = mesh.rest_length.mean()
+    moving, images = heavy(layout, parts.mass), layout.images[layout.images[:, 1] >= 0]
+    moving[images[:, 0]] = moving[images[:, 1]]
     return Coordinates(
         role=roles(layout),
         scale=scale,
         lever=1.0 / scale,
         mass=parts.mass,
-        heavy=heavy(layout, parts.mass),
+        heavy=moving,
         load=parts.load,
         driven=layout.driven,
         cap=0.25 * min(lattice.width / lattice.cells_x, lattice.height / lattice.cells_y),

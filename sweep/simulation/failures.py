@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from kernels.solve import outcomes
+from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import Arcs, InTime
@@ -56,7 +57,10 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     # A lattice that buckles under a dead load goes all the way at once, in however short a step.
     buckles = not timed and not driven
     further = "a larger solver.max_iterations" if buckles else shorter
-    return ADVICE[outcome].format(limit=solver.max_iterations, shorter=shorter, further=further)
+    limit = solver.max_iterations
+    if case.loading.quasi_static:
+        limit <<= MOST_DOUBLINGS  # of the last attempt
+    return ADVICE[outcome].format(limit=limit, shorter=shorter, further=further)
 
 
 def timed_out(case: Case, where: str) -> Failure:

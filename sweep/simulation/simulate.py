@@ -28,6 +28,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
+from sweep.scene.sides import build_tied
 from sweep.scene.terms import Scene, striker_of
 from sweep.simulation.base import patch_width
 from sweep.simulation.custom_history import structure_columns
@@ -148,6 +149,8 @@ def _scene(case: Case) -> Scene | PlateScene:
             return build_structure(case)
         case Cells(endless=True):
             return build_periodic(case)
+        case Cells(tied=True):
+            return build_tied(case)
     return build_scene(case)
 
 

@@ -31,7 +31,7 @@ TEXT = "json"
 DIMENSIONS = {"points": 2, "plate_points": 3}
 """Length of a row of positions."""
 
-FORMAT = 5
+FORMAT = 6
 """Version of the layout and of the columns of a file; `read` refuses files of another."""
 
 GROUPS = ("cases", "histories", *FRAME_GROUPS)
@@ -51,10 +51,11 @@ class Ragged:
     rows: np.ndarray
     arrays: Mapping[str, Any]
 
-    def is_whole(self) -> bool:
-        """True if the ranges of all cases lie within every array."""
-        end = (self.start + self.rows).max(initial=0)
-        return min(self.start.min(initial=0), self.rows.min(initial=0)) >= 0 and all(
+    def is_whole(self, kept: np.ndarray) -> bool:
+        """True if the ranges of the cases for which `kept` (n,) is true lie within every array."""
+        start, rows = self.start[kept], self.rows[kept]
+        end = (start + rows).max(initial=0)
+        return min(start.min(initial=0), rows.min(initial=0)) >= 0 and all(
             array.shape[0] >= end for array in self.arrays.values()
         )
 
@@ -81,6 +82,7 @@ class Block:
     summary: Mapping[str, np.ndarray]
     ragged: Mapping[str, Ragged]
     attributes: Mapping[str, Any]
+    damaged: frozenset[int] = frozenset()  # numbers of rows that are not as they were written
 
     def table(self, names: Iterable[str] = ()) -> Columns:
         """The summary in memory, with all columns or the named ones."""
@@ -109,11 +111,14 @@ def block_of(results: Sequence[Result], revision: str = "") -> Block:
 
 
 def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
-    """Row numbers of each block (oldest first) that no later row of the same case replaces."""
+    """Row numbers of each block (oldest first) that no later row of the same case replaces; damaged
+    rows are left out.
+    """
     newest = {
         case_id: (number, row)
         for number, block in enumerate(blocks)
         for row, case_id in enumerate(block.summary["case_id"])
+        if row not in block.damaged
     }
     rows: list[list[int]] = [[] for _ in blocks]
     for number, row in newest.values():

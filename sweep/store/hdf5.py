@@ -15,6 +15,7 @@ from h5py import h5d, h5s, h5t
 
 from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
+from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.parts import Unsealed
 from sweep.store.tables import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
 
@@ -88,14 +89,15 @@ class Growing:
             data = _write_column(summary, name, column)
             if self._packed:
                 _describe(data, describe_column(name))
-        for ragged in self._ragged.values():
-            ragged.finish(order)
+        ranges = {name: ragged.finish(order) for name, ragged in self._ragged.items()}
+        self._file["checksums"] = row_checksums(checked_columns(rows, ranges))
         counts = {
             "folded": about.last,
             "asked_cases": len(about.axes),
             "other_cases": beyond(rows, about.axes),
         }
-        self._file.attrs.update({**about.attributes, "format": FORMAT, **counts})
+        attributes = {**about.attributes, "format": FORMAT, **counts}
+        self._file.attrs.update(attributes | {CHECKSUM: attribute_checksum(attributes)})
         self._file.close()
         self._disk.seal()
 
@@ -128,17 +130,18 @@ class _Ragged:
                 end += last - first
                 data[end - last + first : end] = array[first:last]
 
-    def finish(self, order: np.ndarray) -> None:
-        """Write which rows belong to which case, in the order of the summary."""
+    def finish(self, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Write and return which rows belong to which case, in the order of the summary."""
         rows = np.concatenate(self._rows)
-        self._group["start"] = (np.cumsum(rows) - rows)[order]
-        self._group["rows"] = rows[order]
+        ranges = (np.cumsum(rows) - rows)[order], rows[order]
+        self._group["start"], self._group["rows"] = ranges
         for name, data in self._data.items():
             if len(data) < self._total:
                 data.resize(self._total, axis=0)
             if self._packed:
                 _describe(data, describe_array(self._group.name, name))
         self._data.clear()  # a file with open datasets takes long to close
+        return ranges
 
     def _array(self, name: str, like: Any, rows: int) -> h5py.Dataset:
         if name not in self._data:

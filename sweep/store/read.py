@@ -12,6 +12,8 @@ with the same case id it takes the newer one.
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
     /plate_points, /quads      the same of plates
     /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
+    /checksums                 (n,) of the rows of the summary, with `start` and `rows`; the
+                               attribute `checksum` is that of the other attributes
 """
 
 import os
@@ -27,6 +29,7 @@ import numpy as np
 from sweep.columns import HISTORY_COLUMNS
 from sweep.result import MODEL_VERSION, Status
 from sweep.store.batch import FORMAT, FRAME_GROUPS, GROUPS, TEXT, Block, Ragged, newest
+from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.parts import list_parts
 from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
@@ -35,7 +38,9 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
 
+SHOWN = 3  # damaged cases that are named
 ATTEMPTS = 100  # to open all files of a set before the writer changes the set
+RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
@@ -72,6 +77,7 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
     from pandas import DataFrame
 
     with _union(Path(path)) as blocks:
+        _refuse_damaged(Path(path), blocks)
         return DataFrame(arrange(newest(blocks)))
 
 
@@ -146,6 +152,7 @@ def read_runs(
             case_id: (block, row)
             for block in blocks
             for row, case_id in enumerate(block.summary["case_id"])
+            if row not in block.damaged
         }
         for case_id in case_ids:
             if case_id not in where:
@@ -221,9 +228,45 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         if (written := file.attrs["format"]) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")
+        if attribute_checksum(file.attrs) != file.attrs[CHECKSUM]:
+            raise ValueError("attributes other than those written")
         ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
         attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
-        return Block(_Columns(path, file["summary"]), ragged, attributes)
+        columns = _Columns(path, file["summary"])
+        damaged = _changed_rows(columns, ragged, file["checksums"][:])
+        return Block(columns, ragged, attributes, damaged)
+
+
+def _changed_rows(
+    columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
+) -> frozenset[int]:
+    """Numbers of the rows whose checksums are not those written."""
+    ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
+    same = row_checksums(checked_columns(columns, ranges)) == written
+    if not all(group.is_whole(same) for group in ragged.values()):
+        raise ValueError("ranges beyond the end of their arrays")
+    return frozenset(np.flatnonzero(~same).tolist())
+
+
+def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
+    """Ids, as stored, of rows that are not as they were written and that no other row replaces."""
+    if not exists(path):
+        return []
+    with _union(Path(path)) as blocks:
+        return _damaged(blocks)
+
+
+def _damaged(blocks: list[Block]) -> list[str]:
+    usable = {*newest(blocks, ("case_id",))["case_id"]}
+    ids = [block.summary["case_id"][row] for block in blocks for row in sorted(block.damaged)]
+    return [case_id for case_id in ids if case_id not in usable]
+
+
+def _refuse_damaged(path: Path, blocks: list[Block]) -> None:
+    if ids := _damaged(blocks):
+        named = ", ".join(ascii(case_id)[1:-1] for case_id in ids[:SHOWN])
+        more = f" and {len(ids) - SHOWN} more" if len(ids) > SHOWN else ""
+        raise StoreError(f"{path}: damaged rows of cases {named}{more}; {RUN_AGAIN}.")
 
 
 @contextmanager
@@ -242,10 +285,7 @@ def _undamaged(path: Path) -> Iterator[None]:
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
     arrays = {name: _Array(path, data) for name, data in dict(group["values"]).items()}
-    ragged = Ragged(group["start"][:], group["rows"][:], arrays)
-    if not ragged.is_whole():
-        raise ValueError("ranges beyond the end of their arrays")
-    return ragged
+    return Ragged(group["start"][:], group["rows"][:], arrays)
 
 
 class _Array:
@@ -282,7 +322,7 @@ def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, n
     with _union(path) as blocks:
         for block in reversed(blocks):
             rows = np.flatnonzero(block.summary["case_id"] == case_id)
-            if rows.size:
+            if rows.size and rows[-1] not in block.damaged:
                 return _arrays(block, rows[-1], groups)
     raise StoreError(f"{path} holds no case {case_id}.")
 

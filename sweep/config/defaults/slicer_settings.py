@@ -75,7 +75,7 @@ def unlike(lattice: Lattice) -> str:
         near = NEAREST.get(lattice.name)
         hint = f"; the nearest is {near}" if near else ""
         return f"no slicer draws {lattice.name} cells; allowed: {kinds}{hint}"
-    even = {"boundary": "free", "grading": 1.0, "solid_layers": 0}
+    even = {"boundary": "free", "sides": "free", "grading": 1.0, "solid_layers": 0}
     for key, value in even.items():
         if getattr(lattice, key) != value:
             return f"lattice.{key} = {getattr(lattice, key)}; allowed for a slicer: {value}"

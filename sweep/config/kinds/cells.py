@@ -20,6 +20,8 @@ from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
 
 CUSTOM = "custom"
+ENDLESS = 'if lattice.boundary is "periodic"'
+TIED = 'if lattice.sides is "periodic"'
 
 
 def _known(kind: str) -> str:
@@ -40,7 +42,8 @@ class Cells(Laid):
     `mass` sets the wall thickness; `infill`, the share of the box that lines of `line_width` fill,
     as slicers count, sets it and the numbers of cells. boundary "periodic": one period of an
     endless lattice, of size `width` x `height`. Opposite sides are tied to each other; the mean
-    shear strain and the mean lateral stress are zero.
+    shear strain and the mean lateral stress are zero. sides "periodic": left and right are tied to
+    each other, between platens: the middle of a wide panel, of which `width` is one period.
     """
 
     because: ClassVar[str] = "lattice.slicer is not given"
@@ -48,6 +51,7 @@ class Cells(Laid):
     kind: Kind = "square"
     orientation: Literal["pointy", "flat"] | None = None
     boundary: Literal["free", "periodic"] = "free"
+    sides: Literal["free", "periodic"] = "free"
     cells_x: Few = 3
     cells_y: Few = 3
     mass: Mass | None = None
@@ -68,6 +72,11 @@ class Cells(Laid):
         return self.boundary == "periodic"
 
     @property
+    def tied(self) -> bool:
+        """Whether its left and right sides are tied to each other."""
+        return self.sides == "periodic"
+
+    @property
     def geometry(self) -> Geometry:
         """The numbers that define the drawing."""
         return Geometry(
@@ -78,7 +87,7 @@ class Cells(Laid):
             self.wall_thickness,
             self.grading,
             self.outline,
-            self.endless,
+            (self.endless or self.tied, self.endless),
         )
 
     @property
@@ -94,8 +103,10 @@ class Cells(Laid):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Outer width and height, m; of an endless lattice, those of the period."""
-        return (self.width, self.height) if self.endless else super().outer_size
+        """Outer width and height, m; where the lattice repeats, those of the period."""
+        across, along = self.geometry.periodic
+        width, height = super().outer_size
+        return self.width if across else width, self.height if along else height
 
     @property
     def counts(self) -> tuple[int, int]:
@@ -127,7 +138,7 @@ def cells(given: Given, density: float) -> Cells:
     made = Cells.model_validate(
         {"nodes_per_wall": nodes_of(given.get("kind", "square"))} | chosen(given, Cells)
     )
-    if made.endless:
+    if made.endless or made.tied:
         _check_period(made)
     check_proportion(made)
     made = made.model_copy(update=_lines(made))
@@ -216,13 +227,17 @@ def check_openings(made: Cells) -> None:
 
 
 def _check_period(made: Cells) -> None:
-    """Refuse a lattice that cannot be the period of an endless one."""
-    endless = 'if lattice.boundary is "periodic"'
+    """Refuse a lattice that cannot be a period, or that has two kinds of it."""
+    if made.endless and made.tied:
+        raise RefusedError("lattice.sides", "periodic", f'"free" {ENDLESS}')
+    endless = ENDLESS if made.endless else TIED
     for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
         if getattr(made, key) != value:
             text = "none" if value is None else f"{value:g}"
             raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
-    key = "cells_x" if made.orientation == "flat" else "cells_y"
-    if trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
-        allowed = f"an even number {endless}, as every other row of {made.kind} is shifted"
+    flat = made.orientation == "flat"
+    key, row = ("cells_x", "column") if flat else ("cells_y", "row")
+    repeats = made.endless or flat
+    if repeats and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
+        allowed = f"an even number {endless}, as every other {row} of {made.kind} is shifted"
         raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)

@@ -2,10 +2,11 @@
 
 from typing import ClassVar, Literal
 
+from sweep.config.kinds.cells import TIED
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.solver import ARCS
 from sweep.config.kinds.table import (
     Given,
@@ -17,7 +18,6 @@ from sweep.config.kinds.table import (
     Table,
     chosen,
 )
-from sweep.config.structures.structure import Structure
 
 SLIP = 0.01  # default slip speed / speed of the platen or the striker
 REFERENCE_SPEED = 0.1  # m/s, where nothing has a speed
@@ -65,9 +65,7 @@ class ByPosition(Forceless):
 Contact = NoContact | Barrier | ByPosition
 
 
-def contact(
-    values: Given | Pairs, loading: Loading, structure: Structure | None, integrator: str
-) -> Contact:
+def contact(values: Given | Pairs, loading: Loading, pressed: Pressed, integrator: str) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
@@ -76,7 +74,8 @@ def contact(
     given = dict(values)
     model = given.get("model", "auto")
     if model == "position_based":
-        return _by_position(loading, structure, integrator)
+        return _by_position(loading, pressed, integrator)
+    structure = pressed.structure
     floor = structure is not None and structure.floor_y_mm is not None
     if model == "none" and loading.platen != "contact" and not floor:
         return NoContact()
@@ -96,7 +95,7 @@ def _reference_speed(loading: Loading) -> float:
     return REFERENCE_SPEED
 
 
-def _by_position(loading: Loading, structure: Structure | None, integrator: str) -> ByPosition:
+def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosition:
     """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
     key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
     if loading.along:
@@ -107,8 +106,10 @@ def _by_position(loading: Loading, structure: Structure | None, integrator: str)
         raise RefusedError(key, model, f"{allowed}loading.target_mass is given")
     if loading.platen == "contact":
         raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
-    if structure is not None:
+    if pressed.structure is not None:
         raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
+    if pressed.tied:
+        raise RefusedError(key, model, f'"none" or "barrier" {TIED}')
     if integrator != "backward_euler":
         only = '"backward_euler" if contact.model is "position_based"'
         raise RefusedError("solver.integrator", integrator, only)

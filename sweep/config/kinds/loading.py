@@ -4,6 +4,7 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
+from sweep.config.kinds.cells import TIED
 from sweep.config.kinds.crush import Crush, crush, mean_crush
 from sweep.config.kinds.dead_load import DeadLoad, dead_load
 from sweep.config.kinds.direction import WHERE, is_along
@@ -21,11 +22,14 @@ PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
 class Pressed(NamedTuple):
-    """What a loading presses: its height (m), the custom structure, whether it is endless."""
+    """What a loading presses: its height (m), the custom structure, whether it is endless, and
+    whether its sides are tied to each other.
+    """
 
     height: float
     structure: Structure | None = None
     endless: bool = False
+    tied: bool = False
 
 
 def loading(
@@ -99,6 +103,10 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
         allowed = '"displacement" if lattice.boundary is "periodic"'
         raise RefusedError("loading.mode", mode, allowed, because)
     platen = given.get("platen")
+    if pressed.tied and "target_mass" in given:
+        raise RefusedError("loading.target_mass", given["target_mass"], f"none {TIED}")
+    if pressed.tied and platen in (None, "none") and (platen or mode == "force"):
+        raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
     if along and platen not in (None, "glued", "clamped", "contact"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {WHERE}")
     if not along and not pressed.endless and platen == "clamped":

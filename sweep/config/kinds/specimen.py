@@ -30,6 +30,7 @@ class Specimen(Table):
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
     neutral: ClassVar[dict[str, Any]] = {
         "boundary": "free",
+        "sides": "free",
         "grading": 1.0,
         "perimeters": 0,
         "solid_layers": 0,
@@ -51,6 +52,11 @@ class Specimen(Table):
     @property
     def endless(self) -> bool:
         """Whether this is one period of an endless lattice."""
+        return False
+
+    @property
+    def tied(self) -> bool:
+        """Whether its left and right sides are tied to each other."""
         return False
 
     @property

@@ -68,6 +68,8 @@ def quads_wanted(made: Lattice) -> Any:
 def _check(made: Lattice) -> None:
     if made.endless:
         raise RefusedError("lattice.boundary", "periodic", f'"free" {WHERE}')
+    if made.tied:
+        raise RefusedError("lattice.sides", "periodic", f'"free" {WHERE}')
     if made.imperfection > MOST_IMPERFECTION:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {WHERE}"
         raise RefusedError("lattice.imperfection", made.imperfection, allowed)

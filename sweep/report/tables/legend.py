@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
+from sweep.columns import TIED_SIDES
 from sweep.numbers import percent
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
@@ -70,6 +71,8 @@ u: stopped after its loading (message: why), which determines energy, peak and d
 only unloading tells is not known (–)."""
 OTHER_BOW = """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
+ONE_PERIOD = """\
+Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel."""
 HEADS = ("displacement", "force", "impact")
 CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
 
@@ -94,12 +97,13 @@ def legend(ranking: Ranking) -> str:
 
 def meanings(rows: DataFrame, mode: str) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
+    period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
     if mode == "displacement":
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows)]
+        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows), *period]
     if mode == "impact":
-        return [STRUCK, _losses(rows)]
-    return [LOADED] if mode == "force" else []
+        return [STRUCK, _losses(rows), *period]
+    return [LOADED, *period] if mode == "force" else []
 
 
 def _not_densified(rows: DataFrame) -> list[str]:

@@ -95,7 +95,7 @@ class Lattice:
     def __init__(self, kind, height, slender, ratio=1.0):
         cells = (1, 2) if kind in TWO_ROWS else (1, 1)
         box = (1.0, height * cells[1])
-        made = build_period(Geometry(kind, None, cells, box, 0.01, periodic=True))
+        made = build_period(Geometry(kind, None, cells, box, 0.01, periodic=(True, True)))
         start, end = made.walls[: made.own].T
         span = made.points[end] - made.points[start]
         thickness = slender * np.hypot(*span.T).min()

@@ -25,7 +25,7 @@ from tests.studies.rankings.spread import CELLS
 from tests.studies.tables import publish
 
 GRIDS, MORE, SEED = 300, 4, 38
-ITERATIONS, STEPS = (6, 8, 10, 12, 20), (25, 50)  # of the small effort
+ITERATIONS, STEPS = (3, 4, 5, 20), (25, 50)  # of the small effort
 BY = ("absorbed_energy_until_packed_J", "specific_absorption_J_per_g", "peak_force_N")
 
 

@@ -4,7 +4,7 @@ import pandas as pd
 
 from tests.studies.rankings.effort import Grid, drawn, outcome, sheet
 
-SOME = 10  # grids
+SOME = 5  # grids
 
 
 def test_no_first_design_changes_without_a_word():

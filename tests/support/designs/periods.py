@@ -1,8 +1,9 @@
-"""Endless lattices for tests: a period of one, pressed, and what its unknowns lead."""
+"""Lattices that repeat, for tests: a period of one, pressed, and what its unknowns lead."""
 
 from unittest.mock import patch
 
 import numpy as np
+import pytest
 
 from sweep.config.case import Case
 from sweep.design import period
@@ -15,20 +16,24 @@ MATERIAL = material_with(modulus=Y, density=1e3, poisson=NU)
 PITCH = {"hex": (0.6 * 3**0.5, 0.9), "kagome": (1.0, 0.75**0.5)}
 
 
-def lattice_of(kind, cells, slenderness, **chosen):
+def lattice_of(kind, cells, slenderness, repeats="boundary", **chosen):
+    """A period; it repeats without end, or by its ``sides``."""
     pitch = PITCH.get(kind, (1.0, 1.0))
     width, height = (L * n * length for n, length in zip(cells, pitch, strict=True))
     return lattice_with(
-        kind=kind, boundary="periodic", cells_x=cells[0], cells_y=cells[1], width=width,
-        height=height, depth=DEPTH, wall_thickness=slenderness * L, **chosen,
+        kind=kind, cells_x=cells[0], cells_y=cells[1], width=width,
+        height=height, depth=DEPTH, wall_thickness=slenderness * L,
+        **{repeats: "periodic"}, **chosen,
     )  # fmt: skip
 
 
-def pressed(lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload=False):
+def pressed(
+    lattice, strain=0.6, steps=60, friction=0.0, model="barrier", unload=False, platen=None
+):
     return Case.of(
         lattice=lattice,
         material=MATERIAL,
-        loading=dict(mode="displacement", strain=strain, unload=unload),
+        loading=dict(mode="displacement", strain=strain, unload=unload, platen=platen),
         contact=dict(model=model, friction=friction),
         solver=dict(load_steps=steps, joints="points"),
     )
@@ -44,6 +49,50 @@ def follow(scene):
     for c, of, mean, times in images:
         follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
     return follows
+
+
+def assert_derivatives(scene, x, args):
+    """Slopes and curvatures in all that is free, and led, are differences of energy and slopes."""
+    follows, h = follow(scene), 1e-7 * L
+    scale = np.append(scene.terms.coordinates.scale[follows.argmax(axis=0)][:-1], 1.0)
+    steps = h / scale
+    slope, curvature = follows.T @ args.gradient(x), follows.T @ args.hessian(x) @ follows
+    ways = list(zip((follows * steps).T, steps, strict=True))
+    sides = [
+        [(args.energy(x + s * way), args.gradient(x + s * way)) for s in (1, -1)] for way, _ in ways
+    ]
+    for k, (one, other) in enumerate(sides):
+        found = (one[0] - other[0]) / (2 * steps[k])
+        size = np.abs(args.gradient(x)).max()
+        assert found / scale[k] == pytest.approx(slope[k] / scale[k], abs=1e-4 * size)
+        found = follows.T @ (one[1] - other[1]) / (2 * steps[k])
+        size = np.abs(curvature[:, k]).max()
+        np.testing.assert_allclose(found, curvature[:, k], rtol=0, atol=1e-5 * size)
+
+
+def assert_solved(scene, x, args, drifts=False):
+    """The factor solves as dense algebra does, with walls condensed and, in contact, open.
+
+    drifts: nothing holds the nodes in x; then no force pulls them along, and drifts are left out.
+    """
+    follows = follow(scene)[:, :-1]
+    negative, _, missing = args.factor(x)
+    assert (negative, missing) == (False, False)
+    b, along = np.random.default_rng(0).uniform(-1, 1, x.size), np.zeros(x.size)
+    along[: 2 * scene.terms.layout.n_nodes : 2] = drifts
+    way = along / max(along @ along, 1.0)
+    b -= way * (along @ b)
+    matrix, load = follows.T @ args.hessian(x) @ follows, follows.T @ b
+    if drifts:
+        values, modes = np.linalg.eigh(matrix)
+        matrix += np.outer(modes[:, 0], modes[:, 0]) * values[-1]
+    solved, expected = (
+        each - along * (way @ each)
+        for each in (args.solve(b), follows @ np.linalg.solve(matrix, load))
+    )
+    size = np.abs(expected).max()
+    within = 1e-6 if drifts else 1e-8
+    np.testing.assert_allclose(solved, expected, rtol=0, atol=within * size)
 
 
 def cut_elsewhere(cut):

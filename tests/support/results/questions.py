@@ -80,6 +80,7 @@ def _row(rng, mass, energy, factor):
         "mass_g": round(mass, 9) + float(rng.choice([0.0, 5e-10, 1e-10, 0.3])),
         "height_m": HEIGHT,
         "outer_width_m": float(rng.choice([0.013, 0.02])),
+        "sides": "free",
         "direction": "in_plane",
         "absorbed_energy_J": near(energy),
         "absorbed_energy_within_model_J": float(rng.choice([near(energy), whole, 0.5 * energy])),

@@ -20,6 +20,7 @@ _DEFAULTS = {
     "cells_x": 3,
     "cells_y": 3,
     "wall_thickness_m": 0.8e-3,
+    "sides": "free",
     "direction": "in_plane",
     "width_m": 12.2e-3,
     "height_m": 12.2e-3,

@@ -7,6 +7,8 @@ import pytest
 import shapely
 
 from sweep.design import period
+from sweep.design.drawing import extent, pitch
+from sweep.design.geometry import Geometry
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
@@ -23,6 +25,26 @@ def test_all_families_have_a_period(kind):
         found.append(made.printed_area / np.prod(cells))
     same = pytest.approx([found[0]] * 3, rel=1e-9)
     assert found == same, f"{kind} does not repeat after one column and two rows"
+
+
+@pytest.mark.parametrize("kind", families())
+def test_all_families_repeat_between_rows_of_any_number(kind):
+    """One column of three rows is what a wide lattice has more per column."""
+    (one, _), (wide, _), (wider, width) = (
+        drawn(kind, cells, sides) for cells, sides in ((2, True), (24, False), (28, False))
+    )
+    assert one.printed_area / 2 == pytest.approx((wider.printed_area - wide.printed_area) / 4)
+    rows = len(wider.bottom) - len(wide.bottom), len(wider.top) - len(wide.top)
+    assert (2 * len(one.bottom), 2 * len(one.top)) == rows
+    assert np.ptp(one.points[one.bottom, 0]) < 2 * L < width
+
+
+def drawn(kind, cells, tied):
+    """The network of cells of pitch L in three rows, and its width, m."""
+    low, high = extent(kind, None, (cells, 3))
+    width = L * cells if tied else float(L * (high - low)[0] / pitch(kind, None)[0])
+    shape = Geometry(kind, None, (cells, 3), (width, 3 * L), 0.05 * L, periodic=(tied, False))
+    return build_network(shape), width
 
 
 def test_density_of_the_endless_square_grid():

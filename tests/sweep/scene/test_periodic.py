@@ -9,7 +9,15 @@ from kernels.solve import outcomes
 from sweep.design.lattice import build_network
 from sweep.scene import periodic
 from sweep.simulation.simulate import simulate
-from tests.support.designs.periods import PITCH, L, cut_elsewhere, follow, lattice_of, pressed
+from tests.support.designs.periods import (
+    PITCH,
+    L,
+    assert_derivatives,
+    assert_solved,
+    cut_elsewhere,
+    lattice_of,
+    pressed,
+)
 from tests.support.designs.scenes import is_sound, trapezoid, unbalanced
 from tests.support.kernels.solving import at_rest, descend, go_on, ramp, whole
 
@@ -96,37 +104,15 @@ CELLS = [("square", (1, 1)), ("square", (2, 1)), ("hex", (1, 2)), ("reentrant", 
 
 @pytest.mark.parametrize(("kind", "cells"), CELLS)
 def test_derivatives_in_the_mean_strain(kind, cells):
-    """Against differences of the energy and its slopes along all that is free, and led."""
-    _, scene, x, args = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), 0.45)
-    follows, h = follow(scene), 1e-7 * L
-    scale = np.append(scene.terms.coordinates.scale[follows.argmax(axis=0)][:-1], 1.0)
-    steps = h / scale
-    slope, curvature = follows.T @ args.gradient(x), follows.T @ args.hessian(x) @ follows
-    ways = list(zip((follows * steps).T, steps, strict=True))
-    sides = [
-        [(args.energy(x + s * way), args.gradient(x + s * way)) for s in (1, -1)] for way, _ in ways
-    ]
-    for k, (one, other) in enumerate(sides):
-        found = (one[0] - other[0]) / (2 * steps[k])
-        size = np.abs(args.gradient(x)).max()
-        assert found / scale[k] == pytest.approx(slope[k] / scale[k], abs=1e-4 * size)
-        found = follows.T @ (one[1] - other[1]) / (2 * steps[k])
-        size = np.abs(curvature[:, k]).max()
-        np.testing.assert_allclose(found, curvature[:, k], rtol=0, atol=1e-5 * size)
+    _, *there = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), 0.45)
+    assert_derivatives(*there)
 
 
 @pytest.mark.parametrize(("kind", "cells"), CELLS)
 def test_the_factor_solves_for_the_mean_strain_too(kind, cells):
-    """As dense algebra does, with walls condensed and, in contact, open."""
     for strain in (0.0, 0.45):
-        _, scene, x, args = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), strain)
-        follows = follow(scene)[:, :-1]
-        negative, _, missing = args.factor(x)
-        assert (negative, missing) == (False, False)
-        b = np.random.default_rng(0).uniform(-1, 1, x.size)
-        expected = follows @ np.linalg.solve(follows.T @ args.hessian(x) @ follows, follows.T @ b)
-        size = np.abs(expected).max()
-        np.testing.assert_allclose(args.solve(b), expected, rtol=0, atol=1e-8 * size)
+        _, *there = crushed(lattice_of(kind, cells, 0.12, imperfection=0.3), strain)
+        assert_solved(*there)
 
 
 def test_a_led_step_converges_as_newton_does():

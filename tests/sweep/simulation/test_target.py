@@ -141,6 +141,11 @@ def test_what_a_target_does_not_have(loading, refused):
         Case.of(loading={"target_mass": 1.36} | loading)
 
 
+def test_a_target_is_not_under_tied_sides():
+    with pytest.raises(RefusedError, match=r"target_mass = 1.36; allowed: none if lattice.sides"):
+        Case.of(lattice={"sides": "periodic"}, loading={"target_mass": 1.36})
+
+
 def test_a_target_is_not_in_contact_by_position():
     with pytest.raises(RefusedError, match=r"if loading\.target_mass is given"):
         Case.of(loading={"target_mass": 1.36}, contact={"model": "position_based"})

@@ -5,6 +5,7 @@ import pytest
 
 from sweep.store.read import (
     StoreError,
+    damaged_ids,
     finished_ids,
     read_attributes,
     read_frames,
@@ -82,15 +83,47 @@ def test_damage_that_shows_only_on_reading_is_named_too(path, damaged, reads):
     assert len(finished_ids(path)) == 3
 
 
-def test_stretches_beyond_their_arrays_are_damage(path):
-    write(path, cases(5), fold=True)
-    with h5py.File(path, "r+") as file:
-        file["histories/rows"][2] = 1 << 40
-    with pytest.raises(StoreError, match="is damaged"):
-        read_history(path, cases(1)[0].case_id)
-
-
 def test_file_that_the_system_does_not_let_us_read_is_not_called_damaged(path):
     path.mkdir(parents=True)
     with pytest.raises(StoreError, match=r"armor\.h5 cannot be read: Is a directory"):
         read_summary(path)
+
+
+def flipped(path, at, bit):
+    """The file with one bit of its byte `at` flipped."""
+    content = bytearray(path.read_bytes())
+    content[at] ^= 1 << bit
+    path.write_bytes(content)
+
+
+def place(path, name, row):
+    """Offset in the file of a value of a column of numbers."""
+    with h5py.File(path) as file:
+        data = file[name]
+        return data.id.get_offset() + data.dtype.itemsize * row
+
+
+@pytest.mark.parametrize("name", ["summary/mass_g", "summary/loaded", "points/start", "cases/rows"])
+@pytest.mark.parametrize("fold", [False, True])
+@pytest.mark.parametrize("bit", [0, 62])
+def test_a_flipped_bit_is_found_and_its_case_alone_runs_again(path, name, fold, bit):
+    write(path, cases(5), fold)
+    sealed, row = (path, 3) if fold else (parts_of(path)[1], 1)
+    flipped(sealed, place(sealed, name, row) + bit // 8, bit % 8)
+    (lost,) = damaged_ids(path)
+    assert lost == cases(5)[3].case_id
+    with pytest.raises(StoreError, match=f"damaged rows of cases {lost}; `crumple run`"):
+        read_summary(path)
+    with pytest.raises(StoreError, match=f"no case {lost}"):
+        read_history(path, lost)
+    assert finished_ids(path) == {case.case_id for case in cases(5)} - {lost}
+    write(path, [cases(5)[3]], fold=True)
+    assert (len(read_summary(path)), damaged_ids(path)) == (5, [])
+
+
+def test_a_flipped_attribute_is_damage(path):
+    write(path, cases(2), fold=True)
+    with h5py.File(path, "r+") as file:
+        file.attrs["folded"] = 7
+    with pytest.raises(StoreError, match="is damaged: move it away"):
+        finished_ids(path)

@@ -85,4 +85,8 @@ def test_a_sweep_of_masses_is_labelled_by_them(tmp_path):
 
 
 def test_free_sides_keep_their_ids():
-    assert Case.of().case_id == Case.of(lattice=dict(boundary="free")).case_id
+    for key in ("boundary", "sides"):
+        assert Case.of().case_id == Case.of(lattice={key: "free"}).case_id
+    press = dict(mode="displacement")
+    tied = Case.of(lattice=dict(sides="periodic"), loading=press)
+    assert tied.case_id != Case.of(loading=press).case_id

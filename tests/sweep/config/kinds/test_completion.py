@@ -9,6 +9,7 @@ from sweep.config.case import Case
 from sweep.config.faults import ConfigError
 from sweep.config.kinds.table import RefusedError
 from sweep.config.load import load_config
+from sweep.result import design_columns
 from tests.support.designs.cases import pressed
 from tests.support.designs.tables import material_with
 
@@ -199,6 +200,45 @@ ENDLESS = [
 def test_what_an_endless_lattice_cannot_be_loaded_by_is_refused(loading, words):
     with pytest.raises(RefusedError, match=re.escape(words)):
         Case.of(lattice={"boundary": "periodic"}, loading=loading)
+
+
+ACROSS = 'allowed: "contact", "glued" or "sliding" if lattice.sides is "periodic"'
+UNPRESSED = [
+    ({}, {}, f"loading.platen = None; {ACROSS}"),
+    ({"mode": "force", "platen": "none"}, {}, f"loading.platen = none; {ACROSS}"),
+    ({"strain": 0.5, "platen": "none"}, {}, f"loading.platen = none; {ACROSS}"),
+    (
+        {"mode": "impact"},
+        {"model": "position_based"},
+        'contact.model = position_based; allowed: "none" or "barrier" if lattice.sides',
+    ),
+]
+
+
+@pytest.mark.parametrize(("loading", "contact", "words"), UNPRESSED)
+def test_what_does_not_press_a_panel_between_platens_is_refused(loading, contact, words):
+    with pytest.raises(RefusedError, match=re.escape(words)):
+        Case.of(
+            lattice={"sides": "periodic"},
+            loading=loading,
+            contact=contact,
+            solver={"integrator": "backward_euler"} if contact else {},
+        )
+
+
+PERIODS = [
+    ({"strain": 0.5, "platen": "contact"}, 0.0, "tied, free period"),
+    ({"strain": 0.5, "platen": "contact"}, 0.3, "tied, fixed period"),
+    ({"strain": 0.5, "platen": "contact", "speed": 1.0}, 0.0, "tied, fixed period"),
+    ({"strain": 0.5}, 0.0, "tied, fixed period"),
+    ({"mode": "impact", "platen": "contact"}, 0.0, "tied, fixed period"),
+]
+
+
+@pytest.mark.parametrize(("loading", "friction", "sides"), PERIODS)
+def test_a_period_is_free_where_nothing_holds_it(loading, friction, sides):
+    case = Case.of(lattice={"sides": "periodic"}, loading=loading, contact={"friction": friction})
+    assert design_columns(case)["sides"] == sides
 
 
 def test_mode_of_a_structure_is_its_own(tmp_path):

@@ -49,6 +49,42 @@ def test_what_has_no_endless_lattice_is_refused(lattice, words):
         Case.of(lattice={"boundary": "periodic"} | lattice, loading={"strain": 0.5})
 
 
+TIED = [
+    ({"grading": 2.0}, "lattice.grading = 2.0; allowed: 1"),
+    ({"perimeters": 1}, "lattice.perimeters = 1; allowed: 0"),
+    ({"solid_layers": 2}, "lattice.solid_layers = 2; allowed: 0"),
+    ({"infill": 0.2}, "lattice.infill = 0.2; allowed: none"),
+    ({"boundary": "periodic"}, 'lattice.sides = periodic; allowed: "free" if lattice.boundary'),
+    (
+        {"kind": "reentrant", "orientation": "flat"},
+        'lattice.cells_x = 3; allowed: an even number if lattice.sides is "periodic", as every '
+        "other column of reentrant is shifted",
+    ),
+]
+
+
+@pytest.mark.parametrize(("lattice", "words"), TIED)
+def test_what_has_no_sides_to_tie_is_refused(lattice, words):
+    with pytest.raises(RefusedError, match=re.escape(words)):
+        Case.of(lattice={"sides": "periodic"} | lattice, loading={"strain": 0.5})
+
+
+def test_rows_need_not_repeat_where_only_sides_do():
+    for kind, cells in (("hex", 3), ("kagome", 1)):
+        made = Case.of(
+            lattice={
+                "sides": "periodic",
+                "kind": kind,
+                "cells_x": cells,
+                "cells_y": 3,
+                "width": 4e-3,
+            }
+            | {"wall_thickness": 0.2e-3},
+            loading={"strain": 0.5},
+        ).lattice
+        assert made.outer_size == (4e-3, pytest.approx(12.7e-3))
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [
@@ -58,5 +94,6 @@ def test_what_has_no_endless_lattice_is_refused(lattice, words):
 )
 def test_only_cells_repeat_without_end(lines, tmp_path, text, why):
     (tmp_path / "bar.json").write_text('{"nodes_mm": [[0, 0], [10, 0]], "walls": [[0, 1]]}')
-    found = lines(f'[lattice]\nwidth = "25 mm"\nboundary = "periodic"\n{text}')
-    assert f'lattice.boundary = "periodic": has no effect, as {why}' in found
+    for key in ("boundary", "sides"):
+        found = lines(f'[lattice]\nwidth = "25 mm"\n{key} = "periodic"\n{text}')
+        assert f'lattice.{key} = "periodic": has no effect, as {why}' in found

@@ -75,6 +75,7 @@ UNFIT = {
     'platen = "sliding"': ('loading.platen = "sliding"', f'"glued", "clamped" or "contact" {ONLY}'),
     'platen = "none"': ('loading.platen = "none"', f'"glued", "clamped" or "contact" {ONLY}'),
     '[lattice]\nboundary = "periodic"': ('lattice.boundary = "periodic"', f'"free" {ONLY}'),
+    '[lattice]\nsides = "periodic"': ('lattice.sides = "periodic"', f'"free" {ONLY}'),
     '[lattice]\nslicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 2': (
         *('lattice.slicer = "prusa"', f"none {ONLY}"),
     ),

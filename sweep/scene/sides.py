@@ -1,0 +1,81 @@
+"""The arrays of a lattice between platens whose left and right sides are tied to each other.
+
+It is the middle of a wide panel: one period, whose nodes have images to the left and to the right.
+The width of the period is a coordinate before the surfaces of the platens. It is fixed, unless
+nothing holds it (`Case.widens`): then it is an unknown, and the mean lateral force is zero.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sweep.config.case import Case
+from sweep.config.kinds.cells import Cells
+from sweep.scene.beams import bends
+from sweep.scene.coordinates import BONDED, held, leaders
+from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
+from sweep.scene.lattice import initial_velocity, load_of, reported, rest_of
+from sweep.scene.mesh import Ints, bow, row_nodes
+from sweep.scene.terms import Scene, assemble, striker_of
+
+
+@dataclass(frozen=True)
+class BesideEachOther(Repeated):
+    """Numbering of a period between platens: the width of the period comes before the platens."""
+
+    @property
+    def width(self) -> int:
+        """Coordinate of the width of the period."""
+        return super().low
+
+    @property
+    def low(self) -> int:
+        """Coordinate of the lower platen's surface."""
+        return self.width + 1
+
+
+def build_tied(case: Case) -> Scene:
+    """Build the arrays of a lattice with tied sides."""
+    lattice, loading = case.lattice, case.loading
+    assert isinstance(lattice, Cells)
+    amplitude = lattice.imperfection * lattice.wall_thickness
+    period = draw(case, lattice, lambda y: bow(y, amplitude, lattice.height), loading.platen)
+    numbering = _numbering(period)
+    leader = _leaders(numbering, case)
+    free = np.array([float(case.widens), 0.0])
+    images = images_of(numbering, leader, (numbering.width, numbering.width), free)
+    parts, force = parts_of(case, period, numbering, leader, images)
+    parts.mass[numbering.high] = striker_of(loading).mass
+    parts = parts._replace(load=load_of(numbering, case))
+    rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
+    return Scene(
+        period.mesh, period.network, assemble(case, period.mesh, numbering, parts),
+        np.insert(rest, numbering.width, lattice.width),
+        *reported(numbering, loading),
+        force_scale=force,
+        velocity=initial_velocity(numbering, parts.layout.leader, loading),
+        around=period.around,
+        solid_joint_share=float(period.arms.sheared.mean()),
+    )  # fmt: skip
+
+
+def _numbering(period: Period) -> BesideEachOther:
+    """The numbering of a period; its rows have the images of their nodes too."""
+    network = period.network
+    bottom, top = (
+        row_nodes(network, period.whole, np.flatnonzero(np.isin(network.origin, joints)))
+        for joints in (network.bottom, network.top)
+    )
+    return BesideEachOther(len(period.origin), bottom, top, period.origin, period.shift)
+
+
+def _leaders(numbering: BesideEachOther, case: Case) -> Ints:
+    """The coordinate that each one follows."""
+    platen = case.loading.platen
+    fixed = np.concatenate([held(numbering, platen), numbering.unused])
+    if not case.widens:
+        fixed = np.append(fixed, numbering.width)
+    if not bends(case):
+        fixed = np.union1d(fixed, numbering.rotation)
+    tied = 2 * numbering.top + 1 if platen in BONDED else numbering.top[:0]
+    return leaders(numbering, fixed, tied)

@@ -1,0 +1,1 @@
+"""The study of lattice.sides: how fast few cells tend to a wide panel, free-sided and periodic."""

@@ -1,0 +1,46 @@
+"""The study of tied sides: its table, and a small piece of it."""
+
+import pandas as pd
+import pytest
+
+from sweep.simulation.simulate import simulate
+from tests.studies.sides.panels import NARROW, WIDE, crush, strips
+from tests.studies.sides.table import middle, table
+
+
+def test_every_infill_between_all_platens_in_all_widths():
+    cases = [crush(strip) for strip in strips()]
+    assert len({case.case_id for case in cases}) == 8 * (3 * (2 * len(NARROW) + len(WIDE)) + 1)
+    assert sum(case.widens for case in cases) == 8 * len(NARROW)
+
+
+def test_a_piece_of_the_study():
+    """Few cells with tied sides are the middle of the panel; with free sides they are not."""
+    piece = strips(kinds=("square", "circle"), platens=("glued", "smooth"), narrow=(3,))
+    rows = {strip: pd.Series(simulate(crush(strip)).summary) for strip in piece}
+    sheet = table(rows)
+    assert [line[:2] for line in sheet.rows] == [
+        [kind, platens] for kind in ("square", "circle") for platens in ("glued", "smooth")
+    ]
+    for *_, free, tied in sheet.rows:
+        assert abs(float(tied)) < 0.1
+        assert abs(float(free)) > 1.0
+
+
+def test_the_middle_is_what_a_wider_strip_has_more():
+    edges, cell = (2.0, 1.0), (0.3, 0.1)  # energy in J and mass in g
+    wide = (
+        {"absorbed_energy_J": edges[0] + n * cell[0], "mass_g": edges[1] + n * cell[1]}
+        | {"status": "converged"}
+        for n in WIDE
+    )
+    assert middle(*wide) == pytest.approx(3e3)
+
+
+def test_what_stopped_has_no_error():
+    piece = strips(kinds=("square",), platens=("glued",), narrow=(3,))
+    one = {"absorbed_energy_J": 1.0, "mass_g": 1.0, "specific_absorption_J_per_g": 1.0}
+    rows = {
+        strip: one | {"status": "stopped" if strip.cells == 48 else "converged"} for strip in piece
+    }
+    assert table(rows).rows[0][4:] == ["-", "-", "-"]

@@ -1,0 +1,32 @@
+"""A run says of which cases one period stands for a wide panel, and whether it keeps its width."""
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.ranking.merit import check_panel
+from sweep.ranking.question import RankError
+from sweep.running.period_note import sentences_on_periods
+
+
+def tied(friction):
+    return Case.of(
+        lattice={"sides": "periodic"},
+        loading={"strain": 0.5, "platen": "contact"},
+        contact={"friction": friction},
+    )
+
+
+def test_fixed_and_free_periods_are_told_apart():
+    others = [Case.of(), tied(0.3), tied(0.0), tied(0.4)]
+    fixed, free = sentences_on_periods(others)
+    assert fixed.startswith("2 of 4 cases are one period of a wide panel (lattice.sides)")
+    assert "its width is fixed" in fixed
+    assert free.startswith("1 of 4 cases")
+    assert "its width is free" in free
+    assert sentences_on_periods([Case.of()]) == []
+
+
+def test_a_period_fills_no_panel():
+    check_panel(("100 mm", "50 mm"), [Case.of()])
+    with pytest.raises(RankError, match=r'none where lattice\.sides is "periodic"'):
+        check_panel(("100 mm", "50 mm"), [Case.of(), tied(0.3)])
