@@ -77,6 +77,10 @@ COLUMNS: dict[str, Column] = {
     ),
     "loading_mode": Column("", "force, displacement, impact or custom"),
     "platen": Column("", "none, contact, glued, sliding or clamped"),
+    "striker": Column(
+        "", "flat, or the shape that hits the whole depth of the lattice as a line, and where"
+    ),
+    "base": Column("", "flat, or the ribs on which the lattice lies"),
     "force_N": Column("N", "dead load on the top; NaN unless the mode is force"),
     "stroke_m": Column("m", "prescribed travel of the top; NaN unless the mode is displacement"),
     "striker_mass_g": Column("g", "mass of the striker; NaN unless the mode is impact"),
@@ -284,7 +288,7 @@ COLUMNS: dict[str, Column] = {
     "peak_base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, of a lattice that repeats and of a custom structure",
+        "cells, on ribs, of a lattice that repeats and of a custom structure",
         "less",
     ),
     "peak_base_pressure_x_m": Column(
@@ -423,7 +427,7 @@ HISTORY_COLUMNS: dict[str, Column] = {
     "base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, of a lattice that repeats and of a custom structure",
+        "cells, on ribs, of a lattice that repeats and of a custom structure",
     ),
     "base_pressure_x_m": Column("m", "x of the centre of the forces on that patch"),
 }
@@ -476,6 +480,8 @@ FRAME_COLUMNS: dict[str, Column] = {
         "m", "height of the lower and the upper platen; NaN: no platen; -inf: an endless lattice"
     ),
     "position_m": Column("m", "x and y, of plates also z, of every node, frame after frame"),
+    "striker_m": Column("m", "x and y above the upper platen, of the outline of a striker"),
+    "base_m": Column("m", "x and y above the lower platen, of the outlines of both ribs of a base"),
     "quads": Column("", "the four nodes of every quad of a plate"),
     "quad_thickness_m": Column("m", "wall thickness of every quad"),
     "edges": Column("", "the two nodes of every element"),

@@ -53,8 +53,9 @@ class Result:
     history: column -> float64 (rows,); names and units in `HISTORY_COLUMNS`.
     frames: `strain (f,)`, `time_s (f,)`, `position_m (f, n, 2)`, `plate_y_m (f, 2)` (surface of the
     lower and the upper platen; NaN: no platen; -inf: an endless lattice), `edges (m, 2)`,
-    `edge_thickness_m (m,)`. Of a crush along the cells, `position_m (f, n, 3)`, with z upwards, and
-    `quads (m, 4)`, `quad_thickness_m (m,)` in place of edges.
+    `edge_thickness_m (m,)`; in place of flat platens `striker_m (v, 2)`, x and y above the platen
+    of an outline, and `base_m (2 v, 2)` of two. Of a crush along the cells, `position_m (f, n, 3)`,
+    with z upwards, and `quads (m, 4)`, `quad_thickness_m (m,)` in place of edges.
     curable: True if the case stopped where other steps or another imperfection may help.
     """
 
@@ -98,6 +99,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "material_memory": case.material.inelasticity,
         "loading_mode": loading.mode,
         "platen": loading.platen,
+        **loading.shape_columns,
         **dict.fromkeys(LOADED, nan) | loading.columns,
         "contact_model": case.contact.model,
         "model_version": MODEL_VERSION,

@@ -13,7 +13,7 @@ from kernels.linear.condensed.analysis import System
 from kernels.planar import position_based
 from kernels.planar.couplings import couplings
 from kernels.shared.moves import ADVANCE, MOVE_MARGIN, listed_share
-from kernels.terms import contact, friction
+from kernels.terms import contact, friction, profile
 from kernels.terms.contact import Touching
 from kernels.terms.friction import LaggedContacts
 
@@ -50,6 +50,7 @@ def step_limit(problem, x, dx, far):
     first = contact.step_limit(
         x, dx, far, scene.contact, problem.neighbours.pairs, drift(problem, x)
     )
+    shortest = min(shortest, profile.step_limit(x, dx, scene.contact.profiles))
     if np.pi * 2.0 * far >= least.opening * least.length:
         first = min(first, _first_fold(x, dx, scene))
     if 2.0 * far >= (1.0 - LEAST_LENGTH) * least.length:

@@ -82,8 +82,11 @@ def write(problem, out, k, state, found):
     row.height = height(state.x, out.top, out.base)
     row.reaction_bottom = 0.0
     low = problem.scene.contact.low
-    for c in out.bottom:  # without the inertia of a base that moves
-        row.reaction_bottom += state.gradients.elastic[c] if c == low else found.g[c]
+    for c in out.bottom:
+        row.reaction_bottom += found.g[c]
+    if problem.scene.coordinates.mass[low] > 0.0:  # a base that moves: g has its inertia
+        parts = state.gradients
+        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - found.g[low]
     row.reaction_top = -totals.reaction
     if coordinates.driven < 0:
         row.reaction_top = -totals.factor * total(coordinates.load)

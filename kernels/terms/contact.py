@@ -1,15 +1,16 @@
 """Contact of walls over their thickness, and with two platens, as a barrier on distance.
 
     E_c = 1/2 sum_p l_p [ sum_e phi(d(p, e)) - sum_v (n_v - 1) phi(d(p, v)) ]
-          + sum_p l_p phi(d(p, platen))
+          + sum_p l_p phi(d(p, platen)) + E_p
     phi(d) = c Y' depth t_c b(d / t_c),   J/m
 
 p: nodes with tributary length l_p; e: segments in reach; v: vertices shared by n_v of them; t_c:
 distance at which contact starts, (t_p + t_e) / 2 with the thicknesses of node and segment, t_p / 2
-at a platen; c: a number, `contact.stiffness` in configs; Y': modulus in stretching, Pa; depth: of
-the lattice, m; b: `barrier`. Rules for pairs near joints replace l_p and t_c
-(`contact_near_joints`). With the subtraction a straight wall counts once at any mesh; 1/2, as each
-pair of walls counts from both sides.
+at a platen; E_p: of profiles in place of platens (`terms.profile`); c: a number,
+`contact.stiffness` in configs; Y': modulus in stretching, Pa; depth: of the lattice, m; b:
+`barrier`. Rules for pairs near joints replace l_p and t_c (`contact_near_joints`). With the
+subtraction a straight wall counts once at any mesh; 1/2, as each pair of walls counts from both
+sides.
 """
 
 from typing import NamedTuple
@@ -29,8 +30,10 @@ from kernels.geometry.distance import (
     push_stiffen,
 )
 from kernels.geometry.near_pairs import counted, is_guarded, within
+from kernels.geometry.profile import Profiles
 from kernels.laws.barrier import phi
 from kernels.linear.condensed.block_matrix import add
+from kernels.terms import profile
 
 
 class Contact(NamedTuple):
@@ -42,7 +45,9 @@ class Contact(NamedTuple):
     of pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, contact distance,
     subtract. One of weight 0 is only kept from crossing, with the whole tributary length; at a
     distance of 0, by collision detection alone. platen_nodes (k,): nodes that may touch a platen.
-    low, high: coordinates of the surfaces of the lower and the upper platen.
+    low, high: coordinates of the surfaces of the lower and the upper platen. profiles: what is in
+    place of a platen. low_away, high_away: how far a platen is beyond its coordinate: 0, or
+    infinite where a profile is in its place.
     """
 
     stiffness: float
@@ -61,6 +66,9 @@ class Contact(NamedTuple):
     platen_nodes: np.ndarray
     low: int
     high: int
+    profiles: Profiles
+    low_away: float
+    high_away: float
 
 
 class Touching(NamedTuple):
@@ -145,6 +153,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
     Fill ``touching``. drift: as in `detect`.
     """
     total = _platens(x, contact, g)
+    total += profile.evaluate(x, contact.profiles, contact.stiffness, g)
     if not detect(x, contact, pairs, drift, touching):
         return np.inf
     for n in range(touching.count[0]):
@@ -164,6 +173,7 @@ def evaluate(x, contact, pairs, drift, touching, g):
 def hessian(x, contact, pairs, touching, matrix, projected):
     """Add d2E_c/dx2 at ``x`` of the contacts in ``touching``; projected: without concave parts."""
     _platens_hessian(x, contact, matrix)
+    profile.hessian(x, contact.profiles, contact.stiffness, matrix, projected)
     for n in range(touching.count[0]):
         k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
@@ -196,13 +206,19 @@ def platen_force(contact, p, d):
 
 
 @jit
+def platens_of(contact):
+    """Return the coordinate of each platen, the side on which walls are, and `low_away`."""
+    return (contact.low, 1.0, contact.low_away), (contact.high, -1.0, contact.high_away)
+
+
+@jit
 def _platens(x, contact, g):
     """Return the energy of contact with platens, J; add its gradient to ``g``."""
     total = 0.0
     for p in contact.platen_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
-        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            d = side * (y - x[platen])
+        for platen, side, away in platens_of(contact):
+            d = side * (y - x[platen]) + away
             if d < dc:
                 value, slope, _ = phi(contact.tributary[p], contact.stiffness, dc, d)
                 total += value
@@ -216,8 +232,8 @@ def _platens_hessian(x, contact, matrix):
     """Add the Hessian of contact with platens, which is positive semi-definite."""
     for p in contact.platen_nodes:
         dc, y = 0.5 * contact.node_thickness[p], x[2 * p + 1]
-        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
-            d = side * (y - x[platen])
+        for platen, side, away in platens_of(contact):
+            d = side * (y - x[platen]) + away
             if d < dc:
                 _, _, curvature = phi(contact.tributary[p], contact.stiffness, dc, d)
                 add(matrix, 2 * p + 1, 2 * p + 1, curvature)
@@ -236,10 +252,10 @@ def step_limit(x, dx, far, contact, pairs, drift):
         a, b = pair(contact.edges, pairs.edge[k])
         first = min(first, ccd.first_contact(x, dx, pairs.node[k], a, b))
     for p in contact.platen_nodes:
-        for platen, side in ((contact.low, 1.0), (contact.high, -1.0)):
+        for platen, side, away in platens_of(contact):
             closing = side * (dx[platen] - dx[2 * p + 1])
             if closing > 0.0:
-                first = min(first, side * (x[2 * p + 1] - x[platen]) / closing)
+                first = min(first, (side * (x[2 * p + 1] - x[platen]) + away) / closing)
     return first
 
 
@@ -254,6 +270,6 @@ def least_gap(x, contact, pairs, drift):
             a, b = pair(contact.edges, pairs.edge[k])
             least = min(least, _segment_distance(x, pairs.node[k], a, b))
     for p in contact.platen_nodes:
-        y = x[2 * p + 1]
-        least = min(least, y - x[contact.low], x[contact.high] - y)
-    return least
+        for platen, side, away in platens_of(contact):
+            least = min(least, side * (x[2 * p + 1] - x[platen]) + away)
+    return min(least, profile.least_gap(x, contact.profiles))

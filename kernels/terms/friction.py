@@ -33,8 +33,10 @@ from kernels.arrays import pair
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import direction, normal
+from kernels.laws.barrier import phi
 from kernels.linear.condensed.block_matrix import add_block
-from kernels.terms.contact import Touching, detect, normal_force, platen_force
+from kernels.terms import profile
+from kernels.terms.contact import Touching, detect, normal_force, platen_force, platens_of
 from kernels.terms.contact import no_contacts as none_touching
 
 UNKNOWN = 2.0  # dual that is not set; a dual is within -1 .. 1
@@ -57,7 +59,7 @@ def no_contacts(pairs, contact, friction):
     """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
     if friction.mu == 0.0:
         return none()
-    size = 3 * pairs.node.size + 2 * contact.platen_nodes.size
+    size = 3 * pairs.node.size + 2 * contact.platen_nodes.size + profile.room(contact.profiles)
     return _room(size, pairs, contact.tributary.size)
 
 
@@ -84,16 +86,17 @@ def enlarged(lagged_contacts, larger):
     for n in range(larger.count[0]):
         larger.load[n], larger.dual[n] = lagged_contacts.load[n], lagged_contacts.dual[n]
         for k in range(3):
-            larger.nodes[n, k] = lagged_contacts.nodes[n, k]
+            larger.points[n, k] = lagged_contacts.points[n, k]
             larger.slopes[n, k, 0] = lagged_contacts.slopes[n, k, 0]
             larger.slopes[n, k, 1] = lagged_contacts.slopes[n, k, 1]
     return larger
 
 
 @jit_exact
-def _start(lagged_contacts, n, nodes, load):
+def _start(lagged_contacts, n, points, load):
     """Write contact ``n`` with zero slopes."""
-    lagged_contacts.nodes[n, 0], lagged_contacts.nodes[n, 1], lagged_contacts.nodes[n, 2] = nodes
+    at = lagged_contacts.points
+    at[n, 0], at[n, 1], at[n, 2] = points
     lagged_contacts.load[n], lagged_contacts.dual[n] = load, UNKNOWN
     for v in range(3):
         lagged_contacts.slopes[n, v, 0], lagged_contacts.slopes[n, v, 1] = 0.0, 0.0
@@ -106,7 +109,7 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
     nx, ny, d = normal(x, p, a, b, tau)
     ux, uy, length = direction(x, a, b)
     rx, ry = -d * uy / length, d * ux / length
-    _start(lagged_contacts, n, nodes, load)
+    _start(lagged_contacts, n, (2 * p, 2 * a, 2 * b), load)
     lagged_contacts.slopes[n, 0, 0], lagged_contacts.slopes[n, 0, 1] = -ny, nx
     lagged_contacts.slopes[n, 1, 0] = rx + (1.0 - tau) * ny
     lagged_contacts.slopes[n, 1, 1] = ry - (1.0 - tau) * nx
@@ -195,13 +198,97 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
             a, b = pair(contact.edges, pairs.edge[k])
             n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
     for p in contact.platen_nodes:
-        for d in (x[2 * p + 1] - x[contact.low], x[contact.high] - x[2 * p + 1]):
+        for platen, side, away in platens_of(contact):
+            d = side * (x[2 * p + 1] - x[platen]) + away
             load = friction.mu * platen_force(contact, p, d)
             if load > 0.0:
-                _start(lagged_contacts, n, (p, p, p), load)
+                _start(lagged_contacts, n, (2 * p, 2 * p, 2 * p), load)
                 lagged_contacts.slopes[n, 0, 0] = 1.0
                 n += 1
-    lagged_contacts.count[0] = n
+    lagged_contacts.count[0] = _lag_profiles(x, lagged_contacts, n, contact, friction.mu)
+
+
+@jit_exact
+def _lag_profiles(x, lagged_contacts, n, contact, mu):
+    """Append the contacts with profiles; return the new count."""
+    profiles = contact.profiles
+    for k in range(profiles.radius.size):
+        for p in profiles.nodes:
+            starts = profiles.node_half[p]
+            nx, ny, d, _ = profile.near_node(x, profiles, k, p, starts)
+            if d < starts:
+                _, slope, _ = phi(profiles.tributary[p], contact.stiffness, starts, d)
+                carrier = profiles.carrier[k] - contact.low
+                _lag_on(lagged_contacts, n, (p, p), 0.0, (nx, ny), contact.low, carrier)
+                lagged_contacts.load[n] = -mu * slope
+                n += 1
+        for i in range(profiles.start[k], profiles.start[k + 1]):
+            if profiles.weight[i] > 0.0:
+                n = _lag_vertex(x, lagged_contacts, n, contact, k, i, mu)
+    return n
+
+
+@jit_exact
+def _lag_on(lagged_contacts, n, nodes, tau, normal, low, carrier):
+    """Write contact ``n`` of the point ``tau`` between two nodes with a profile.
+
+    carrier: 0 if the lower platen moves the profile, whose coordinate is ``low``; 1: the upper.
+    """
+    (nx, ny), (a, b) = normal, nodes
+    _start(lagged_contacts, n, (2 * a, 2 * b, low), 0.0)
+    lagged_contacts.slopes[n, 0, 0] = -(1.0 - tau) * ny
+    lagged_contacts.slopes[n, 0, 1] = (1.0 - tau) * nx
+    lagged_contacts.slopes[n, 1, 0], lagged_contacts.slopes[n, 1, 1] = -tau * ny, tau * nx
+    lagged_contacts.slopes[n, 2, carrier] = -nx
+
+
+@jit_exact
+def _lag_vertex(x, lagged_contacts, n, contact, k, i, mu):
+    """Append the contacts of vertex ``i`` of profile ``k`` with elements; return the new count.
+
+    What is subtracted at nodes is taken from all of them alike.
+    """
+    profiles, begun = contact.profiles, n
+    low, carrier = contact.low, profiles.carrier[k] - contact.low
+    for e in range(profiles.edges.shape[0]):
+        starts, weight = profiles.edge_half[e], profiles.weight[i]
+        tau, nx, ny, d = profile.near_element(x, profiles, k, i, e, starts)
+        if d >= starts:
+            continue
+        _lag_on(lagged_contacts, n, pair(profiles.edges, e), tau, (nx, ny), low, carrier)
+        lagged_contacts.load[n] = -phi(weight, contact.stiffness, starts, d)[1]
+        n += 1
+        for end in range(2):
+            _, _, d = profile.near_end(x, profiles, k, i, profiles.edges[e, end])
+            if profiles.subtract[e, end] != 0.0 and d < starts:
+                lagged_contacts.load[n] = phi(weight, contact.stiffness, starts, d)[1]
+                n += 1
+    for j in range(begun, n):
+        lagged_contacts.claim[j] = 0.0
+        lagged_contacts.after[j] = j - 1 if j > begun else NO_CONTACT
+    settle(
+        lagged_contacts.load,
+        lagged_contacts.claim,
+        lagged_contacts.after,
+        n - 1 if n > begun else NO_CONTACT,
+    )
+    return _kept(lagged_contacts, begun, n, mu)
+
+
+@jit_exact
+def _kept(lagged_contacts, begun, end, mu):
+    """Move the contacts from ``begun`` on that have a load together; return the new count."""
+    n = begun
+    for j in range(begun, end):
+        if lagged_contacts.load[j] > 0.0:
+            lagged_contacts.load[n] = mu * lagged_contacts.load[j]
+            lagged_contacts.dual[n] = UNKNOWN
+            for v in range(3):
+                lagged_contacts.points[n, v] = lagged_contacts.points[j, v]
+                lagged_contacts.slopes[n, v, 0] = lagged_contacts.slopes[j, v, 0]
+                lagged_contacts.slopes[n, v, 1] = lagged_contacts.slopes[j, v, 1]
+            n += 1
+    return n
 
 
 @jit
@@ -237,7 +324,7 @@ def _slip(u, lagged_contacts, k):
     """Return the slip of contact ``k`` in the move ``u`` (n,), m."""
     total = 0.0
     for v in range(3):
-        i = 2 * lagged_contacts.nodes[k, v]
+        i = lagged_contacts.points[k, v]
         total += lagged_contacts.slopes[k, v, 0] * u[i] + lagged_contacts.slopes[k, v, 1] * u[i + 1]
     return total
 
@@ -250,7 +337,7 @@ def evaluate(lagged_contacts, u, eps, g):
         value, slope = smooth(_slip(u, lagged_contacts, k), eps)
         total += lagged_contacts.load[k] * (value - eps / 3.0)
         for v in range(3):
-            i = 2 * lagged_contacts.nodes[k, v]
+            i = lagged_contacts.points[k, v]
             g[i] += lagged_contacts.load[k] * slope * lagged_contacts.slopes[k, v, 0]
             g[i + 1] += lagged_contacts.load[k] * slope * lagged_contacts.slopes[k, v, 1]
     return total
@@ -282,13 +369,14 @@ def forget(lagged_contacts):
 class LaggedContacts(NamedTuple):
     """Lagged contacts, the first ``count`` (1,) entries; verbs as in `kernels.shared.lagging`.
 
-    nodes (n, 3): p, a, b. slopes (n, 3, 2): derivatives of the slip in their moves. load (n,): mu
-    lambda, N. dual (n,): w; `UNKNOWN` stands for f'. A rigid platen does not move sideways: a = b =
-    p with slope zero. touching, first (nodes,), after, claim (n,): scratch for the contacts, for
-    those of each node, the first and the one after each, and for what is taken from each, N.
+    points (n, 3): first coordinates of p, a, b, or of two nodes and both platens. slopes (n, 3, 2):
+    derivatives of the slip in their moves. load (n,): mu lambda, N. dual (n,): w; `UNKNOWN` stands
+    for f'. A rigid platen does not move sideways: a = b = p with slope zero. touching, first
+    (nodes,), after, claim (n,): scratch for the contacts, for those of each node, the first and the
+    one after each, and for what is taken from each, N.
     """
 
-    nodes: np.ndarray
+    points: np.ndarray
     slopes: np.ndarray
     load: np.ndarray
     dual: np.ndarray
@@ -313,7 +401,8 @@ def hessian(u, lagged_contacts, eps, matrix):
         )
         if weight == 0.0:
             continue
-        last = 3 if lagged_contacts.nodes[k, 1] != lagged_contacts.nodes[k, 0] else 1
+        at = lagged_contacts.points
+        last = 3 if at[k, 2] != at[k, 0] else 1
         for a in range(last):
             ax, ay = (
                 weight * lagged_contacts.slopes[k, a, 0],
@@ -321,5 +410,6 @@ def hessian(u, lagged_contacts, eps, matrix):
             )
             for b in range(a + 1):
                 bx, by = lagged_contacts.slopes[k, b, 0], lagged_contacts.slopes[k, b, 1]
-                i, j = 2 * lagged_contacts.nodes[k, a], 2 * lagged_contacts.nodes[k, b]
-                add_block(matrix, i, j, ax * bx, ax * by, ay * bx, ay * by)
+                if at[k, a] == at[k, b] and a != b:  # of one node twice: slope zero
+                    continue
+                add_block(matrix, at[k, a], at[k, b], ax * bx, ax * by, ay * bx, ay * by)

@@ -217,9 +217,10 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     """What is pressed; of a lattice that is refused, by its own values."""
     key = "depth" if along else "height"
     if lattice is None:
-        return Pressed(given.get(key, Specimen.model_fields[key].default))
+        usual = Specimen.model_fields[key].default
+        return Pressed(given.get(key, usual), width=given.get("width", inf))
     structure = lattice.structure if isinstance(lattice, CustomStructure) else None
-    return Pressed(getattr(lattice, key), structure, lattice.endless, lattice.tied)
+    return Pressed(getattr(lattice, key), structure, lattice.endless, lattice.tied, lattice.width)
 
 
 def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pandas import DataFrame
+from pandas import DataFrame, Series
 
 from sweep.columns import describe_column
 from sweep.numbers import NOTHING, energy_text, short, text_in, with_unit
 
 SCENE = [
-    *("loading_mode", "platen", "force_N"),
+    *("loading_mode", "platen", "striker", "base", "force_N"),
     *("striker_mass_g", "striker_speed_m_per_s", "gravity", "target_mass_g"),
 ]
 HELD_BY_SCENE = tuple(
@@ -17,6 +17,8 @@ HELD_BY_SCENE = tuple(
         *("mode", "direction", "platen", "force", "allowed_forces"),
         *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
         *("gravity", "target_mass"),
+        *(f"striker{part}" for part in ("", "_at", "_radius", "_angle", "_tip", "_width")),
+        *("base", "base_span", "base_radius"),
     )
 )
 
@@ -51,6 +53,16 @@ def scene_keys(frame: DataFrame) -> list[str]:
     return [key for key in SCENE if key in frame] + assumed
 
 
+def _standing(row: Series) -> list[str]:
+    """What presses the lattice of a row and what carries it, in words."""
+    platen, striker, base = row["platen"], row["striker"], row["base"]
+    plain = striker == "flat" and base == "flat"
+    if plain:
+        return ["no platens" if platen in ("none", "") else f"{platen} platens"]
+    shapes = [f"striker {striker}"] if striker != "flat" else ["flat striker"]
+    return [*shapes, f"{platen} base" if base == "flat" else f"on {base}"]
+
+
 def scene_label(rows: DataFrame) -> str:
     """The loading of the cases of one scene, in words; different for every scene.
 
@@ -76,9 +88,8 @@ def scene_label(rows: DataFrame) -> str:
         shown |= {"loading.strain", "loading.stroke"}
     else:
         words = ["crushed"]
-    platen = first["platen"]
     if first["loading_mode"] != "custom":
-        words.append("no platens" if platen in ("none", "") else f"{platen} platens")
+        words += _standing(first)
     others = {
         key: with_unit(first[key], describe_column(key).units)
         for key in scene_keys(rows)

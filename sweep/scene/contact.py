@@ -7,8 +7,9 @@ from kernels.planar import position_based
 from kernels.shared.moves import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints
 from sweep.config.case import Case
-from sweep.scene.coordinates import BONDED, Numbering
+from sweep.scene.coordinates import BASE, BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
+from sweep.scene.profiles import NO_PROFILES, gripped
 
 PAIRS = 200  # of a node on average, in the widest list of neighbours at rest
 
@@ -66,6 +67,9 @@ def contact_of(
         platen_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
         low=numbering.low,
         high=numbering.high,
+        profiles=NO_PROFILES,
+        low_away=0.0,
+        high_away=0.0,
     )
 
 
@@ -75,9 +79,10 @@ def _loose(numbering: Numbering, case: Case) -> Ints:
     All nodes for loose platens. For bonded ones the nodes outside of the bonded rows, if the case
     has contact of walls.
     """
-    bonded = case.loading.platen in BONDED
+    bonded = gripped(case.loading) in (*BONDED, BASE)
     loose = np.full(numbering.n_nodes, bonded and case.contact.model != "none")
-    loose[numbering.bottom] = loose[numbering.top] = False
+    loose[numbering.bottom] = False
+    loose[numbering.top] &= gripped(case.loading) == BASE
     return np.flatnonzero(loose | (case.loading.platen == "contact"))
 
 

@@ -13,6 +13,7 @@ from sweep.design.drawing import Indices
 
 NONE: Indices = np.empty(0, np.int64)
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
+BASE = "base"  # a base that holds the lower row, below a striker
 
 
 @dataclass(frozen=True)
@@ -87,6 +88,8 @@ def held(numbering: Numbering, platen: str | None, base_moves: bool = False) -> 
     low = low[: 0 if base_moves else None]
     if platen == "contact":
         return low
+    if platen == BASE:
+        return np.concatenate([*clamped, low])
     if platen in BONDED:
         along = 2 * top if platen == "glued" else top[:0]
         return np.concatenate([*clamped, along, turning, low])

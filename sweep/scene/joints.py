@@ -55,7 +55,8 @@ def point_joints(walls: int) -> Arms:
 
 def solid_joints(network: Network, platen: str | None) -> Arms:
     """The ends of the walls of a lattice. Loose platens hold no row, and others both; without a
-    platen the lower row is held. Walls reach the perimeters of a slicer as beams.
+    platen, or on a base alone, the lower row is held. Walls reach the perimeters of a slicer as
+    beams.
     """
     rows = [] if platen == "contact" else [network.bottom]
     if platen in BONDED:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from kernels.terms.contact import Contact
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
@@ -11,8 +12,9 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BONDED, NONE, Numbering, held, leaders
+from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
+from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.terms import (
     Parts,
     Scene,
@@ -49,7 +51,7 @@ def load_of(numbering: Numbering, case: Case) -> Floats:
 
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
-    lattice, platen = case.lattice, case.loading.platen
+    lattice, platen = case.lattice, gripped(case.loading)
     assert isinstance(lattice, Laid)
     network, solid = build_network(lattice.geometry), case.solver.joints == "solid"
     mesh, arms = build_mesh(lattice, solid, platen)
@@ -61,48 +63,49 @@ def build_scene(case: Case) -> Scene:
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
     base_moves = target_of(case.loading) is not None
-    fixed = held(numbering, platen, base_moves)
+    fixed = np.union1d(held(numbering, platen, base_moves), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
     tied, below = (2 * row + 1 for row in _tied(numbering, platen, base_moves))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
+    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
+    touch = with_profiles(touch, mesh, network, numbering, case)
     parts = Parts(
         walls=walls,
         beams=beams,
         layout=layout,
         bend=build_bend(mesh, beams, case),
         fold=build_fold(mesh, beams.rigidity, case),
-        contact=contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True),
+        contact=touch,
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
         load=load_of(numbering, case),
     )
     return Scene(
         mesh, network, assemble(case, mesh, numbering, parts),
-        rest_of(mesh, numbering, parts.contact.node_thickness),
+        standing(rest_of(mesh, numbering, parts.contact.node_thickness), touch),
         *reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
         velocity=initial_velocity(numbering, layout.leader, case.loading),
-        standing=_standing(mesh, numbering, parts.contact.platen_nodes, platen),
+        standing=_on_base(mesh, numbering, touch, platen),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 
 def _tied(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
     """Nodes that follow the upper and the lower platen in y; a row held at rest follows none."""
-    bonded = platen in BONDED
-    return (
-        numbering.top if bonded else NONE,
-        numbering.bottom if bonded and base_moves else NONE,
-    )
+    below = platen in (*BONDED, BASE) and base_moves
+    return numbering.top if platen in BONDED else NONE, numbering.bottom if below else NONE
 
 
-def _standing(mesh: Mesh, numbering: Numbering, loose: Ints, platen: str) -> Ints:
-    """Nodes that may press on the base, by x at rest: of a held row, and ``loose`` ones."""
+def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:
+    """Nodes that may press on a flat base, by x at rest: of a held row, and loose ones."""
+    if touch.low_away > 0.0:
+        return NONE
     row = NONE if platen == "contact" else numbering.bottom
-    nodes = np.union1d(row, loose)
+    nodes = np.union1d(row, touch.platen_nodes)
     return nodes[np.argsort(mesh.points[nodes, 0], kind="stable")]
 
 
@@ -122,9 +125,9 @@ def reported(numbering: Numbering, loading: Loading) -> tuple[Ints, Ints, Ints]:
     """
     bottom = 2 * numbering.bottom + 1
     low, high = np.array([numbering.low]), np.array([numbering.high])
-    bonded = dict.fromkeys(BONDED, np.append(bottom, low))
-    reaction = ({"contact": low} | bonded).get(loading.platen, bottom)
-    if not isinstance(loading, DeadLoad):
+    bonded = dict.fromkeys((*BONDED, BASE), np.append(bottom, low))
+    reaction = ({"contact": low} | bonded).get(gripped(loading), bottom)
+    if not isinstance(loading, DeadLoad) or loading.is_shaped:
         return reaction, high, low
     if loading.platen == "contact":
         return reaction, np.empty(0, np.int64), 2 * np.arange(numbering.n_nodes) + 1

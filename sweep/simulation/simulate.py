@@ -28,6 +28,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
+from sweep.scene.profiles import outlines
 from sweep.scene.sides import build_tied
 from sweep.scene.terms import Scene, striker_of
 from sweep.simulation.base import patch_width
@@ -370,6 +371,7 @@ class _Run:
             "plate_y_m": plates,
             "edges": self.scene.mesh.edges,
             "edge_thickness_m": self.scene.mesh.thickness,
+            **outlines(self.case, self.scene.network),
         }
 
 

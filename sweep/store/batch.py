@@ -17,6 +17,8 @@ FRAME_GROUPS = {
     "frames": ("strain", "time_s", "plate_y_m"),
     "points": ("position_m",),
     "edges": ("edges", "edge_thickness_m"),
+    "strikers": ("striker_m",),
+    "bases": ("base_m",),
     "plate_points": ("position_m",),
     "quads": ("quads", "quad_thickness_m"),
 }

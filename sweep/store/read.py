@@ -11,6 +11,7 @@ with the same case id it takes the newer one.
     /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
     /plate_points, /quads      the same of plates
+    /strikers, /bases          the same; a row is a point of an outline
     /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
     /checksums                 (n,) of the rows of the summary, with `start` and `rows`; the
                                attribute `checksum` is that of the other attributes

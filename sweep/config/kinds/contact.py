@@ -106,6 +106,9 @@ def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosit
         raise RefusedError(key, model, f"{allowed}loading.target_mass is given")
     if loading.platen == "contact":
         raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
+    if loading.is_shaped:
+        flat = 'unless loading.striker and loading.base are "flat"'
+        raise RefusedError(key, model, f'"none" or "barrier" {flat}')
     if pressed.structure is not None:
         raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
     if pressed.tied:

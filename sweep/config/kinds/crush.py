@@ -3,8 +3,9 @@
 from math import isclose
 from typing import Any, ClassVar, Literal
 
-from sweep.config.kinds.direction import Directed, is_along
+from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     Cycles,
     Duration,
@@ -23,7 +24,7 @@ STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
 
-class Crush(Directed):
+class Crush(Struck):
     """A platen that moves down and back up if `unload`; the whole `cycles` times.
 
     strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
@@ -32,7 +33,7 @@ class Crush(Directed):
     """
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
-    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"cycles": 1}
+    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1}
 
     mode: Literal["displacement"] = "displacement"
     stroke: Length

@@ -2,12 +2,13 @@
 
 from typing import ClassVar, Literal
 
-from sweep.config.kinds.direction import ACROSS, Directed
+from sweep.config.kinds.direction import ACROSS
 from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import Duration, Force, Forces, Given, RefusedError, chosen
 
 
-class DeadLoad(Directed):
+class DeadLoad(Struck):
     """A dead load on the top nodes, in equal parts (platen "none"), or on a rigid plate."""
 
     because: ClassVar[str] = 'loading.mode is "force"'

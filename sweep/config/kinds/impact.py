@@ -5,8 +5,9 @@ from typing import Any, ClassVar, Final, Literal
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
 from sweep.config.kinds.crush import PLATENS
-from sweep.config.kinds.direction import ACROSS, Directed, is_along
+from sweep.config.kinds.direction import ACROSS, is_along
 from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     Count,
     Duration,
@@ -26,7 +27,7 @@ DROP: Final = "drop"  # `mode` of an impact with gravity
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
-class Impact(Directed):
+class Impact(Struck):
     """A rigid striker of `striker_mass` that hits the lattice at `striker_speed`.
 
     `drop_height` and `preset` (`drop_tests`) are other words for its speed and mass, `specimens`
@@ -39,7 +40,7 @@ class Impact(Directed):
 
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"filter_class": 1000, "gravity": False}
+    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"filter_class": 1000, "gravity": False}
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 

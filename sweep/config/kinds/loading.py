@@ -1,16 +1,18 @@
 """The kinds of loading, and which of them a config means."""
 
+from math import inf
 from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from sweep.config.kinds.cells import TIED
+from sweep.config.kinds.cells import ENDLESS, TIED
 from sweep.config.kinds.crush import Crush, crush, mean_crush
 from sweep.config.kinds.dead_load import DeadLoad, dead_load
 from sweep.config.kinds.direction import WHERE, is_along
 from sweep.config.kinds.impact import DROP, Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.striker import struck
 from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
 from sweep.config.structures.structure import Structure
 
@@ -22,7 +24,7 @@ PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
 class Pressed(NamedTuple):
-    """What a loading presses: its height (m), the custom structure, whether it is endless, and
+    """What a loading presses: height and width (m), a custom structure, whether it is endless, and
     whether its sides are tied to each other.
     """
 
@@ -30,6 +32,12 @@ class Pressed(NamedTuple):
     structure: Structure | None = None
     endless: bool = False
     tied: bool = False
+    width: float = inf
+
+    @property
+    def unending(self) -> str:
+        """Why there is no middle of the lattice to strike; nothing if there is one."""
+        return ENDLESS if self.endless else TIED if self.tied else ""
 
 
 def loading(
@@ -42,6 +50,7 @@ def loading(
         return of_file(given, pressed.structure, integrator)
     mode = mode_of(given)
     _check(given, mode, pressed, integrator)
+    given = struck(given, pressed.width, pressed.unending)
     if pressed.endless:
         return mean_crush(given, pressed.height, integrator, relaxes)
     if mode == "force":

@@ -16,6 +16,8 @@ class OfFile(Directed):
     cycles: ClassVar[int] = 1
     platen: ClassVar[str] = "none"
     columns: ClassVar[dict[str, float]] = {}
+    is_shaped: ClassVar[bool] = False
+    shape_columns: ClassVar[dict[str, str]] = {"striker": "none", "base": "none"}
     allowed_forces: ClassVar[tuple[float, ...]] = ()
 
     direction: Literal["in_plane"] = ACROSS

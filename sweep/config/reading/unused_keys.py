@@ -26,6 +26,13 @@ NEEDS = {
     "lattice.layer_height": "lattice.solid_layers is 0",
     "loading.strain_rate": STEADY,
     "loading.hold_time": STEADY,
+    "loading.striker_at": 'loading.striker is "flat"',
+    "loading.striker_radius": 'loading.striker is not "round"',
+    "loading.striker_angle": 'loading.striker is not "edge"',
+    "loading.striker_tip": 'loading.striker is neither "edge" nor "punch"',
+    "loading.striker_width": 'loading.striker is not "punch"',
+    "loading.base_span": 'loading.base is not "ribs"',
+    "loading.base_radius": 'loading.base is not "ribs"',
 }
 """Why an optional key is left out of the kind that has it."""
 

@@ -16,7 +16,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import PathPatch, Rectangle
+from matplotlib.patches import PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
@@ -34,6 +34,7 @@ from sweep.report.figures.storyboard import (
     shots,
     turns,
 )  # fmt: skip
+from sweep.report.outlines import outlines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -266,14 +267,22 @@ def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
 
 
 def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
-    """Walls of their true thickness, and the platens; position (n, 2) and plate (2,) in mm."""
+    """Walls of their true thickness, and the platens or what is in their place; position (n, 2) and
+    plate (2,) in mm.
+    """
     if "quads" in frames:
         _plates(ax, view, frames, position, plate)
         return
     walls(ax, position, frames)
-    if np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0]):
+    below, above = outlines(frames)
+    for shapes, height in ((below, plate[0]), (above, plate[1])):
+        for shape in shapes:
+            moved = shape + np.array([0.0, height])
+            ax.add_patch(Polygon(moved, facecolor=PLATEN, edgecolor="none"))
+    carried = np.isfinite([plate[0], frames["strain"][0]]).any() and not np.isinf(plate[0])
+    if carried and not below:
         _platen(ax, view, (view.ground if np.isnan(plate[0]) else plate[0]) - view.margin)
-    if np.isfinite(plate[1]):
+    if np.isfinite(plate[1]) and not above:
         _platen(ax, view, plate[1])
 
 

@@ -168,7 +168,9 @@ function stage(box, moving) {
   const platens = [0, 1].map(() => shape("rect", { class: "platen", x: 0, width, height: plate }));
   const walls = moving.trails.map(([thickness]) =>
     shape("polyline", { class: "wall", "stroke-width": thickness, "stroke-linejoin": "round", "stroke-linecap": "square" }));
-  svg.append(...platens, ...walls);
+  const profiles = moving.profiles.map((outlines) => outlines.map((outline) =>
+    shape("polygon", { class: "platen", points: outline.map(([x, y]) => `${toX(x)},${toY(y)}`).join(" ") })));
+  svg.append(...platens, ...profiles.flat(), ...walls);
   box.replaceChildren(svg);
   const show = (k) => {
     moving.trails.forEach(([, nodes], i) => {
@@ -177,8 +179,9 @@ function stage(box, moving) {
     });
     platens.forEach((rect, upper) => {
       const y = moving.plates[k][upper];
-      rect.style.display = y === null ? "none" : "";
+      rect.style.display = y === null || profiles[upper].length ? "none" : "";
       if (y !== null) rect.setAttribute("y", toY(y) - (upper ? plate : 0));
+      for (const outline of profiles[upper]) outline.setAttribute("transform", `translate(0 ${-y})`);
     });
   };
   return { show, frames };

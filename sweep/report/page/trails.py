@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.numbers import in_unit
+from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
 
 if TYPE_CHECKING:
@@ -141,12 +142,17 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
         "time": _few(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
         "plates": [_few(ends) for ends in plates],
+        "profiles": [[*map(_points, shapes)] for shapes in outlines(frames)],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
         "nodes": len(used),
         "trails": [[float(f"{in_unit(t.thickness, 'mm'):.4g}"), t.nodes] for t in lines],
         "position": b64encode(counts.tobytes()).decode(),
     }
+
+
+def _points(outline: np.ndarray) -> list[list[float]]:
+    return [[float(f"{v:.4g}") for v in point] for point in outline]
 
 
 def _even(count: int) -> list[int]:

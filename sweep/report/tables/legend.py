@@ -41,6 +41,9 @@ LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
 force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
 closed. rebound: energy of the striker at rebound / at first contact."""
+SHAPED = """\
+striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
+of the lattice. Strain is its way after the first touch / height."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
 =: a tie: the errors may reverse the order. Errors common to all designs do not count.
@@ -98,12 +101,22 @@ def legend(ranking: Ranking) -> str:
 def meanings(rows: DataFrame, mode: str) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
     period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
+    shaped = [SHAPED] if _is_shaped(rows) else []
+    return [*_meanings(rows, mode), *shaped, *period]
+
+
+def _is_shaped(rows: DataFrame) -> bool:
+    """Whether one of the strikers is not flat."""
+    return bool((~rows["striker"].isin(("flat", "none"))).any())
+
+
+def _meanings(rows: DataFrame, mode: str) -> list[str]:
     if mode == "displacement":
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows), *period]
+        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows)]
     if mode == "impact":
-        return [STRUCK, _losses(rows), *period]
-    return [LOADED, *period] if mode == "force" else []
+        return [STRUCK, _losses(rows)]
+    return [LOADED] if mode == "force" else []
 
 
 def _not_densified(rows: DataFrame) -> list[str]:

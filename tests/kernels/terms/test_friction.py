@@ -36,7 +36,7 @@ def lagged(x, touch, listed, mu=MU):
     friction.lag(contacts, x, touch, listed, np.inf, rubbing)
     n = contacts.count[0]
     return contacts._replace(
-        nodes=contacts.nodes[:n], slopes=contacts.slopes[:n], load=contacts.load[:n],
+        points=contacts.points[:n], slopes=contacts.slopes[:n], load=contacts.load[:n],
         dual=contacts.dual[:n],
     )  # fmt: skip
 
@@ -97,7 +97,7 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
     contacts = friction._room(1, near_pairs.empty(), 0)
-    contacts.nodes[:], contacts.slopes[:] = 0, 0.0
+    contacts.points[:], contacts.slopes[:] = 0, 0.0
     contacts.slopes[0, 0, 0] = 1.0
     contacts.load[:], contacts.dual[:], contacts.count[:] = 1.0, friction.UNKNOWN, 1
 
@@ -231,7 +231,7 @@ def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
     assert forces.min() < 0.0
     assert contacts.load.min() > 0.0
     n = len(of.points)
-    total = np.bincount(contacts.nodes[:, 0], contacts.load, n)
+    total = np.bincount(contacts.points[:, 0] // 2, contacts.load, n)
     expected = MU * np.maximum(np.bincount(nodes, forces, n), 0.0)
     np.testing.assert_allclose(total, expected, atol=1e-11 * expected.max())
 
@@ -251,7 +251,7 @@ def test_the_order_in_which_pairs_are_listed_does_not_matter(seed):
 @pytest.mark.parametrize("pieces", [(3, 2), (12, 7), (24, 24), (5, 40)])
 def test_a_node_on_a_straight_wall_has_one_contact_with_it(pieces):
     contacts, _, _ = lagged_of(of := two_walls(0.5, pieces), of.rest)
-    assert contacts.nodes[:, 0].size == np.unique(contacts.nodes[:, 0]).size
+    assert contacts.points[:, 0].size == np.unique(contacts.points[:, 0]).size
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -29,6 +29,7 @@ from kernels.terms import (
     stretch,
 )
 from sweep.scene.bending import FIBRE, OUTER
+from sweep.scene.profiles import NO_PROFILES
 from tests.support.materials.memory import relaxing
 
 MODULUS, DEPTH = 12.0, 10.0
@@ -232,7 +233,7 @@ def contact_of(of: Frame, stiffness: float = 1.0) -> contact.Contact:
         stiffness * of.modulus * of.depth, of.thickness.max(), np.inf, of.edges, tributary,
         node_thickness, of.thickness, contact_near_joints.owners(n, of.edges),
         *contact_near_joints.special_pairs(*mesh),
-        np.arange(n), of.rest.size - 2, of.rest.size - 1,
+        np.arange(n), of.rest.size - 2, of.rest.size - 1, NO_PROFILES, 0.0, 0.0,
     )  # fmt: skip
 
 

@@ -31,6 +31,8 @@ _DEFAULTS = {
     "material_memory": "none",
     "loading_mode": "displacement",
     "platen": "glued",
+    "striker": "flat",
+    "base": "flat",
     "force_N": float("nan"),
     "stroke_m": 6.1e-3,
     "target_mass_g": float("nan"),

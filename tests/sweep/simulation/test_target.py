@@ -33,10 +33,10 @@ def column(steps=2000, integrator="newmark", damping=None, **loading):
     )
 
 
-def hit(platen, target=TARGET, **tables):
-    """Hexagons under a striker."""
-    loading = dict(striker_mass=MASS, striker_speed=2.0, platen=platen, target_mass=target)
-    return Case.of(lattice=CELLS, loading=loading, **tables)
+def hit(platen, target=TARGET, solver=None, damping=None, **shape):
+    """Hexagons under a striker, flat on a flat base unless they have another ``shape``."""
+    loading = dict(striker_mass=MASS, striker_speed=2.0, platen=platen, target_mass=target) | shape
+    return Case.of(lattice=CELLS, loading=loading, solver=solver or {}, damping=damping or {})
 
 
 def test_two_masses_and_a_spring():
@@ -80,11 +80,20 @@ def test_restitution():
     assert result.summary["lost_share"] == pytest.approx(1.0 - share, rel=1e-9)
 
 
-@pytest.mark.parametrize("platen", ["glued", "contact"])
-@pytest.mark.parametrize("integrator", ["bdf2", "newmark"])
-def test_momentum_and_book(platen, integrator, monkeypatch):
+@pytest.mark.parametrize(
+    ("platen", "integrator", "shape"),
+    [
+        ("glued", "bdf2", {}),
+        ("glued", "newmark", {}),
+        ("contact", "bdf2", {}),
+        ("contact", "newmark", {}),
+        ("glued", "bdf2", {"striker": "round", "striker_radius": 5e-3}),
+        ("contact", "bdf2", {"base": "ribs", "base_span": 8e-3}),
+    ],
+)
+def test_momentum_and_book(platen, integrator, shape, monkeypatch):
     """The momentum of striker, lattice and target is that at first, in the whole run."""
-    case, states = hit(platen, solver=dict(integrator=integrator)), []
+    case, states = hit(platen, solver=dict(integrator=integrator), **shape), []
 
     def follow(terms, tolerance, stage, state, *others):
         ended = march(terms, tolerance, stage, state, *others)

@@ -22,6 +22,12 @@ IDLE = {
         'loading.hold_time = "3 s": as the stress of the material does not depend on time:'
         " it has neither loss nor relaxation"
     ),
+    '[loading]\nstriker = "edge"\nstriker_radius = "3 mm"': (
+        'loading.striker_radius = "3 mm": as loading.striker is not "round"'
+    ),
+    '[loading]\nbase_radius = "3 mm"': (
+        'loading.base_radius = "3 mm": as loading.base is not "ribs"'
+    ),
     '[loading]\nmode = "impact"\nhold_time = "3 s"': (
         'loading.hold_time = "3 s": as loading.mode is "impact"'
     ),

@@ -166,6 +166,18 @@ def test_without_platens_only_the_ground_is_drawn():
     assert [len(ax.patches) for ax in figure.axes] == [2] * 6
 
 
+def test_a_striker_and_ribs_are_drawn_where_the_platens_are():
+    """The outlines in place of both rectangles, at the heights of the platens."""
+    square = 1e-3 * np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    frames = squeezed_cell() | {"striker_m": square, "base_m": np.concatenate([square, square])}
+    figure = case_plots.blank(8.0, 3.0)
+    case_plots.deformed_shapes(figure, "", frames)
+    assert [len(ax.patches) for ax in figure.axes] == [4] * len(figure.axes)
+    *_, lower, upper = figure.axes[0].patches[1:]
+    assert lower.get_xy()[:, 1].min() == pytest.approx(1e3 * frames["plate_y_m"][0, 0])
+    assert upper.get_xy()[:, 1].min() == pytest.approx(1e3 * frames["plate_y_m"][0, 1])
+
+
 FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
 
 

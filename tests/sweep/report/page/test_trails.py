@@ -74,6 +74,12 @@ def test_moving_shape_can_be_read_back():
     assert shape["plates"][3] == [-0.5, 7.5]
 
 
+def test_moving_shape_has_the_outlines_of_a_striker():
+    shape = moving_shape(squeezed_cell() | {"striker_m": np.full((3, 2), 2e-3)}, [0.0] * 8)
+    assert shape["profiles"] == [[], [[[2.0, 2.0]] * 3]]
+    assert moving_shape(squeezed_cell(), [0.0] * 8)["profiles"] == [[], []]
+
+
 def test_many_frames_become_few_from_the_first_to_the_last():
     cell = squeezed_cell(heights=np.linspace(10.0, 5.0, 101), platens=False)
     shape = moving_shape(cell, [None] * 101)

@@ -1,0 +1,197 @@
+"""What presses a lattice, and what carries it: flat platens, or rigid profiles in their place.
+
+A striker that is not flat moves in y and acts on the whole depth of the lattice, as a line: in the
+plane a tooth is as long as the panel is deep. The lattice then stands on its base, which
+`loading.platen` is about.
+"""
+
+from collections.abc import Iterator
+from math import degrees, pi
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from sweep.config.kinds.direction import WHERE, Directed, is_along
+from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Table, chosen, given_or
+from sweep.numbers import text_in
+
+if TYPE_CHECKING:
+    from sweep.design.profile import Profile
+
+Tip = Annotated[float, Field(ge=0, json_schema_extra={"unit": "m"})]
+Place = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
+Radius = Annotated[float, Field(gt=0, le=10, json_schema_extra={"unit": "m"})]
+LEAST_ANGLE, MOST_ANGLE = pi / 18, 17 * pi / 18
+REACH = 4.0  # flanks are as long as the lattice is wide and high together, times this
+
+
+class Flat(Table):
+    """A platen wider than the lattice."""
+
+    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
+        """The profiles at ``x`` (m), with flanks as long as ``reach`` (m)."""
+        return ()
+
+
+class Round(Flat):
+    """A cylinder across the depth."""
+
+    striker_radius: Radius = 5e-3
+    striker_at: Place = 0.5
+
+    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
+        """A circle."""
+        from sweep.design.profile import circle
+
+        return (circle(x, self.striker_radius),)
+
+
+class Edge(Flat):
+    """A wedge of an included angle, rounded at its tip."""
+
+    striker_angle: Angle = pi / 2
+    striker_tip: Tip = 0.5e-3
+    striker_at: Place = 0.5
+
+    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
+        """A wedge."""
+        from sweep.design.profile import wedge
+
+        return (wedge(x, self.striker_angle, self.striker_tip, reach),)
+
+
+class Punch(Flat):
+    """A flat face, rounded at its corners."""
+
+    striker_width: Length = 10e-3
+    striker_tip: Tip = 0.5e-3
+    striker_at: Place = 0.5
+
+    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
+        """A punch."""
+        from sweep.design.profile import punch
+
+        return (punch(x, self.striker_width, self.striker_tip, reach),)
+
+
+class Ribs(Flat):
+    """Two supports at a distance of `base_span` from axis to axis, with round ends."""
+
+    base_span: Length
+    base_radius: Length = 1e-3
+
+    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
+        """Both ribs, on either side of ``x``."""
+        from sweep.design.profile import rib
+
+        half = 0.5 * self.base_span
+        return tuple(rib(x + side, self.base_radius, reach) for side in (-half, half))
+
+
+STRIKERS: dict[str, type[Flat]] = {"flat": Flat, "round": Round, "edge": Edge, "punch": Punch}
+BASES: dict[str, type[Flat]] = {"flat": Flat, "ribs": Ribs}
+UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
+CHOICES = {"striker": STRIKERS, "base": BASES}
+_OF_KINDS = {
+    key for kinds in CHOICES.values() for kind in kinds.values() for key in kind.model_fields
+}
+
+
+class Struck(Directed):
+    """A loading by a striker on a base; each has the keys of its kind, and None for others."""
+
+    neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"striker": "flat", "base": "flat"}
+
+    striker: Literal["flat", "round", "edge", "punch"] = "flat"
+    striker_at: Place | None = None
+    striker_radius: Radius | None = None
+    striker_angle: Angle | None = None
+    striker_tip: Tip | None = None
+    striker_width: Length | None = None
+    base: Literal["flat", "ribs"] = "flat"
+    base_span: Length | None = None
+    base_radius: Length | None = None
+
+    @property
+    def is_shaped(self) -> bool:
+        """Whether the striker or the base is not flat."""
+        return (self.striker, self.base) != ("flat", "flat")
+
+    @property
+    def shape_columns(self) -> dict[str, str]:
+        """Striker and base in words, such as "round, 5 mm, at 50 %", of a results file."""
+        return {key: ", ".join(self._words(key)) for key in CHOICES}
+
+    def _words(self, key: str) -> Iterator[str]:
+        """The kind of the striker or the base, and its numbers."""
+        yield str(getattr(self, key))
+        for name, value in _made(key, self.given()):
+            if name == "striker_angle":
+                yield f"{degrees(value):.4g} deg"
+            elif name == "striker_at":
+                yield f"at {text_in(value, '%')}"
+            else:
+                yield UNSAID.get(name, "") + text_in(value, "mm")
+
+    def profiles(self, key: str, left: float, width: float, height: float) -> "tuple[Profile, ...]":
+        """The profiles of the "striker" or the "base" (``key``) of a lattice, empty if it is flat.
+
+        left: x of its left side; all in m.
+        """
+        kind = _made(key, self.given())
+        place = given_or(self.striker_at, 0.5) if key == "striker" else 0.5
+        return kind.profiles(left + place * width, REACH * (width + height))
+
+
+def _made(key: str, given: Given) -> Flat:
+    """The striker or the base of these values."""
+    if given.get(key) == "ribs" and "base_span" not in given:
+        raise RefusedError("loading.base_span", None, "the distance of the ribs, axis to axis")
+    kind = CHOICES[key][given.get(key, "flat")]
+    return kind.model_validate(chosen(given, kind))
+
+
+def struck(given: Given, width: float, unending: str) -> dict[str, Any]:
+    """These values of a loading, with those of the striker and the base complete.
+
+    Keys of other kinds of strikers are left out. width (m): of the lattice over centre lines.
+    unending: the key that ties its sides, in words; empty if none does.
+    """
+    shaped = {key for key in CHOICES if given.get(key, "flat") != "flat"}
+    if shaped and (is_along(given) or unending):
+        key, where = min(shaped), WHERE if is_along(given) else unending
+        raise RefusedError(f"loading.{key}", given[key], f'"flat" {where}')
+    own = {name: value for name, value in given.items() if name not in _OF_KINDS}
+    for key in CHOICES:
+        own |= dict(_made(key, given))
+    if shaped:
+        own["platen"] = _standing(given)
+    _check(own, width)
+    return own
+
+
+def _standing(given: Given) -> str:
+    """How the lattice stands on its base: glued, or loose, as always on ribs."""
+    ribs = given.get("base") == "ribs"
+    platen: str = given.get("platen", "contact" if ribs else "glued")
+    if ribs and platen != "contact":
+        raise RefusedError("loading.platen", platen, '"contact" if loading.base is "ribs"')
+    if platen not in ("contact", "glued"):
+        allowed = '"contact" or "glued", which is about the base, unless loading.striker is "flat"'
+        raise RefusedError("loading.platen", platen, allowed)
+    return platen
+
+
+def _check(own: Given, width: float) -> None:
+    """Refuse an edge that is no wedge, a tip wider than its punch, and ribs beside the lattice."""
+    angle, tip, face = (own.get(f"striker_{key}") for key in ("angle", "tip", "width"))
+    if angle is not None and not LEAST_ANGLE <= angle <= MOST_ANGLE:
+        allowed = f"from {degrees(LEAST_ANGLE):g} deg to {degrees(MOST_ANGLE):g} deg"
+        raise RefusedError("loading.striker_angle", angle, allowed)
+    if face is not None and given_or(tip, 0.0) > 0.5 * face:
+        allowed = f"at most half of loading.striker_width, {0.5 * face:g} m here"
+        raise RefusedError("loading.striker_tip", tip, allowed)
+    span = own.get("base_span", 0.0)
+    if span > width:
+        allowed = f"at most the width of the lattice, {width:g} m here"
+        raise RefusedError("loading.base_span", span, allowed)

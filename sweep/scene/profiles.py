@@ -1,0 +1,118 @@
+"""Rigid profiles in place of platens: a striker, ribs as a base, and where they touch at rest."""
+
+import numpy as np
+
+from kernels.geometry.profile import Profiles
+from kernels.terms import contact, contact_near_joints, profile
+from sweep.config.case import Case
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.striker import Struck
+from sweep.design.network import Network
+from sweep.design.profile import Profile
+from sweep.scene.coordinates import BASE, Numbering
+from sweep.scene.mesh import Floats, Ints, Mesh
+
+TOUCHING = 1e-12  # m, to which a profile is moved up to the lattice
+NO_PROFILES = Profiles(
+    np.zeros(1, np.int64), np.empty((0, 2)), np.empty(0), np.empty(0), np.empty(0, np.int64),
+    np.empty((0, 4)), np.empty(0, np.int64), np.empty((0, 2), np.int64), np.empty((0, 2)),
+    np.empty(0), np.empty(0), np.empty(0),
+)  # fmt: skip
+
+
+def gripped(loading: Loading) -> str:
+    """Which rows are held: `loading.platen`, or `BASE` of a lattice that is glued to its base."""
+    return BASE if loading.is_shaped and loading.platen == "glued" else loading.platen
+
+
+def anchor(mesh: Mesh, numbering: Numbering, case: Case) -> Ints:
+    """The x of a node in the middle of the lower row, of a loose lattice in statics.
+
+    A striker that is not flat pushes sideways from the first step on, friction lags by one, and
+    without inertia the lattice would slide from under it.
+    """
+    struck = isinstance(case.loading, Struck) and case.loading.striker != "flat"
+    if not (struck and case.loading.quasi_static and case.loading.platen == "contact"):
+        return np.empty(0, np.int64)
+    x = mesh.points[numbering.bottom, 0]
+    middle = numbering.bottom[np.argmin(np.abs(x - x.mean()))]
+    return np.array([2 * middle])
+
+
+def with_profiles(
+    touch: contact.Contact, mesh: Mesh, network: Network, numbering: Numbering, case: Case
+) -> contact.Contact:
+    """Contact with the profiles of the case in place of platens."""
+    if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
+        return touch
+    above, below = (_shapes(case.loading, network, key) for key in ("striker", "base"))
+    carrier = np.repeat([numbering.high, numbering.low], [len(above), len(below)])
+    return touch._replace(
+        profiles=profiles_of([*above, *below], carrier, mesh, touch),
+        low_away=np.inf if below else 0.0,
+        high_away=np.inf if above else 0.0,
+    )
+
+
+def _shapes(loading: Struck, network: Network, key: str) -> tuple[Profile, ...]:
+    """The profiles of the "striker" or the "base" (``key``), where they are beside a lattice."""
+    (left, bottom), (right, top) = network.points.min(axis=0), network.points.max(axis=0)
+    return loading.profiles(key, float(left), float(right - left), float(top - bottom))
+
+
+def outlines(case: Case, network: Network) -> dict[str, Floats]:
+    """Outlines of what is not flat, as in `Result.frames`; those of both ribs end to end."""
+    if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
+        return {}
+    drawn = {key: _shapes(case.loading, network, key) for key in ("striker", "base")}
+    return {
+        f"{key}_m": np.concatenate([shape.outline() for shape in shapes])
+        for key, shapes in drawn.items()
+        if shapes
+    }
+
+
+def profiles_of(
+    shapes: list[Profile], carrier: Ints, mesh: Mesh, touch: contact.Contact
+) -> Profiles:
+    """The data of profiles. carrier (k,): coordinate of the platen in whose place each one is."""
+    radius = np.array([shape.radius for shape in shapes])
+    rounded = list(zip(shapes, radius, strict=True))
+    return Profiles(
+        start=np.cumsum([0, *(len(shape.chain) for shape in shapes)]),
+        vertex=np.concatenate([shape.chain for shape in shapes]),
+        weight=np.concatenate([_weight(shape, mesh) for shape in shapes]),
+        radius=radius,
+        carrier=carrier,
+        box=np.array([np.ravel(np.column_stack(_box(shape, r))) for shape, r in rounded]),
+        nodes=np.arange(len(mesh.points)),
+        edges=mesh.edges,
+        subtract=contact_near_joints.owners(len(mesh.points), mesh.edges),
+        tributary=touch.tributary,
+        node_half=0.5 * touch.node_thickness,
+        edge_half=0.5 * mesh.thickness,
+    )
+
+
+def _box(shape: Profile, radius: float) -> tuple[Floats, Floats]:
+    """The least and the greatest coordinates of a profile."""
+    return shape.chain.min(axis=0) - radius, shape.chain.max(axis=0) + radius
+
+
+def _weight(shape: Profile, mesh: Mesh) -> Floats:
+    """Contact length of each vertex with walls between their nodes, (v,) m (`terms.profile`)."""
+    length, starts = mesh.rest_length.mean(), 0.5 * mesh.thickness.mean()
+    share = length**2 / (8.0 * (shape.radius + starts) * starts)
+    weight = np.zeros(len(shape.chain))
+    weight[list(shape.tips)] = length * min(share, 1.0)
+    return weight
+
+
+def standing(x: Floats, touch: contact.Contact) -> Floats:
+    """Coordinates at rest ``x`` with flat platens, with each profile where it touches a wall."""
+    for k, carrier in enumerate(touch.profiles.carrier):
+        if k == 0 or carrier != touch.profiles.carrier[k - 1]:
+            towards = -1.0 if carrier == touch.high else 1.0
+            while (path := profile.free_path(x, touch.profiles, carrier, towards)) > TOUCHING:
+                x[carrier] += towards * path
+    return x
