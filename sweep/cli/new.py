@@ -24,9 +24,9 @@ name = "{name}"
 
 [lattice]
 kind = "square"                      # {kinds}
-width = "25 mm"                      # of one specimen, over centre lines
-height = "12.5 mm"                   # the thickness of the pad
-depth = "12 mm"                      # along the walls, out of the drawing
+width = "50 mm"                      # of the part, over centre lines
+height = "12.5 mm"                   # its thickness, which is pressed
+depth = "50 mm"                      # its other length, along the walls, out of the drawing
 
 [material]
 name = "ninjaflex"                   # crumple materials lists them; or your own .csv
@@ -39,19 +39,19 @@ LOADINGS = {
 mode = "crush"                       # a platen comes down and goes back up
 strain = "60 %"                      # of the height
 platen = "contact"                   # loose between plates; "glued": bonded to them
-allowed_forces = ["50 N", "200 N"]   # each adds a column: the energy up to this force
+allowed_forces = ["500 N", "2 kN"]   # each adds a column: the energy up to this force
 # cycles = 2                         # pressed twice
 """,
     "drop": """\
 mode = "drop"                        # a rigid striker falls onto the lattice and rebounds
-striker_mass = "50 g"                # its share of a mass on several specimens
+striker_mass = "400 g"               # of what falls onto the part
 drop_height = "0.2 m"                # at first touch 2 m/s; its weight acts in the stroke too
 platen = "contact"                   # loose between striker and support; "glued": bonded to them
-# energy = "0.1 J"                   # instead of the height
+# energy = "0.8 J"                   # instead of the height
 """,
     "load": """\
 mode = "force"                       # a dead load, applied suddenly and removed
-force = "10 N"                       # on one specimen
+force = "80 N"                       # on the part
 platen = "contact"                   # loose between plates; "glued": bonded to them
 release_time = "0.138 s"             # when the load is removed
 duration = "0.2 s"                   # when the run ends
@@ -60,13 +60,13 @@ duration = "0.2 s"                   # when the run ends
 TAIL = """\
 
 [grid]                               # all combinations: 2 x 2 = 4 cases
-"lattice.cells_x" = [4, 6]
+"lattice.cell_size" = ["4 mm", "6 mm"]   # whole numbers of cells: the run says how many
 "lattice.wall_thickness" = ["0.4 mm", "0.8 mm"]
 # "lattice.kind" = ["square", "hex"]
 
 [rank]
-budgets = ["{budget}"]                   # greatest mass of the panel
-panel = ["100 mm", "50 mm"]          # the area that specimens fill, side by side
+budgets = ["{budget}"]                   # greatest mass of the part
+# panel = ["100 mm", "50 mm"]        # instead: an area tiled with separate parts of this size
 """
 TITLES = {
     "crush": "Which design absorbs the most energy in a crush?",
@@ -105,4 +105,4 @@ def template(name: str, kind: str, path: Path) -> str:
     others = "or " + ", ".join(family for family in families() if family != "square")
     kinds = f"\n{' ' * COMMENT}# ".join(wrap(others, WIDTH - COMMENT - 2))
     head = HEAD.format(title=TITLES[kind], kinds=kinds, **words)
-    return head + LOADINGS[kind] + TAIL.format(budget="50 g")
+    return head + LOADINGS[kind] + TAIL.format(budget="12 g")

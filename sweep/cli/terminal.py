@@ -109,6 +109,7 @@ def _counted(count: int, noun: str) -> str:
 def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
+    from sweep.report.tables.requirement_notes import of_which
 
     by = ranking.by
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
@@ -118,14 +119,14 @@ def _heading(question: Question, ranking: Ranking) -> str:
     lines = [f"Best first: {order}."]
     crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
     if (force := question.allowed_force) and crushed:
-        lines.append(f"Energy is counted until the force of a {ranking.per} exceeds {force}.")
+        lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if len(question.budgets) == 1:
         lines.insert(0, f"At most {_written(question.budgets[0], 'g')}.")
     if panel := question.panel:
         sides = " x ".join(_written(side, "mm") for side in panel)
-        lines.insert(0, f"Panel of {sides}, filled with specimens side by side.")
+        lines.insert(0, f"Panel of {sides}, tiled with separate specimens.")
     return " ".join(lines)
 
 

@@ -89,6 +89,7 @@ def rank(arguments: Namespace) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
+    from sweep.report.tables.narrow_note import narrow_note
     from sweep.report.tables.sheets import ranking_sheets
     from sweep.store.read import read_summary
 
@@ -106,6 +107,8 @@ def rank(arguments: Namespace) -> int:
         _warn(arguments.file, ranking, summary)
     elif arguments.csv or arguments.json or arguments.markdown:
         ranking = answer(summary, question)
+        if not arguments.markdown:
+            hint(line for scene in ranking.scenes for line in narrow_note(ranking.narrow[scene]))
         if arguments.csv:
             say(ranking.with_unfinished.to_csv(index=False), end="")
         elif arguments.json:
@@ -218,6 +221,7 @@ VERBS = {verb.__name__: verb for verb in ALL}
 
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
+    from sweep.cli.cell_size import cell_sentences
     from sweep.config.load import load_config
 
     config = load_config(name)
@@ -225,6 +229,7 @@ def _config(name: str) -> Config:
         hint([f"example {name}: {config.path} (copy it to change it)"])
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
+    hint(cell_sentences(config.cases))
     return config
 
 

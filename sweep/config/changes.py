@@ -21,9 +21,10 @@ REPLACED = {
     "loading.specimens": ("striker_mass", "energy"),
     "lattice.mass": ("wall_thickness", "infill"),
     "lattice.wall_thickness": ("mass", "infill"),
-    "lattice.infill": ("mass", "wall_thickness", "cells_x", "cells_y"),
-    "lattice.cells_x": ("infill",),
-    "lattice.cells_y": ("infill",),
+    "lattice.infill": ("mass", "wall_thickness", "cells_x", "cells_y", "cell_size"),
+    "lattice.cell_size": ("infill", "cells_x", "cells_y"),
+    "lattice.cells_x": ("infill", "cell_size"),
+    "lattice.cells_y": ("infill", "cell_size"),
 }
 """The keys of the same table that a new value of a key replaces."""
 
@@ -34,6 +35,8 @@ FOLLOWS = {
         ("wall_thickness", "infill"),
         ("cells_x", "infill"),
         ("cells_y", "infill"),
+        ("cells_x", "cell_size"),
+        ("cells_y", "cell_size"),
     ),
 }
 """By table: a key that follows from another when the lattice or the direction changes."""

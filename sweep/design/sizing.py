@@ -1,10 +1,14 @@
-"""Cells for a share of infill, and wall thickness for a mass."""
+"""Cells for a share of infill or for a size, and wall thickness for a mass."""
 
 from functools import lru_cache
+from math import log
+
+import numpy as np
 
 from sweep.design.box import infill_walls
-from sweep.design.drawing import FEW, pitch
+from sweep.design.drawing import FEW, extent, pitch, sketch
 from sweep.design.geometry import Geometry
+from sweep.design.infill import trait
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 
@@ -46,6 +50,47 @@ def cells_for(geometry: Geometry, share: float, most: int) -> tuple[int, int] | 
         return None
     best = min(near, key=missed)
     return cells(best) if missed(best) <= SLACK * share else None
+
+
+def cell_of(geometry: Geometry) -> tuple[float, float]:
+    """Width and height of a cell in the box, m."""
+    low, high = extent(geometry.kind, geometry.orientation, geometry.cells)
+    box = np.array(sketch(geometry).box)
+    width, height = pitch(geometry.kind, geometry.orientation) * box / (high - low)
+    return float(width), float(height)
+
+
+def cells_of_size(geometry: Geometry, size: float, most: int) -> tuple[int, int] | None:
+    """Columns and rows whose cells come nearest to a regular cell of width ``size`` (m).
+
+    Nearest in each direction, by the ratio of the lengths. None if the only cell of a direction is
+    smaller than that by more than `SLACK`, or if more than ``most`` cells are needed.
+    """
+    shape = pitch(geometry.kind, geometry.orientation)
+    width, height = (float(side) for side in size * shape / shape[0])
+    columns, rows = geometry.box[0] / width, geometry.box[1] / height
+    if round(columns) * round(rows) > most:
+        return None
+    cells = _nearest(geometry, 0, columns, width), _nearest(geometry, 1, rows, height)
+    made = cell_of(geometry._replace(cells=cells))
+    fits = made[0] > (1.0 - SLACK) * width and made[1] > (1.0 - SLACK) * height
+    return cells if fits else None
+
+
+def _nearest(geometry: Geometry, axis: int, count: float, side: float) -> int:
+    """The number of cells, near ``count``, whose length along an axis is nearest to ``side`` (m).
+
+    It is even where the lattice and, every two cells, its pattern repeat.
+    """
+    shifted = trait(geometry.kind, "STAGGERED") and axis == (geometry.orientation != "flat")
+    step = 2 if geometry.periodic[axis] and shifted else 1
+    middle = step * round(count / step)
+
+    def missed(n: int) -> float:
+        return abs(log(cell_of(geometry._replace(cells=(n, n)))[axis] / side))
+
+    near = range(middle - 2 * step, middle + 3 * step, step)
+    return min((n for n in near if n >= step), key=missed)
 
 
 @lru_cache(maxsize=4096)

@@ -20,6 +20,7 @@ from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import LEAST, Compared, merits
+from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
@@ -206,6 +207,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             for label, rows in scene_rows.items()
             if len(rows)
         },
+        narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
         per=per,
         required=required,
         outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},

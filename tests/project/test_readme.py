@@ -224,7 +224,7 @@ def quick_armor(tmp_path_factory):
 
 def is_quick(case):
     lattice, thin = case.lattice, case.lattice.wall_thickness < 1.3e-3
-    return case.loading.platen == "glued" and lattice.cells_x <= (3 if thin else 2)
+    return case.loading.platen == "glued" and lattice.cells_x <= (12 if thin else 6)
 
 
 @pytest.mark.parametrize("example", readme.examples(), ids=lambda example: example.command)
@@ -232,7 +232,7 @@ def test_rankings_are_those_of_the_sweep(example, quick_armor, monkeypatch):
     monkeypatch.chdir(quick_armor)
     monkeypatch.setitem(os.environ, "COLUMNS", "104")
     printed = [line.split() for line in figures.answer(example) if line]
-    told = [line.split() for line in example.lines if "3 x 3" in line or "2 x 2" in line]
+    told = [line.split() for line in example.lines if "9 x 3" in line or "6 x 2" in line]
     assert len(told) >= 2
     for said in told:
         same = [numbers(line) for line in printed if words(line) == words(said)]

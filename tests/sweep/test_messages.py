@@ -104,6 +104,10 @@ RANKINGS = {
     "walls that relax": (summary(RELAXING), {}),
     "walls that yield": (summary(YIELDING), {}),
     "walls of both kinds": (summary({}, RELAXING), {}),
+    "few cells of several patterns": (
+        summary(*({"lattice_kind": kind} for kind in ("square", "hex", "diamond", "circle"))),
+        {},
+    ),
     "second cycle": (summary({"second_cycle_share": 0.7}), {}),
     "no densification": (summary({"densification_strain": nan, "peak_strain": 0.5}), {}),
     "gradual densification": (summary({"packing_span": 0.21}), {}),

@@ -39,14 +39,16 @@ Kind = Annotated[
 class Cells(Laid):
     """Cells of a family of infill, in walls of one thickness or of a gradient, with an outline.
 
-    `mass` sets the wall thickness; `infill`, the share of the box that lines of `line_width` fill,
-    as slicers count, sets it and the numbers of cells. boundary "periodic": one period of an
-    endless lattice, of size `width` x `height`. Opposite sides are tied to each other; the mean
-    shear strain and the mean lateral stress are zero. sides "periodic": left and right are tied to
-    each other, between platens: the middle of a wide panel, of which `width` is one period.
+    `mass` sets the wall thickness; `cell_size`, the width of a regular cell, sets the numbers of
+    cells; `infill`, the share of the box that lines of `line_width` fill, as slicers count, sets
+    both. boundary "periodic": one period of an endless lattice, of size `width` x `height`.
+    Opposite sides are tied to each other; the mean shear strain and the mean lateral stress are
+    zero. sides "periodic": left and right are tied to each other, between platens: the middle of a
+    wide panel, of which `width` is one period.
     """
 
     because: ClassVar[str] = "lattice.slicer is not given"
+    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "cell_size")
 
     kind: Kind = "square"
     orientation: Literal["pointy", "flat"] | None = None
@@ -54,6 +56,7 @@ class Cells(Laid):
     sides: Literal["free", "periodic"] = "free"
     cells_x: Few = 3
     cells_y: Few = 3
+    cell_size: Length | None = None
     mass: Mass | None = None
     infill: Share | None = None
     grading: Positive = 1.0
@@ -138,10 +141,12 @@ def cells(given: Given, density: float) -> Cells:
     made = Cells.model_validate(
         {"nodes_per_wall": nodes_of(given.get("kind", "square"))} | chosen(given, Cells)
     )
-    if made.endless or made.tied:
-        _check_period(made)
     check_proportion(made)
     made = made.model_copy(update=_lines(made))
+    if made.cell_size is not None:
+        made = _divided(made, made.cell_size, given)
+    if made.endless or made.tied:
+        _check_period(made)
     if made.infill is not None:
         made = _filled(made, made.infill, given)
     check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
@@ -176,10 +181,33 @@ def _filled(made: Cells, share: float, given: Given) -> Cells:
         lines = f"lines of {width:g} m in this box"
         allowed = f"a share that 1 to {MAX_NODES:,} cells fill with {lines}"
         raise RefusedError("lattice.infill", share, allowed)
+    return thin.model_copy(update=_following(count, reason, given))
+
+
+def _divided(made: Cells, size: float, given: Given) -> Cells:
+    """The lattice with the numbers of cells whose cells come nearest to a size."""
+    if made.infill is not None:
+        raise RefusedError("lattice.cell_size", size, "none where lattice.infill is given")
+    from sweep.design.sizing import cell_of, cells_of_size
+
+    count = cells_of_size(made.geometry, size, MAX_NODES)
+    if count is None:
+        width, height = cell_of(made.geometry._replace(cells=(1, 1)))
+        box = f"a single cell is {width:.4g} m wide, or {height:.4g} m high"
+        allowed = (
+            f"the width of a cell of which 1 to {MAX_NODES:,} fit, regular within a third; {box}"
+        )
+        raise RefusedError("lattice.cell_size", size, allowed)
+    reason = f"as lattice.cell_size is {size:g} m; give one of them"
+    return made.model_copy(update=_following(count, reason, given))
+
+
+def _following(count: tuple[int, int], reason: str, given: Given) -> dict[str, int]:
+    """The numbers of cells that follow from other keys."""
     follows = dict(zip(("cells_x", "cells_y"), count, strict=True))
     for key, value in follows.items():
         _check_follows(key, value, f"{value}, {reason}", given)
-    return thin.model_copy(update=follows)
+    return follows
 
 
 def _check_follows(key: str, value: object, allowed: str, given: Given) -> None:

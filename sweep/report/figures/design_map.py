@@ -56,7 +56,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
     the last design of the front within it.
     """
     designs, mass, energy = ranking.table, ranking.mass, ranking.energy
-    noun = "panel" if mass == "panel_mass_g" else "specimen"
+    noun = "panel" if mass == "panel_mass_g" else "part"
     look = looks(designs)
     for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)

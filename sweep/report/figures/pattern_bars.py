@@ -15,7 +15,7 @@ from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 
 ROW, DRAWN_ROW = 0.25, 0.5  # inches for a bar, without and with a drawing
-WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing
+WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing as wide as high
+WIDEST = 2.5  # widths over heights of a drawing as high as its row; wider ones are drawn smaller
 PAD = 3.0  # points between the drawings and the names
 LETTERS = 46  # of a line of a name beside a drawing
 
@@ -50,21 +51,25 @@ def pattern_bars(
         labels = design_labels(ordered, designs)
         labels = [fill(label, LETTERS) for label in labels] if shapes else labels
         ax.set_yticks(range(len(ordered)), labels, fontsize="small")
-        for place, case_id in enumerate(ordered["case_id"]):
-            if shapes:
-                _draw(ax, place, shapes[case_id])
+        if shapes:
+            _draw(ax, [shapes[case_id] for case_id in ordered["case_id"]])
         ax.margins(y=0.5 / len(ordered))
         ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
         ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 
 
-def _draw(ax: Axes, place: int, frames: Mapping[str, Any]) -> None:
-    """Draw the shape at rest left of the bar at ``place``, and move the names out of its way."""
-    ax.tick_params(axis="y", length=0.0, pad=72.0 * DRAWN + PAD)
-    left = beside(ax, DRAWN, place - 0.46, 0.92)
-    walls(left, in_unit(np.asarray(frames["position_m"][0], float), "mm"), frames)
-    left.autoscale_view()
+def _draw(ax: Axes, shapes: Sequence[Mapping[str, Any]]) -> None:
+    """Draw the shapes at rest left of their bars, and move the names out of their way."""
+    rests = [in_unit(np.asarray(frames["position_m"][0], float), "mm") for frames in shapes]
+    aspects = [float(np.divide(*np.ptp(rest, axis=0))) for rest in rests]
+    drawn = DRAWN * min(WIDEST, max(1.0, *aspects))
+    ax.tick_params(axis="y", length=0.0, pad=72.0 * drawn + PAD)
+    for place, (frames, rest, aspect) in enumerate(zip(shapes, rests, aspects, strict=True)):
+        height = 0.92 * min(1.0, WIDEST / aspect)
+        left = beside(ax, drawn, place - 0.5 * height, height)
+        walls(left, rest, frames)
+        left.autoscale_view()
 
 
 def panel_size(designs: DataFrame, drawn: bool = False) -> tuple[float, float]:

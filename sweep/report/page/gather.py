@@ -15,6 +15,7 @@ from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, merits, through_solid
+from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -34,6 +35,7 @@ from sweep.report.page.thinning import (
 from sweep.report.page.trails import UNIT, drawing, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import meanings, other_bow, unprintable
+from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
@@ -217,6 +219,7 @@ def _scene(rows: DataFrame) -> dict[str, Any]:
         "bar": least is not None and error_column(least) in rows,
         "heads": list(_measures(rows)),
         "meanings": meanings(rows, mode),
+        "narrow": list(narrow_note(narrow_patterns(rows))),
     }
 
 

@@ -174,7 +174,7 @@ function requiredText() {
   const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
   const designs = now.rows.filter((row) => row.mass <= greatestMass(data, asked)).length;
   const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
-  return `Required of a ${asked.per}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
+  return `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
 }
 
@@ -225,7 +225,7 @@ function showAsked() {
   picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
   const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
   picks($("forces"), ofPanel(asked) ? [] : forces, "N", "force", asked.force);
-  $("force-of").textContent = ofPanel(asked) ? "the panel" : "a specimen";
+  $("force-of").textContent = ofOne();
 }
 
 // ---- the answer ----
@@ -261,9 +261,15 @@ function panelText(row) {
   return row.panel.lengths.map((side) => Number(inUnits(side, "mm").toPrecision(3))).join(" x ");
 }
 
+// What an allowed force and requirements are of.
+function ofOne() {
+  if (ofPanel(asked)) return "the panel";
+  return asked.panel ? "a specimen" : "the part";
+}
+
 function until() {
   if (asked.force === null) return data.energies[0].until;
-  const noun = ofPanel(asked) ? "the panel" : "a specimen";
+  const noun = ofOne();
   return `until the force of ${noun} exceeds ${Number(asked.force.toPrecision(6))} N`;
 }
 
@@ -308,7 +314,7 @@ function* words(best) {
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
     yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
-      `a specimen then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
+      `${asked.panel ? "a specimen" : "it"} then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
@@ -474,10 +480,11 @@ function near(id, on) {
 }
 
 function notes() {
-  const lines = ["*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."];
+  const lines = [`*: on the Pareto front: no lighter design of the scene is as good. mass: of ${asked.panel ? "one specimen" : "the part"}.`];
   const rows = now.placed;
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
+  lines.push(...scene().narrow);
   if (asked.panel && scene().mode === "impact") lines.push(data.struck_panel);
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
@@ -513,7 +520,7 @@ function merit(row) {
 
 function showMap() {
   const mode = scene().mode;
-  const noun = asked.panel ? "panel" : "specimen";
+  const noun = asked.panel ? "panel" : "part";
   const names = { impact: ["Force over mass", "force on the support", "N"], force: ["Strain over mass", "greatest strain", "%"] };
   const rows = now.rows.filter((row) => merit(row) > 0);
   const energy = ["Energy over mass", `energy of a ${noun}`, energyUnit(Math.max(...rows.map(merit)))];

@@ -29,6 +29,7 @@ SHOWN_BY_NAME = {
     "lattice.pattern",
     "lattice.mass",
     "lattice.cells",
+    "lattice.cell_size",
     "lattice.cells_x",
     "lattice.cells_y",
     "lattice.wall_thickness",

@@ -11,6 +11,7 @@ from sweep.numbers import percent
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
+    of_one,
     panel_note,
 )
 
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of one specimen."
-CRUSHED = "peak: greatest force of one specimen. Peak and energy are counted {until}."
+MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
+CRUSHED = "peak: greatest force of {of}. Peak and energy are counted {until}."
 DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
@@ -87,15 +88,15 @@ too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
 
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
-    table = ranking.table
+    table, of = ranking.table, of_one(ranking.table)
     heads = {mode: meanings(table, mode) for mode in dict.fromkeys(table["loading_mode"])}
     if "displacement" in heads:
         whole = [] if ranking.limited else heads["displacement"]
-        heads["displacement"] = [CRUSHED.format(until=ranking.until), *whole]
+        heads["displacement"] = [CRUSHED.format(until=ranking.until, of=of), *whole]
     lines = [line for mode in HEADS if mode in heads for line in heads[mode]]
     lines += panel_note(table) + column_notes(ranking)
     bars = [TIED] if "ranked_error" in table else []
-    return "\n".join(dict.fromkeys([MARKS, *lines, *bars]))
+    return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *bars]))
 
 
 def meanings(rows: DataFrame, mode: str) -> list[str]:

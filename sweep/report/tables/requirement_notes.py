@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 PANEL = (
-    "panel N: force of the {} specimens of a panel together. Its true size is {} mm.\n"
+    "panel N: force of the {} separate specimens of a panel together. Its true size is {} mm.\n"
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
 )
@@ -59,7 +59,18 @@ def required(ranking: Ranking, modes: Iterable[str]) -> str:
     kinds = set(modes)
     own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].asked_of)}
     limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
-    return f"Required of a {ranking.per}: {', '.join(limits)}." if limits else ""
+    return f"Required of {of_which(ranking)}: {', '.join(limits)}." if limits else ""
+
+
+def of_one(rows: DataFrame) -> str:
+    """What masses and forces are of: the part that is printed, or a specimen of a tiled panel."""
+    return "one specimen" if "panel_specimens" in rows else "the part"
+
+
+def of_which(ranking: Ranking) -> str:
+    """What an allowed force and requirements are of."""
+    tiled = "panel_specimens" in ranking.table
+    return f"a {ranking.per}" if tiled or ranking.per == "panel" else "the part"
 
 
 def titled(title: str, ranking: Ranking) -> str:

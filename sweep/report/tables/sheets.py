@@ -22,6 +22,7 @@ from sweep.report.tables.legend import (
     mark_notes,
     marks,
 )
+from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
     panel_column,
@@ -103,6 +104,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
                 *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
                 *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
+                *narrow_note(ranking.narrow[scene]),
                 *_cut_off(rows),
                 *_not_shown(placed),
                 *unfinished,

@@ -188,7 +188,7 @@ def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them
     assert "All designs (1) fulfil this." in out
     assert "Required" not in crumple(capsys, "rank", file, "--max-force", "none")[1]
     _, out, _ = crumple(capsys, "rank", file, "--per", "specimen", "--max-force", "20 N")
-    assert "of a specimen: force at most 20 N." in out
+    assert "of the part: force at most 20 N." in out
 
 
 def test_force_of_a_panel_is_allowed_by_curves(capsys, tmp_path):
@@ -661,7 +661,7 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
 @pytest.mark.parametrize(
     ("mode", "told"),
     [
-        ("displacement", "force of a specimen exceeds 0.05 kN"),
+        ("displacement", "force of the part exceeds 0.05 kN"),
         ("force", "force of 0.05 kN has no effect"),
         ("impact", "force of 0.05 kN has no effect"),
     ],

@@ -21,6 +21,7 @@ LOADINGS = {
 }
 LATTICES = {
     "mass": dict(width=25e-3, mass=3e-3),
+    "size": dict(kind="hex", width=50e-3, height=12.5e-3, cell_size=4e-3),
     "share": dict(kind="hex", width=25e-3, height=20e-3, infill=0.15),
     "graded": dict(kind="diamond", grading=1.5, perimeters=1),
     "sliced": dict(slicer="orca", pattern="grid", infill=0.2, width=25e-3),

@@ -6,6 +6,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 
 CRUSH, LOSS = dict(loading=dict(strain=0.5)), dict(material=dict(loss=0.4))
+SIZE, WIDE = dict(cell_size=4e-3), dict(width=50e-3)
 SLICED = dict(lattice=dict(slicer="prusa", pattern="grid", infill=0.2))
 THIN, FOUR, HEAVY = dict(wall_thickness=0.6e-3), dict(cells_x=4, cells_y=4), dict(mass=1e-3)
 LINES = dict(perimeters=1, line_width=0.4e-3)
@@ -59,6 +60,10 @@ def test_a_key_of_another_kind_is_refused():
             dict(lattice=LINES | THIN | FOUR),
         ),
         (dict(lattice=FOUR), dict(lattice=dict(infill=0.2)), dict(lattice=dict(infill=0.2))),
+        (dict(lattice=FOUR), dict(lattice=SIZE), dict(lattice=SIZE)),
+        (dict(lattice=SIZE), dict(lattice=FOUR), dict(lattice=FOUR)),
+        (dict(lattice=SIZE), dict(lattice=dict(infill=0.2)), dict(lattice=dict(infill=0.2))),
+        (dict(lattice=SIZE), dict(lattice=WIDE), dict(lattice=SIZE | WIDE)),
         (dict(lattice=FOUR | THIN), SLICED, SLICED),
         (SLICED, dict(lattice=dict(slicer=None, kind="hex")), dict(lattice=dict(kind="hex"))),
         (

@@ -1,12 +1,16 @@
 """Lattices asked for by a share of infill or by their mass."""
 
+from itertools import product
+
+import numpy as np
 import pytest
 
 from sweep.config.case import Case
+from sweep.design.drawing import pitch
 from sweep.design.infill import families
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
-from sweep.design.sizing import infill_share
+from sweep.design.sizing import cell_of, cells_of_size, infill_share
 from tests.support.designs.tables import lattice_with, material_with
 
 
@@ -35,3 +39,56 @@ def test_share_of_a_square_grid_is_that_of_slicers():
     lattice = lattice_with(width=0.1, height=0.1, infill=0.2, perimeters=1)
     assert (lattice.cells_x, lattice.cells_y) == (26, 26)
     assert infill_share(lattice.geometry) == pytest.approx(2 * 0.4e-3 / 0.1 * 25)
+
+
+WIDE_CELLS = {
+    "brick": (25, 4),
+    "circle": (25, 4),
+    "diamond": (25, 4),
+    "hex": (25, 4),
+    "kagome": (25, 4),
+    "reentrant": (25, 4),
+    "square": (25, 4),
+    "triangle": (25, 4),
+}
+
+
+@pytest.mark.parametrize("kind", families())
+def test_cells_of_a_size_are_the_whole_numbers_that_come_nearest(kind):
+    """No other number of columns or rows has cells nearer to regular ones of this size."""
+    made = lattice_with(kind=kind, width=0.1, height=0.015, wall_thickness=0.2e-3, cell_size=4e-3)
+    count = made.cells_x, made.cells_y
+    assert count == WIDE_CELLS[kind]
+    shape = pitch(kind, made.orientation)
+    regular = 4e-3 * shape / shape[0]
+
+    def missed(cells):
+        return np.abs(np.log(cell_of(made.geometry._replace(cells=cells)) / regular))
+
+    least = missed(count)
+    for axis, step in product((0, 1), (-1, 1)):
+        other = [n + step * (k == axis) for k, n in enumerate(count)]
+        assert missed(tuple(other))[axis] > least[axis]
+
+
+def test_cells_are_measured_as_they_are_drawn():
+    """Of square cells, the box over their numbers; of honeycomb, the distance of its columns."""
+    square = lattice_with(width=0.1, height=0.015, cell_size=4e-3)
+    assert cell_of(square.geometry) == pytest.approx((4e-3, 3.75e-3))
+    comb = lattice_with(kind="hex", width=0.1, height=0.015, cell_size=4e-3)
+    points = build_network(comb.geometry).points
+    bottom = np.sort(points[points[:, 1] == 0.0, 0])
+    assert np.diff(bottom) == pytest.approx(cell_of(comb.geometry)[0])
+
+
+def test_a_period_has_whole_pairs_of_rows_that_are_shifted():
+    box = dict(boundary="periodic", width=30e-3, height=10e-3, cell_size=4e-3)
+    for kind, size in (("hex", 4e-3), ("hex", 3e-3), ("kagome", 2e-3)):
+        made = lattice_with(kind=kind, wall_thickness=0.2e-3, **box | dict(cell_size=size))
+        assert made.cells_y % 2 == 0
+    tied = dict(kind="hex", sides="periodic", width=30e-3, height=10e-3, cell_size=4e-3)
+    assert (lattice_with(**tied).cells_y, lattice_with(orientation="flat", **tied).cells_x % 2) == (
+        3,
+        0,
+    )
+    assert cells_of_size(lattice_with(**box).geometry, 4e-3, 100) == (8, 3)

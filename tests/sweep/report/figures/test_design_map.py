@@ -47,7 +47,7 @@ def test_map_says_what_is_required(ranking):
     figure = blank(8, 4)
     design_map(figure, replace(ranking, required={"max_force": 60.0}))
     said = figure.axes[0].get_title("left").splitlines()
-    assert said[1] == "Required of a specimen: force at most 60 N."
+    assert said[1] == "Required of the part: force at most 60 N."
     figure = blank(8, 4)
     thickness_trends(figure, replace(ranking, required={"max_force": 60.0}))
     assert figure.axes[0].get_title("left").splitlines()[1:] == said[1:2]

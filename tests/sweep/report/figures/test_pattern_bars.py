@@ -22,11 +22,12 @@ def test_several_patterns_are_drawn_side_by_side(tmp_path):
     assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]
 
 
-def test_a_drawing_stands_beside_each_bar():
+@pytest.mark.parametrize("aspect", [1.0, 2.5, 8.0])
+def test_a_drawing_stands_beside_each_bar(aspect):
     rows = designs([1.0, 1.0], [0.2, 0.1])
     ranking = ranked(summary(*rows), top=None)
     square = {
-        "position_m": np.array([[[0.0, 0.0], [1e-2, 0.0], [1e-2, 1e-2]]]),
+        "position_m": np.array([[[0.0, 0.0], [aspect, 0.0], [aspect, 1.0]]]) * 1e-2,
         "edges": np.array([[0, 1], [1, 2]]),
         "edge_thickness_m": np.full(2, 1e-3),
     }
@@ -39,7 +40,7 @@ def test_a_drawing_stands_beside_each_bar():
         assert len(drawing.patches) == 1
         drawing.apply_aspect(drawing.get_axes_locator()(drawing, None))
         bar, box = (patch.get_window_extent() for patch in (ax.patches[place], *drawing.patches))
-        assert box.width == pytest.approx(box.height, rel=0.02)
+        assert box.width == pytest.approx(aspect * box.height, rel=0.03 * aspect)
         assert box.x1 < bar.x0
         assert bar.y0 < 0.5 * (box.y0 + box.y1) < bar.y1
 

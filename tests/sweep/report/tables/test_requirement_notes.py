@@ -59,13 +59,13 @@ def test_force_of_the_panel_stands_beside_that_of_the_specimen(table, head):
     for row in sheet.rows:
         one, all_of = (float(row[sheet.heads.index(name)]) for name in (head, "panel N"))
         assert all_of == 50.0 * one
-    assert "panel N: force of the 50 specimens of a panel together." in legend(ranking)
+    assert "panel N: force of the 50 separate specimens of a panel together." in legend(ranking)
     assert "panel N" not in legend(ranked(table))
 
 
 def test_number_of_specimens_is_a_range_if_designs_differ_in_width():
     table = CRUSHES.assign(outer_width_m=[13e-3, 13e-3, 14e-3])
-    assert "of the 45 to 50 specimens of a panel" in legend(ranked(table, panel=PANEL))
+    assert "of the 45 to 50 separate specimens of a panel" in legend(ranked(table, panel=PANEL))
 
 
 def test_quantities_are_those_of_a_maker():

@@ -1,0 +1,23 @@
+"""Rankings that mix patterns in narrow lattices, which favour some patterns over others."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+WIDE = 8
+"""Cells across from which free sides count for little."""
+
+
+def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
+    """The patterns of one scene that have fewer than `WIDE` cells between free sides.
+
+    None if all rows are of one pattern, as their order then says nothing about patterns.
+    """
+    across = rows[(rows["direction"] == "in_plane") & (rows["sides"] == "free")]
+    if across["lattice_kind"].nunique() < 2:
+        return ()
+    few = across[(across["cells_x"] < WIDE) & (across["loading_mode"] != "custom")]
+    return tuple(few["lattice_kind"].drop_duplicates())
