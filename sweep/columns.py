@@ -94,6 +94,9 @@ COLUMNS: dict[str, Column] = {
         "",
         "1 if the weight of the striker acts on the lattice, else 0; NaN unless the mode is impact",
     ),
+    "target_mass_g": Column(
+        "g", "mass of the base, if it moves freely away from the hit; NaN: the base is fixed"
+    ),
     "contact_model": Column("", "how walls touch: none, barrier or position_based"),
     "mass_g": Column("g", "density x exact area of the printed walls x depth", "less"),
     "printed_mass_g": Column(
@@ -282,7 +285,37 @@ COLUMNS: dict[str, Column] = {
         "efficiency; of the whole loading unless the mode is displacement",
         "less",
     ),
+    "peak_base_pressure_Pa": Column(
+        "Pa",
+        "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
+        "cells, on ribs, of a lattice that repeats and of a custom structure",
+        "less",
+    ),
+    "peak_base_pressure_x_m": Column(
+        "m", "x in the drawing of the centre of the forces on that patch; NaN without a force"
+    ),
+    "base_impulse_Ns": Column(
+        "Ns",
+        "impulse on the base until the striker rebounds; NaN unless the mode is impact",
+        "less",
+    ),
+    "target_speed_m_per_s": Column(
+        "m/s",
+        "speed of the base when the striker rebounds; NaN unless loading.target_mass is given",
+        "less",
+    ),
+    "peak_target_acceleration_m_per_s2": Column(
+        "m/s^2",
+        "greatest force on the base / its mass; NaN unless loading.target_mass is given",
+        "less",
+    ),
     "peak_strain": Column("1", "greatest top displacement / height", "less"),
+    "indentation_m": Column(
+        "m",
+        "greatest travel of platen or striker after its first touch, relative to the base; under a "
+        "loose dead load, loss of height; NaN of a custom structure",
+        "less",
+    ),
     "peak_deceleration_m_per_s2": Column(
         "m/s^2",
         "greatest force on the striker / its mass, as an accelerometer on it measures: 0 in free "
@@ -300,15 +333,22 @@ COLUMNS: dict[str, Column] = {
         "stroke that closes all voids - greatest stroke of the striker; NaN without one",
         "more",
     ),
+    "bottomed_out": Column(
+        "1",
+        "1 if the striker closes all voids below it, so that stroke_left_m is not positive; else "
+        "0; NaN without one",
+        "less",
+    ),
     "rebound_speed_m_per_s": Column(
         "m/s",
-        "speed of the striker upwards when the lattice no longer pushes it; NaN without one",
+        "speed of the striker away from the base when the lattice no longer pushes it; NaN without "
+        "one",
         "less",
     ),
     "rebound_share": Column(
         "1",
-        "energy of the striker at its rebound / at first contact, with gravity height of the "
-        "rebound / of the fall; NaN without one",
+        "energy of the striker relative to the base at its rebound / at first contact, with "
+        "gravity height of the rebound / of the fall; NaN without one",
         "less",
     ),
     "residual_strain": Column(
@@ -384,11 +424,18 @@ HISTORY_COLUMNS: dict[str, Column] = {
         "m",
         "least distance of a centre line from a near one or a loose platen; NaN if none is near",
     ),
+    "base_pressure_Pa": Column(
+        "Pa",
+        "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
+        "cells, on ribs, of a lattice that repeats and of a custom structure",
+    ),
+    "base_pressure_x_m": Column("m", "x of the centre of the forces on that patch"),
 }
 """The columns that every history has, in the order in which they are stored."""
 
 STRIKER_COLUMNS: dict[str, Column] = {
     "striker_speed_m_per_s": Column("m/s", "speed of the striker downwards"),
+    "target_speed_m_per_s": Column("m/s", "speed of the base downwards, 0 if it is fixed"),
     "deceleration_m_per_s2": Column(
         "m/s^2", "force on the striker / its mass, mean since the previous row"
     ),
@@ -456,7 +503,7 @@ CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
 ENDS = re.compile(r"^(lowest|highest)_(.+)")
-UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|[JNgms])$")
+UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|Ns|[JNgms])$")
 
 
 def absorbed_energy_column(force: float) -> str:

@@ -27,6 +27,7 @@ MODEL_VERSION = 9
 LOADED = (
     *("force_N", "stroke_m"),
     *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
+    "target_mass_g",
 )
 """Columns of which each loading has its own."""
 

@@ -5,6 +5,7 @@ import numpy as np
 from kernels.arrays import pair, triple
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.terms import fold, profile
+from kernels.terms.contact import platens_of
 
 MARGIN = 0.2  # of the contact distance, within which a pair gets room before it touches: a larger
 # one fills the matrix, a smaller one has it analysed more often
@@ -27,11 +28,11 @@ def _node(layout, c):
 def couplings(x, scene, pairs, lagged_contacts):
     """Return the couplings (c, 3) of contacts, lagged contacts, springs, folds and profiles.
 
-    A coupling of fewer than three nodes repeats one. The upper platen is node n_nodes.
+    A coupling of fewer than three nodes repeats one. The platens are node n_nodes.
     """
     layout, reach, profiles = scene.layout, 1.0 + MARGIN, scene.contact.profiles
     size = pairs.node.size + lagged_contacts.count[0] + scene.fold.limit.size
-    size += scene.contact.platen_nodes.size + scene.spring.l0.size + profile.room(profiles)
+    size += 2 * scene.contact.platen_nodes.size + scene.spring.l0.size + profile.room(profiles)
     nodes, n = np.empty((size, 3), np.int64), 0
     for k in range(pairs.node.size):
         if pairs.distance[k] < reach * pairs.d_contact[k]:
@@ -47,11 +48,12 @@ def couplings(x, scene, pairs, lagged_contacts):
         if fold.opening(x, scene.fold, k) < 2.0 * scene.fold.limit[k]:
             a, b, c = triple(scene.fold.nodes, k)
             n = _couple(nodes, n, a, b, c)
-    if layout.leader[scene.contact.high] >= 0 and layout.driven < 0:
-        for p in scene.contact.platen_nodes:
-            gap = x[scene.contact.high] - x[2 * p + 1]
-            if gap < 0.5 * reach * scene.contact.node_thickness[p]:
-                n = _couple(nodes, n, p, p, layout.n_nodes)
+    for platen, side, away in platens_of(scene.contact):
+        if layout.leader[platen] >= 0 and layout.driven < 0:
+            for p in scene.contact.platen_nodes:
+                gap = side * (x[2 * p + 1] - x[platen]) + away
+                if gap < 0.5 * reach * scene.contact.node_thickness[p]:
+                    n = _couple(nodes, n, p, p, layout.n_nodes)
     return nodes[: _couple_profiles(x, profiles, layout.n_nodes, nodes, n)]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.laws.law import Memory, in_python
-from kernels.planar import constraints, factoring, neighbour_lists, potential, steps
+from kernels.planar import base_pressure, constraints, factoring, neighbour_lists, potential, steps
 from kernels.planar.neighbour_lists import Neighbours
 from kernels.shared import lagging, moves, rows
 from kernels.solve import history
@@ -72,7 +72,7 @@ class Planar(NamedTuple):
 
     project = steps.project
     covers_projection = neighbour_lists.covers_projection
-    write = rows.write
+    write = base_pressure.write
 
 
 @jit_owning

@@ -34,6 +34,9 @@ ROW = np.dtype(
             ("iterations", np.float64),  # of Newton, accumulated
             ("gap", np.float64),  # least distance of surfaces that may touch, m; infinite: none
             ("speed", np.float64),  # of the upper platen upwards, m/s
+            ("base_speed", np.float64),  # of the lower platen upwards, m/s
+            ("patch_force", np.float64),  # greatest force on a patch of the base, N
+            ("patch_at", np.float64),  # x of that force, m
         ],
     )
 )
@@ -43,7 +46,8 @@ class Output(NamedTuple):
     """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none.
 
     bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
-    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k).
+    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k). standing
+    (b,): nodes that may press on the base, of which a patch is ``patch`` m wide; sorted in place.
     """
 
     rows: np.ndarray
@@ -54,6 +58,8 @@ class Output(NamedTuple):
     base: np.ndarray
     probes: np.ndarray
     probed: np.ndarray
+    standing: np.ndarray
+    patch: float
 
 
 @jit_exact
@@ -75,15 +81,19 @@ def write(problem, out, k, state, found):
     row.time, row.iterations = totals.time, totals.iterations
     row.height = height(state.x, out.top, out.base)
     row.reaction_bottom = 0.0
+    low = problem.scene.contact.low
     for c in out.bottom:
         row.reaction_bottom += found.g[c]
+    if problem.scene.coordinates.mass[low] > 0.0:  # a base that moves: g has its inertia
+        parts = state.gradients
+        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - found.g[low]
     row.reaction_top = -totals.reaction
     if coordinates.driven < 0:
         row.reaction_top = -totals.factor * total(coordinates.load)
     for p in range(out.probes.size):
         out.probed[k, 0, p] = state.x[out.probes[p]]
         out.probed[k, 1, p] = found.g[out.probes[p]]
-    row.speed = state.v[problem.scene.contact.high]
+    row.speed, row.base_speed = state.v[problem.scene.contact.high], state.v[low]
     row.gap = problem.least_gap(state.x)
     if out.frame_of[k] >= 0:
         for i in range(state.x.size):

@@ -17,6 +17,7 @@ REPLACED = {
     "loading.drop_height": ("striker_speed", "energy", "preset", "specimens", "gravity"),
     "loading.striker_mass": ("energy", "preset", "specimens"),
     "loading.preset": ("striker_mass", "striker_speed", "energy", "drop_height", "gravity"),
+    "loading.target_mass": ("gravity",),
     "loading.specimens": ("striker_mass", "energy"),
     "lattice.mass": ("wall_thickness", "infill"),
     "lattice.wall_thickness": ("mass", "infill"),

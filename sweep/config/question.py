@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from sweep.config.kinds.table import Acceleration, Energy, Force, Length, Mass, Table
+from sweep.config.kinds.table import Acceleration, Energy, Force, Length, Mass, Stress, Table
 
 
 class Rank(Table):
@@ -22,6 +22,8 @@ class Require(Table):
 
     max_force: Force | None = None
     max_deceleration: Acceleration | None = None
+    max_base_pressure: Stress | None = None
+    max_target_acceleration: Acceleration | None = None
     max_mass: Mass | None = None
     min_absorbed: Energy | None = None
     max_stroke: Length | None = None

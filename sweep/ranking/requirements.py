@@ -206,6 +206,8 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     of_specimen = {
         "max_force": rows["passed_on_N"].where(crushed, rows["peak_force_N"]),
         "max_deceleration": rows["peak_deceleration_filtered_m_per_s2"],
+        "max_base_pressure": rows["peak_base_pressure_Pa"],
+        "max_target_acceleration": rows["peak_target_acceleration_m_per_s2"],
         "max_mass": to_si(rows[names.mass], "g") / together,
         "min_absorbed": (rows[names.energy] / together).where(crushed, rows["absorbed_energy_J"]),
         "max_stroke": rows["counted_stroke_m"],
@@ -278,7 +280,7 @@ def _rectangle(
 ) -> tuple[float, float]:
     """The energy (J) that must be absorbed and the force (N) that is allowed meanwhile.
 
-    The energy is that of the striker; in a crush, the least that is asked for.
+    The energy is that of the striker relative to the base; in a crush, the least that is asked for.
     """
     mode, force = rows["loading_mode"].iloc[0], required.get("max_force", np.nan)
     if mode == "displacement":
@@ -286,4 +288,13 @@ def _rectangle(
     if mode != "impact":
         return np.nan, np.nan
     together = rows["panel_specimens"] if per == "panel" else 1.0
-    return float((rows["impact_energy_J"] * together).min()), force
+    return float((relative_energy(rows) * together).min()), force
+
+
+def relative_energy(rows: DataFrame) -> Series:
+    """Energy of the striker relative to the base, which the lattice must absorb, J; 0 to stop both.
+
+    Of a base that moves freely, m M / (m + M) v^2 / 2; the rest stays in the common motion.
+    """
+    ratio = (rows["striker_mass_g"] / rows["target_mass_g"]).fillna(0.0)
+    return rows["impact_energy_J"] / (1.0 + ratio)

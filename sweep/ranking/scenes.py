@@ -9,14 +9,14 @@ from sweep.numbers import NOTHING, energy_text, short, text_in, with_unit
 
 SCENE = [
     *("loading_mode", "platen", "striker", "base", "force_N"),
-    *("striker_mass_g", "striker_speed_m_per_s", "gravity"),
+    *("striker_mass_g", "striker_speed_m_per_s", "gravity", "target_mass_g"),
 ]
 HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
         *("mode", "direction", "platen", "force", "allowed_forces"),
         *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
-        "gravity",
+        *("gravity", "target_mass"),
         *(f"striker{part}" for part in ("", "_at", "_radius", "_angle", "_tip", "_width")),
         *("base", "base_span", "base_radius"),
     )
@@ -80,7 +80,9 @@ def scene_label(rows: DataFrame) -> str:
         struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
         energy = energy_text(float(first["impact_energy_J"]))
         falls = " under gravity" if first["gravity"] == 1.0 else ""
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy}){falls}"]
+        mass = float(first["target_mass_g"])
+        target = f" on a target of {short(mass)} g" if mass > 0.0 else ""
+        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy}){falls}{target}"]
     elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
         words = [f"crushed to {text_in(strains[0], '%', 6)}"]
         shown |= {"loading.strain", "loading.stroke"}

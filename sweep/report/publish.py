@@ -16,6 +16,7 @@ from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.report.figures import case_plots, cushion_plots, design_map
+from sweep.report.figures.base_plots import base_pressure
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars
 from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.shaded import cut_open
@@ -213,6 +214,10 @@ def case_figures(file: str, row: Series) -> Named:
         figure = case_plots.blank(8.0, 4.2)
         case_plots.energies(figure.subplots(), history, row)
         yield "energies", figure
+        if history["base_pressure_Pa"].max() > 0.0:
+            figure = case_plots.blank(8.0, 4.2)
+            base_pressure(figure.subplots(), history, row)
+            yield "base_pressure", figure
     if frames:
         dead = row["loading_mode"] == "force"
         release = history["time_s"][last_loaded(history, row)] if dead else None

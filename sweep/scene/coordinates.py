@@ -11,6 +11,7 @@ import numpy as np
 
 from sweep.design.drawing import Indices
 
+NONE: Indices = np.empty(0, np.int64)
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
 BASE = "base"  # a base that holds the lower row, below a striker
 
@@ -64,17 +65,27 @@ class Numbering(BetweenPlatens):
 
     @property
     def slot(self) -> Indices:
-        """Place of each coordinate in the block of its point, (size,): x, y, rotation."""
-        along, platens = np.tile([0, 1], self.n_nodes), np.zeros(self._others, np.int64)
+        """Place of each coordinate in the block of its point, (size,): x, y, rotation.
+
+        Both platens share a block, in which the upper one is the first; the width of a period and a
+        platen that moves freely are never unknowns together.
+        """
+        along = np.tile([0, 1], self.n_nodes)
+        platens = np.append(np.zeros(self._others - 2, np.int64), [1, 0])
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
 
-def held(numbering: Numbering, platen: str | None) -> Indices:
-    """Coordinates that never move: those of clamped rows, and the lower platen."""
+def held(numbering: Numbering, platen: str | None, base_moves: bool = False) -> Indices:
+    """Coordinates that never move: those of clamped rows, and the lower platen.
+
+    base_moves: the lower platen moves in y, and so does the row that is clamped to it.
+    """
     bottom, top = numbering.bottom, numbering.top
-    clamped = [2 * bottom, 2 * bottom + 1, numbering.rotation[bottom]]
+    height = (2 * bottom + 1)[: 0 if base_moves else None]
+    clamped = [2 * bottom, height, numbering.rotation[bottom]]
     turning = numbering.rotation[top]
     low, high = np.array([numbering.low]), np.array([numbering.high])
+    low = low[: 0 if base_moves else None]
     if platen == "contact":
         return low
     if platen == BASE:
@@ -85,12 +96,15 @@ def held(numbering: Numbering, platen: str | None) -> Indices:
     return np.concatenate([*clamped, low, high])
 
 
-def leaders(numbering: Numbering, supports: Indices, tied: Indices) -> Indices:
+def leaders(
+    numbering: Numbering, supports: Indices, tied: Indices, below: Indices = NONE
+) -> Indices:
     """The coordinate that each one follows, (size,).
 
-    Itself, or that of the upper platen if it is among ``tied``, or -1 if it is among ``supports``.
+    Itself, or that of the upper platen if it is among ``tied``, of the lower one if it is among
+    those ``below``, or -1 if it is among ``supports``.
     """
     leader = np.arange(numbering.size)
-    leader[tied] = numbering.high
+    leader[tied], leader[below] = numbering.high, numbering.low
     leader[supports] = -1
     return leader

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from kernels.terms.contact import Contact
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
@@ -11,7 +12,7 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BASE, BONDED, Numbering, held, leaders
+from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, held, leaders
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.terms import (
@@ -23,6 +24,7 @@ from sweep.scene.terms import (
     masses_of,
     solved_by,
     striker_of,
+    target_of,
     walls_of,
 )
 
@@ -60,12 +62,13 @@ def build_scene(case: Case) -> Scene:
     )
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
-    fixed = np.union1d(held(numbering, platen), anchor(mesh, numbering, case))
+    base_moves = target_of(case.loading) is not None
+    fixed = np.union1d(held(numbering, platen, base_moves), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
-    tied = 2 * numbering.top + 1 if platen in BONDED else np.empty(0, np.int64)
+    tied, below = (2 * row + 1 for row in _tied(numbering, platen, base_moves))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
-    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied), case)
+    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
     touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
     touch = with_profiles(touch, mesh, network, numbering, case)
@@ -86,8 +89,24 @@ def build_scene(case: Case) -> Scene:
         *reported(numbering, case.loading),
         force_scale=force_scale(network, beams.rigidity),
         velocity=initial_velocity(numbering, layout.leader, case.loading),
+        standing=_on_base(mesh, numbering, touch, platen),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
+
+
+def _tied(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
+    """Nodes that follow the upper and the lower platen in y; a row held at rest follows none."""
+    below = platen in (*BONDED, BASE) and base_moves
+    return numbering.top if platen in BONDED else NONE, numbering.bottom if below else NONE
+
+
+def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:
+    """Nodes that may press on a flat base, by x at rest: of a held row, and loose ones."""
+    if touch.low_away > 0.0:
+        return NONE
+    row = NONE if platen == "contact" else numbering.bottom
+    nodes = np.union1d(row, touch.platen_nodes)
+    return nodes[np.argsort(mesh.points[nodes, 0], kind="stable")]
 
 
 def rest_of(mesh: Mesh, numbering: Numbering, thickness: Floats) -> Floats:

@@ -40,7 +40,8 @@ NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 class Scene:
     """A case as arrays.
 
-    x_rest (n,): coordinates at rest, m and rad. bottom, top, base, probes: as in `rows.Output`.
+    x_rest (n,): coordinates at rest, m and rad. bottom, top, base, standing, probes: as in
+    `rows.Output`.
     force_scale: a typical force, N. velocity (n,): at the start, m/s and rad/s. travel: of the
     driven coordinate of a custom structure, m. around (k, 2): elements of the copies round a
     period. solid_joint_share: of the walls that are between solid joints.
@@ -55,6 +56,7 @@ class Scene:
     base: Ints
     force_scale: float
     velocity: Floats
+    standing: Ints = field(default_factory=lambda: np.empty(0, np.int64))
     probes: Ints = field(default_factory=lambda: np.empty(0, np.int64))
     travel: float = 0.0
     around: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
@@ -229,12 +231,19 @@ def striker_of(loading: Loading) -> Striker:
     return Striker()
 
 
+def target_of(loading: Loading) -> float | None:
+    """Mass of a base that moves freely, kg; None of one that is fixed."""
+    return loading.target_mass if isinstance(loading, Impact) else None
+
+
 def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
     """Lumped mass of each coordinate, kg; the nodes sum to ``total`` in x and in y."""
     share = mesh.node_area
     masses = np.zeros(numbering.size)
     masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
     masses[numbering.high] = striker_of(loading).mass
+    if (target := target_of(loading)) is not None:
+        masses[numbering.low] = target
     return masses
 
 

@@ -31,6 +31,7 @@ from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.profiles import outlines
 from sweep.scene.sides import build_tied
 from sweep.scene.terms import Scene, striker_of
+from sweep.simulation.base import patch_width
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (
     Failure,
@@ -47,7 +48,7 @@ from sweep.simulation.failures import (
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
-from sweep.simulation.striker import rests, second_stop
+from sweep.simulation.striker import closing_speed, rests, second_stop
 from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
@@ -131,7 +132,7 @@ def _of_impact(
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
         return still_moving_down(where)
-    speed = curves["striker_speed_m_per_s"]
+    speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)
     return Status.CONVERGED, ""
@@ -199,6 +200,7 @@ class _Run:
         self.rows = np.zeros(total + 1, ROW)
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
+        self.standing = scene.standing.copy()  # sorted in place
         self._begin()
         self.struck = isinstance(case.loading, Impact)
         early = self.struck or isinstance(case.solver, Arcs)
@@ -221,7 +223,7 @@ class _Run:
         row.work, row.kinetic, row.stretch = book.work, book.kinetic, strained
         row.speed = scene.velocity[scene.terms.contact.high]
         row.height = height(scene.x_rest, scene.top, scene.base)
-        row.gap = np.nan
+        row.gap = row.patch_at = np.nan
 
     def complete(self, seconds: float) -> tuple[Status, str]:
         """March through all stages within ``seconds``; return the status and its sentence."""
@@ -305,6 +307,8 @@ class _Run:
             self.scene.base,
             self.scene.probes,
             self.probed[span],
+            self.standing,
+            patch_width(self.case),
         )
         if not self.struck:
             self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
@@ -344,6 +348,8 @@ class _Run:
         if isinstance(self.scene, PlateScene):
             for name in (*BOOK.values(), "reaction_top", "reaction_bottom"):
                 rows[name] *= self.scene.mesh.plan.copies
+        if not self.scene.standing.size:
+            rows["patch_force"] = rows["patch_at"] = np.nan
         return rows
 
     def frames(self) -> dict[str, np.ndarray]:

@@ -4,6 +4,10 @@ An accelerometer on the striker measures the force of the lattice on it / its ma
 gravity: 0 in free fall, 1 g0 at rest on the lattice. This is the G of a drop test, peak force /
 weight (ASTM D1596), and it is reported as the deceleration.
 
+A base that moves (`loading.target_mass`) has a part in the motion: stroke, stop and rebound are
+those of the striker relative to it, with the reduced mass; what striker and base have in common
+after the hit is neither absorbed nor thrown back.
+
 The striker stops at its lowest point. Its rebound ends when the lattice no longer pushes it: its
 mechanical energy, m v^2 / 2 - m g s after a descent s, is then at its greatest on the way up. Later
 a glued platen would hold it back. A run ends when the striker is back where it met the lattice, or
@@ -29,6 +33,7 @@ MEASURES = (
     "peak_deceleration_m_per_s2",
     "peak_deceleration_filtered_m_per_s2",
     "stroke_left_m",
+    "bottomed_out",
     "rebound_speed_m_per_s",
     "rebound_share",
 )
@@ -39,10 +44,18 @@ STILL = 1e-3  # of the stroke; a striker that stops moves by 1 % in the last ten
 
 
 class Rebound(NamedTuple):
-    """Speed of a striker upwards (m/s) and its mechanical energy (J), 0 at rest at first touch."""
+    """Speed of a striker away from the base (m/s), its mechanical energy relative to the base (J),
+    0 at rest at first touch, and the row; the last one without a rebound.
+    """
 
     speed: float
     energy: float
+    row: int
+
+
+def closing_speed(history: Curves) -> Floats:
+    """Speed at which the striker nears the base, (rows,) m/s."""
+    return history["striker_speed_m_per_s"] - history["target_speed_m_per_s"]
 
 
 def against_falling(loading: Impact, time: Floats, velocity: Floats) -> Floats:
@@ -53,8 +66,10 @@ def against_falling(loading: Impact, time: Floats, velocity: Floats) -> Floats:
     return velocity + loading.weight / loading.striker_mass * time
 
 
-def striker_curves(loading: Impact, time: Floats, velocity: Floats) -> dict[str, Floats]:
-    """History columns of a striker. time (rows,) s; velocity (rows,) m/s, upwards.
+def striker_curves(
+    loading: Impact, time: Floats, velocity: Floats, of_base: Floats
+) -> dict[str, Floats]:
+    """History columns of a striker. time (rows,) s; velocity, of_base (rows,) m/s, upwards.
 
     The force is the mean since the previous row: (force - weight) x time = change of momentum.
     """
@@ -63,26 +78,29 @@ def striker_curves(loading: Impact, time: Floats, velocity: Floats) -> dict[str,
     return {
         "reaction_top_N": loading.striker_mass * deceleration,
         "striker_speed_m_per_s": -velocity,
+        "target_speed_m_per_s": -of_base,
         "deceleration_m_per_s2": deceleration,
     }
 
 
-def kinetic(loading: Impact, speed: Floats | float) -> Floats | float:
-    """Kinetic energy of the striker alone, without the row glued to it, J."""
-    return 0.5 * loading.striker_mass * speed**2
+def kinetic(loading: Impact, history: Curves) -> Floats:
+    """Kinetic energy of striker and base, without the rows glued to them, (rows,) J."""
+    striker, base = history["striker_speed_m_per_s"], history["target_speed_m_per_s"]
+    return 0.5 * (loading.striker_mass * striker**2 + (loading.target_mass or 0.0) * base**2)
 
 
 def work_on_lattice(case: Case, history: Curves) -> Floats:
-    """Work done on the lattice so far, (rows,) J; in an impact, by the striker and its weight."""
+    """Work done on the lattice so far, (rows,) J; in an impact, by striker, weight and base."""
     if isinstance(case.loading, Impact):
-        return history["work_in_J"] - kinetic(case.loading, history["striker_speed_m_per_s"])
+        return history["work_in_J"] - kinetic(case.loading, history)
     return history["work_in_J"]
 
 
 def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
     """The columns `MEASURES`; NaN without a striker.
 
-    stroke_left_m: the stroke that closes all voids, minus the greatest stroke.
+    stroke_left_m: the stroke that closes all voids, minus the greatest stroke; bottomed_out:
+    whether nothing is left of it.
     """
     loading = case.loading
     if not isinstance(loading, Impact):
@@ -91,28 +109,31 @@ def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> di
     height = case.height if case.along else outer[1]
     voids = (1.0 - relative_density(scene.network, outer)) * height
     left = voids - history["top_displacement_m"].max()
-    share = max(thrown.energy, 0.0) / loading.energy
+    share = max(thrown.energy, 0.0) / loading.relative_energy
     peak = history["deceleration_m_per_s2"].max()
     time, velocity = history["time_s"], -history["striker_speed_m_per_s"]
     pushed = against_falling(loading, time, velocity)
     filtered = filtered_peak(time, pushed, loading.filter_class)
-    measured = peak, filtered, left, thrown.speed, share
+    measured = peak, filtered, left, left <= 0.0, thrown.speed, share
     return dict(zip(MEASURES, map(float, measured), strict=True))
 
 
 def rebound(loading: Impact, history: Curves) -> Rebound:
     """The rebound of a striker; one that never moves up stays where it is lowest."""
-    speed, travel = history["striker_speed_m_per_s"], history["top_displacement_m"]
-    energy = np.where(speed < 0.0, kinetic(loading, speed) - loading.weight * travel, -np.inf)
+    speed, travel = closing_speed(history), history["top_displacement_m"]
+    moving = 0.5 * loading.reduced_mass * speed**2
+    energy = np.where(speed < 0.0, moving - loading.weight * travel, -np.inf)
     row = int(energy.argmax())
     if speed[row] >= 0.0:
-        return Rebound(0.0, -loading.weight * float(travel.max()))
-    return Rebound(-float(speed[row]), float(energy[row]))
+        return Rebound(0.0, -loading.weight * float(travel.max()), len(speed) - 1)
+    return Rebound(-float(speed[row]), float(energy[row]), row)
 
 
 def brought(loading: Impact, history: Curves) -> float:
-    """Energy of the striker at first touch and work of its weight until it stops, J."""
-    return loading.energy + loading.weight * float(history["top_displacement_m"].max())
+    """Energy of the striker relative to the base at first touch, and work of its weight until it
+    stops, J.
+    """
+    return loading.relative_energy + loading.weight * float(history["top_displacement_m"].max())
 
 
 def second_stop(heights: Floats) -> int | None:

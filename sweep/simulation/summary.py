@@ -18,6 +18,7 @@ from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
+from sweep.simulation.base import base_columns, patch_width
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.iso_13314 import figures
 from sweep.simulation.packing import (
@@ -84,6 +85,7 @@ OF_THE_WHOLE_RUN = (
     *("returned_energy_J", "lost_energy_J", "lost_share", "lost_energy_J_per_g"),
     *("dissipated_energy_J", *DISSIPATED, "residual_strain", "second_cycle_share"),
     *("rebound_speed_m_per_s", "rebound_share"),
+    *("target_speed_m_per_s", "base_impulse_Ns"),
 )
 """Columns that only a run to its end has: of unloading, and of what is lost until then."""
 ROUND_OFF = 1e-9
@@ -97,7 +99,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     below = "reaction_top" if case.lattice.endless else "reaction_bottom"
     time, loading, struck = rows["time"].copy(), case.loading, {}
     if isinstance(loading, Impact):
-        struck = striker_curves(loading, time, rows["speed"])
+        struck = striker_curves(loading, time, rows["speed"], rows["base_speed"])
     return {
         "time_s": time,
         "strain": travel / (case.height or np.nan),
@@ -107,6 +109,8 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         **{column: rows[name].copy() for column, name in BOOK.items()},
         "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
         "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
+        "base_pressure_Pa": rows["patch_force"] / (patch_width(case) * case.lattice.depth),
+        "base_pressure_x_m": rows["patch_at"].copy(),
     } | struck
 
 
@@ -165,6 +169,7 @@ def summarise(
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **columns_of_cycles(cycles, history["work_in_J"], transmitted(case, history)),
         **impact_columns(case, scene, history),
+        **base_columns(case, history),
         **crush_columns(case, loading),
         **_shape_columns(case, scene, frames, strains, loading),
     }
@@ -196,7 +201,7 @@ def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
     """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
     if isinstance(case.loading, Impact):
         thrown = rebound(case.loading, history).energy
-        return thrown + brought(case.loading, history) - case.loading.energy
+        return thrown + brought(case.loading, history) - case.loading.relative_energy
     work = history["work_in_J"][cycle.released : cycle.ended + 1]
     if isinstance(case.loading, DeadLoad) or len(work) < 2:
         return np.nan

@@ -28,7 +28,7 @@ from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime
 from sweep.config.kinds.steps import impact_step
 from sweep.scene.mesh import Floats
-from sweep.simulation.striker import kinetic
+from sweep.simulation.striker import closing_speed, kinetic
 
 Curves = Mapping[str, Floats]
 LARGEST = 0.2  # share of energy or momentum that an impact may lose to its steps
@@ -44,8 +44,10 @@ def integrator_share(loading: Loading, history: Curves) -> float:
 
 
 def striker_share(history: Curves) -> float:
-    """Energy that backward Euler would take from the striker in these rows / its greatest one."""
-    speed = history["striker_speed_m_per_s"]
+    """Energy that backward Euler would take from the striker in these rows / its greatest one,
+    relative to the base.
+    """
+    speed = closing_speed(history)
     return float(np.sum(np.diff(speed) ** 2) / np.max(speed**2))
 
 
@@ -57,7 +59,7 @@ def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
     speed, force = history["striker_speed_m_per_s"], history["reaction_bottom_N"]
     brought = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed
     borne = float(np.sum(force[1:] * np.diff(history["time_s"])))
-    swing = float(history["kinetic_J"][-1] - kinetic(loading, speed[-1]))
+    swing = float((history["kinetic_J"] - kinetic(loading, history))[-1])
     kept = sqrt(2.0 * mass * max(swing, 0.0))
     given = brought + loading.weight * float(history["time_s"][-1])
     missing = abs(given - loading.striker_mass * float(speed[-1]) - borne)

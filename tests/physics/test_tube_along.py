@@ -23,7 +23,10 @@ def crushed():
     state, rows = of.at_rest(), np.zeros(STEPS, ROW)
     frames = np.zeros((STEPS, of.x_rest.size))
     none = np.zeros((STEPS, 2, 0))
-    out = Output(rows, np.arange(STEPS), frames, of.bottom, of.top, of.base, of.probes, none)
+    out = Output(
+        rows, np.arange(STEPS), frames, of.bottom, of.top, of.base, of.probes, none,
+        of.standing, 0.0,
+    )  # fmt: skip
     outcome, written = march.march(
         of.terms, tolerances(case, of, stage), stage, state, out, control
     )

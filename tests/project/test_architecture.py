@@ -102,6 +102,7 @@ TESTED_ELSEWHERE = {
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
+    "sweep.simulation.base": "sweep/simulation/test_target.py",
     "sweep.store.batch": "sweep/store/test_read.py",
     "sweep.store.tables": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",

@@ -29,11 +29,11 @@ PLACE = np.dtype(
 
 
 class Layout(NamedTuple):
-    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, the upper
-    platen as point n_nodes, and after it each rotation beside that of a node.
+    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, both
+    platens as point n_nodes, and after it each rotation beside that of a node.
 
-    leader (n,): the coordinate itself if it is free, that of the upper platen if it is tied to it,
-    -1 if held. ratio (n,): move divided by that of the leader; 1 unless the leader is driven.
+    leader (n,): the coordinate itself if it is free, that of the platen that it is tied to, -1 if
+    held. ratio (n,): move divided by that of the leader; 1 unless the leader is driven.
     images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
     with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and its place
     in the block of the point. first (n_nodes,): first coordinate of the position of each node.
@@ -152,7 +152,7 @@ def _points_of(layout, point, points, count):
 
 @jit_exact
 def _is_tied(layout, node):
-    """Return whether the platen leads a coordinate of the position of ``node``."""
+    """Return whether a platen leads a coordinate of the position of ``node``."""
     for c in range(layout.first[node], layout.first[node] + LENGTHS):
         if _point(layout, c) == layout.n_nodes:
             return True

@@ -102,6 +102,8 @@ def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosit
         raise RefusedError(key, model, f'"barrier" or "none" {WHERE}')
     if loading.quasi_static:
         raise RefusedError(key, model, f"{allowed}loading.quasi_static")
+    if isinstance(loading, Impact) and loading.target_mass is not None:
+        raise RefusedError(key, model, f"{allowed}loading.target_mass is given")
     if loading.platen == "contact":
         raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
     if loading.is_shaped:

@@ -1,8 +1,9 @@
 """Damping that stands for a loss which is not known otherwise."""
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from sweep.config.kinds.direction import WHERE
+from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.table import Given, Lag, Pairs, Rate, RefusedError, Table, chosen
 
@@ -46,5 +47,17 @@ def damping(values: Given | Pairs, loading: Loading, relaxes: bool) -> Damping:
     if loading.quasi_static or model == "none":
         return NoDamping()
     if model == "rayleigh":
-        return Rayleigh.model_validate(chosen(given, Rayleigh) | {"model": "rayleigh"})
+        return Rayleigh.model_validate(_usual(given, loading) | {"model": "rayleigh"})
     return KelvinVoigt.model_validate(chosen(given, KelvinVoigt))
+
+
+def _usual(given: Given, loading: Loading) -> dict[str, Any]:
+    """The values of Rayleigh damping; none goes with the mass where the base moves freely.
+
+    It would hold the lattice back in space, and take momentum from striker and base.
+    """
+    if not isinstance(loading, Impact) or loading.target_mass is None:
+        return chosen(given, Rayleigh)
+    if given.get("mass"):
+        raise RefusedError("damping.mass", given["mass"], "0 if loading.target_mass is given")
+    return chosen(given, Rayleigh) | {"mass": 0.0}

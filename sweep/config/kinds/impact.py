@@ -1,10 +1,11 @@
 """An impact: a striker hits the lattice; the run ends when it is back, or at `duration`."""
 
-from math import isclose, sqrt
+from math import isclose, nan, sqrt
 from typing import Any, ClassVar, Final, Literal
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
 from sweep.config.kinds.crush import PLATENS
+from sweep.config.kinds.direction import ACROSS, is_along
 from sweep.config.kinds.solver import IN_TIME
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
@@ -33,7 +34,8 @@ class Impact(Struck):
     for the share of the mass of the preset that one specimen bears. `filter_class`: of the filter
     behind which its deceleration is measured (SAE J211-1); 1000 as of a head form in drop tests
     (ASTM F1292). `gravity`: whether its weight acts after the first touch too, by default in drops:
-    with `mode` "drop", `drop_height` or `preset`.
+    with `mode` "drop", `drop_height` or `preset`. `target_mass`: of the base, a rigid body that
+    moves freely away from the hit, and falls like the striker; None: the base is fixed.
     """
 
     because: ClassVar[str] = 'loading.mode is "impact"'
@@ -50,6 +52,7 @@ class Impact(Struck):
     preset: str | None = None
     specimens: Count | None = None
     gravity: bool = False
+    target_mass: Mass | None = None
     filter_class: Literal[60, 180, 600, 1000] = 1000
     duration: Duration
     platen: Literal["contact", "glued", "sliding", "clamped"] = "glued"
@@ -59,6 +62,20 @@ class Impact(Struck):
     def weight(self) -> float:
         """The weight of the striker, N; 0 without gravity."""
         return self.striker_mass * STANDARD_GRAVITY if self.gravity else 0.0
+
+    @property
+    def reduced_mass(self) -> float:
+        """M m / (M + m) in kg, the inertia of a change of the distance of striker and base."""
+        m, target = self.striker_mass, self.target_mass
+        return m if target is None else m * target / (m + target)
+
+    @property
+    def relative_energy(self) -> float:
+        """Kinetic energy of striker and base in the frame of their centre of mass, J.
+
+        What the lattice can absorb; the rest stays in the common motion.
+        """
+        return self.energy * self.reduced_mass / self.striker_mass
 
     def greatest_speed(self, height: float) -> float:
         """Speed (m/s) at which the striker would meet the base, if nothing were in its way."""
@@ -73,6 +90,7 @@ class Impact(Struck):
             "striker_speed_m_per_s": self.striker_speed,
             "impact_energy_J": self.energy,
             "gravity": float(self.gravity),
+            "target_mass_g": 1e3 * given_or(self.target_mass, nan),
         }
 
 
@@ -82,16 +100,29 @@ def impact(given: Given, height: float, integrator: str | None) -> Impact:
         raise RefusedError("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
     if given.get("platen") == "none":
         raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
+    if "target_mass" in given:
+        _check_target(given)
     mass, drop_height = _dropped(given)
     speed, energy, fall = _at_touch(given, mass, drop_height)
     motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy, "drop_height": fall}
-    usual = {"duration": PASSAGES * height / speed, "gravity": is_drop(given)}
+    falls = is_drop(given) and "target_mass" not in given
+    usual = {"duration": PASSAGES * height / speed, "gravity": falls}
     return Impact.model_validate(usual | chosen(given, Impact) | motion | {"mode": "impact"})
 
 
 def is_drop(given: Given) -> bool:
     """Whether these values of an impact speak of a fall."""
     return given.get("mode") == DROP or "drop_height" in given or "preset" in given
+
+
+def _check_target(given: Given) -> None:
+    """Refuse what a target that moves freely does not have: gravity, and walls along the hit."""
+    free = "if loading.target_mass is given"
+    if given.get("gravity"):
+        allowed = f"false {free}, as a target that moves freely falls like the striker"
+        raise RefusedError("loading.gravity", True, allowed)
+    if is_along(given):
+        raise RefusedError("loading.direction", given["direction"], f'"{ACROSS}" {free}')
 
 
 def _dropped(given: Given) -> tuple[float, float | None]:

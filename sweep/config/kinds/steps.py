@@ -80,11 +80,11 @@ def impact_step(loading: Impact, extent: Extent) -> float:
     """The usual time step of an impact, s: a share of the time of contact.
 
     A fast striker is stopped within the height of the lattice, in which its weight speeds it up. A
-    slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever its speed;
-    for a solid block, this time is a lower bound.
+    slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever its speed,
+    with the reduced mass m; for a solid block, this time is a lower bound.
     """
     passage = extent.height / loading.greatest_speed(extent.height) / STEPS_OF_PASSAGE
-    contact = pi * sqrt(loading.striker_mass * extent.compliance) / STEPS_OF_CONTACT
+    contact = pi * sqrt(loading.reduced_mass * extent.compliance) / STEPS_OF_CONTACT
     return max(min(passage, contact), loading.duration / MAX_STEPS)
 
 

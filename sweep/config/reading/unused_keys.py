@@ -38,6 +38,7 @@ NEEDS = {
 
 ONLY_ALONG = ("lattice.layers", "lattice.symmetry", "lattice.imperfection_seed")
 IDLE_ALONG = (
+    "loading.base_patch",
     *(f"material.{key}" for key in materials.IDLE_ALONG),
     *(f"solver.{key}" for key in steps.IDLE_ALONG),
 )
@@ -82,6 +83,8 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return _why_no_memory(given)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
+    if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied):
+        return "the lattice repeats"
     if case.along and key in IDLE_ALONG:
         return f'loading.direction is "{case.loading.direction}"'
     if case_value == given[key] or _used_otherwise(key, case_value, given, case):

@@ -20,7 +20,7 @@ from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
-from sweep.ranking.requirements import limits
+from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
@@ -164,6 +164,8 @@ def _cases(
             "within": _exact(part["absorbed_energy_within_model_J"]),
             "height": _exact(part["height_m"]),
             "deceleration": _exact(part["peak_deceleration_filtered_m_per_s2"]),
+            "pressure": _exact(part["peak_base_pressure_Pa"]),
+            "accelerated": _exact(part["peak_target_acceleration_m_per_s2"]),
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
@@ -171,7 +173,7 @@ def _cases(
             "stretched": part["beyond_curve"].tolist(),
             "undrawn": unprintable(part),
             "open": part["ends_early"].tolist(),
-            "struck": _exact(part["impact_energy_J"]),
+            "struck": _exact(relative_energy(part)),
             "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),
             "unloaded": unloaded(part).tolist(),
             "bowed": other_bow(part).tolist(),
@@ -268,6 +270,7 @@ class _Stored:
         more: dict[str, Any] = {}
         if len(history) > 1:
             more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
+            more |= self._base(history, row)
             if row["loading_mode"] == "displacement":
                 more["stairs"] = self._stairs(history, row)
         if frames:
@@ -293,6 +296,15 @@ class _Stored:
         columns = [place, *(history[name] for name in ("work_in_J", *parts))]
         values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
         return {"label": label, "parts": list(parts.values()), "values": values}
+
+    def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
+        """Greatest pressure (kPa) on a patch of the base over the path, where there is one."""
+        pressure = in_unit(history["base_pressure_Pa"], "kPa")
+        if not pressure.max() > 0.0:
+            return {}
+        place, label = path_of(history, row)
+        values = thin_curves([place, pressure], self.points // 3)
+        return {"base": {"label": label, "values": [numbers(column) for column in values]}}
 
     def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Force (N) and work (J) of `force_stairs` while the platen comes down."""

@@ -406,6 +406,11 @@ function requiredColumns() {
   const limits = askedOf(data, asked);
   const found = [];
   if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && inUnits(row.design.deceleration, "g0")]);
+  for (const [name, head, value] of [["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]])
+    if (name in limits) {
+      const { shown } = data.measures[name];
+      found.push([`${head} ${shown}`, (row) => row.design[value] && inUnits(row.design[value], shown)]);
+    }
   const limited = crushed() && (asked.force !== null || "max_force" in limits);
   if ((limited || "max_stroke" in limits) && now.placed.some((row) => row.stroke !== null))
     found.push(["stroke mm", (row) => row.stroke && inUnits(row.stroke, "mm")]);
@@ -670,6 +675,7 @@ function showOne() {
   $("one-words").textContent = said.filter(Boolean).join(" ");
   showStage(design);
   showBook(design);
+  showBase(design);
   const drawn = data.drawings[design.drawing];
   $("download").hidden = !drawn;
   if (drawn) {
@@ -743,6 +749,20 @@ function showBook(design) {
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
     element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),
   );
+}
+
+// The greatest pressure on a patch of the base.
+function showBase({ base }) {
+  $("base").replaceChildren();
+  if (!base) return;
+  const [place, pressure] = base.values;
+  const plot = chart($("base"), {
+    x: { range: [place[0], place[place.length - 1]], label: base.label },
+    y: { range: extent([pressure]), label: "pressure on a patch of the base, kPa" },
+    height: 240,
+    label: "pressure on the base over the path",
+  });
+  line(plot, place, pressure, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
 }
 
 function partColor(name) {

@@ -68,6 +68,8 @@ function required(data, row, question) {
   const of = {
     max_force: crushed ? row.passed : design.peak,
     max_deceleration: design.deceleration,
+    max_base_pressure: design.pressure,
+    max_target_acceleration: design.accelerated,
     max_mass: row.mass / data.factors.g / count,
     min_absorbed: row.energy === null ? null : row.energy / count,
     max_stroke: row.stroke,

@@ -33,8 +33,15 @@ NOT_APPLIED = {
 }
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
+    "base kPa": "base: greatest pressure on a patch of the base (loading.base_patch).",
+    "target g0": "target: greatest acceleration of the base, which moves freely.",
     "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }
+FELT = {
+    "base kPa": ("max_base_pressure", "peak_base_pressure_Pa"),
+    "target g0": ("max_target_acceleration", "peak_target_acceleration_m_per_s2"),
+}
+"""Columns of what the base feels: the requirement and the column of results that show them."""
 WIDTH = 100  # letters in a line
 DISTRUST = "marked {}: do not trust it"
 
@@ -198,6 +205,9 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     struck = rows["striker_mass_g"].notna().any()
     if struck and ("max_deceleration" in ranking.required or DECELERATION in {*rows["ranked_by"]}):
         columns["decel. g0"] = numerals(in_unit(rows[DECELERATION], "g0"))
+    for head, (name, column) in FELT.items():
+        if struck and (name in ranking.required or column in {*rows["ranked_by"]}):
+            columns[head] = numerals(in_unit(rows[column], MEASURES[name].shown))
     crushed = rows["loading_mode"].iloc[0] == "displacement"
     limited = crushed and (ranking.limited or "max_force" in ranking.required)
     shown = limited or required_of(ranking, rows, "max_stroke")

@@ -41,6 +41,7 @@ class Scene:
     base: Indices
     force_scale: float
     velocity: Floats
+    standing: Indices = field(default_factory=lambda: NONE)
     probes: Indices = field(default_factory=lambda: NONE)
     travel: float = 0.0
     solid_joint_share: float = np.nan

@@ -18,6 +18,7 @@ from tests.support.kernels.states import (
     loaded,
     shaken,
     step_to,
+    struck,
     unit,
 )
 from tests.support.kernels.terms import (
@@ -96,6 +97,14 @@ def test_derivatives_under_a_driven_platen(platen, elements, state):
 )
 def test_derivatives_in_other_units(size, material, state):
     scene = loaded(size=size, material=material, damping=VISCOUS)
+    x = STATES[state](scene)
+    assert error(scene, x, step_to(scene, x, 0)) < 1e-9
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("platen", ["glued", "contact"])
+def test_derivatives_between_striker_and_target(platen, state):
+    scene = struck(platen)
     x = STATES[state](scene)
     assert error(scene, x, step_to(scene, x, 0)) < 1e-9
 

@@ -129,7 +129,7 @@ def is_sound(result):
     gaps = [name for name, column in result.history.items() if not np.all(np.isfinite(column))]
     return (
         (result.status, result.message) == ("converged", "")
-        and set(gaps) <= {"min_gap_m"}
+        and set(gaps) <= {"min_gap_m", "base_pressure_Pa", "base_pressure_x_m"}
         and np.all(np.isfinite(result.frames["position_m"]))
         and result.summary["max_crossings"] == 0
     )

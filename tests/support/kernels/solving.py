@@ -233,7 +233,7 @@ def go_on(case, scene, state, stage, control=RUN, **tolerance):
     out = Output(
         np.zeros(stage.steps, ROW), np.full(stage.steps, -1),
         np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
-        scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
+        scene.probes, np.zeros((stage.steps, 2, scene.probes.size)), scene.standing, 5e-3,
     )  # fmt: skip
     allowed = tolerances(case, scene, stage)._replace(**tolerance)
     outcome, written = march.march(scene.terms, allowed, stage, state, out, control)
@@ -242,5 +242,5 @@ def go_on(case, scene, state, stage, control=RUN, **tolerance):
 
 def floating(case):
     """The scene of a case without its supports: only the platens are held."""
-    with patch("sweep.scene.lattice.held", lambda layout, _: np.array([layout.low, layout.high])):
+    with patch("sweep.scene.lattice.held", lambda layout, *_: np.array([layout.low, layout.high])):
         return build_scene(case)

@@ -45,6 +45,19 @@ def driven(platen, elements=3):
     )
 
 
+def struck(platen):
+    """The same grid between a striker and a base that moves freely."""
+    return build_scene(
+        Case.of(
+            lattice=dict(cells_x=2, cells_y=2, nodes_per_wall=2),
+            loading=dict(striker_mass=0.05, target_mass=0.2, platen=platen),
+            material=CURVE,
+            contact=GRIP,
+            solver=dict(joints="points"),
+        )
+    )
+
+
 def unit(scene):
     """Size of a coordinate (n,): the length of an element, 1 rad."""
     size = np.full(scene.x_rest.size, scene.mesh.rest_length.mean())
@@ -115,5 +128,7 @@ SCENES = {
     "loose and glued, 1": lambda: loaded(1, "glued"),
     "driven and glued": lambda: driven("glued"),
     "driven and loose": lambda: driven("contact"),
+    "free base, glued": lambda: struck("glued"),
+    "free base, loose": lambda: struck("contact"),
     "driven and loose, 6": lambda: driven("contact", 6),
 }

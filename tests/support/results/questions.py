@@ -19,6 +19,7 @@ BORDER = (*FAR, *(1.0 + k * 1e-9 for k in (-3, -1.0001, -0.999, 0, 0.999, 1.0001
 """Limits are values of designs times one of these: `ROUND_OFF` is 1e-9. What the page reads from
 curves has fewer digits, and is never at the border.
 """
+FELT = ("max_base_pressure", "max_target_acceleration")  # drawn apart from the others
 SO_FAR = 9  # rows of the curve of a case that stopped
 OTHERS = (
     {"platen": "contact"},
@@ -49,6 +50,7 @@ def random_sweep(rng, other, count=16):
     """
     rows, factors = [], []
     masses, energies = rng.uniform(0.5, 4.0, 5), np.round(rng.uniform(0.01, 0.3, 5), 3)
+    target = float(rng.spawn(1)[0].choice([np.nan, 200.0]))
     for scene in ({}, other):
         for _ in range(count):
             factor = float(rng.choice([1.0, rng.uniform(0.5, 1.5)]))
@@ -57,6 +59,7 @@ def random_sweep(rng, other, count=16):
             factors.append(factor)
             if scene.get("loading_mode") == "impact":
                 rows[-1]["impact_energy_J"] = 0.056
+                rows[-1]["target_mass_g"] = target
     table = summary(*rows)
     for kind in ("error", "correction") if rng.random() < 0.7 else ():
         for name in BARS:
@@ -71,6 +74,7 @@ def _row(rng, mass, energy, factor):
     def near(value):
         return float(value * (1.0 + rng.choice([0.0, 0.0, 1e-10, -1e-10, 5e-10, 3e-9])))
 
+    (apart,) = rng.spawn(1)
     whole = float(curve(factor)["work_in_J"].max())
     row = {
         "mass_g": round(mass, 9) + float(rng.choice([0.0, 5e-10, 1e-10, 0.3])),
@@ -86,6 +90,8 @@ def _row(rng, mass, energy, factor):
         "packing_strain": float(rng.choice([0.3, 0.4, np.nan])),
         "densification_strain": float(rng.choice([0.5, np.nan])),
         "peak_deceleration_filtered_m_per_s2": float(rng.choice([300.0, near(500.0), np.nan])),
+        "peak_base_pressure_Pa": float(apart.choice([2e5, 3e5, np.nan])),
+        "peak_target_acceleration_m_per_s2": float(apart.choice([200.0, 400.0, np.nan])),
         "stroke_left_m": float(rng.choice([1e-3, 0.0, -1e-10, -1e-8])),
         "returned_energy_J": 0.9 * energy,
         "max_crossings": int(rng.random() < 0.1),
@@ -131,11 +137,13 @@ def random_question(rng, table):
     force = None if force is None else force * (count if per == "panel" else 1.0)
     modes = {*table["loading_mode"]}
     known = [name for name, measure in MEASURES.items() if modes.intersection(measure.asked_of)]
-    names = [name for name in known if rng.random() < 0.25]
+    (apart,) = rng.spawn(1)
+    draws = {name: apart if name in FELT else rng for name in known}
+    names = [name for name in known if draws[name].random() < 0.25]
     shared = count if per == "panel" else 1.0
     steps = FAR if read_from_curves({"force": force, "per": per}) else BORDER
     require = {
-        name: _limit(rng, table, name, steps) * (shared if MEASURES[name].shared else 1.0)
+        name: _limit(draws[name], table, name, steps) * (shared if MEASURES[name].shared else 1.0)
         for name in names
     }
     budget = _limit(rng, table, "max_mass") * count if rng.random() < 0.6 else None
@@ -148,6 +156,8 @@ def _limit(rng, table, name, steps=BORDER):
     values = {
         "max_force": table["peak_force_N"],
         "max_deceleration": table["peak_deceleration_filtered_m_per_s2"],
+        "max_base_pressure": table["peak_base_pressure_Pa"],
+        "max_target_acceleration": table["peak_target_acceleration_m_per_s2"],
         "max_mass": 1e-3 * table["mass_g"],
         "min_absorbed": table["absorbed_energy_J"],
         "max_stroke": strokes,

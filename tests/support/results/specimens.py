@@ -35,6 +35,7 @@ _DEFAULTS = {
     "base": "flat",
     "force_N": float("nan"),
     "stroke_m": 6.1e-3,
+    "target_mass_g": float("nan"),
     "contact_model": "barrier",
     "mass_g": 1.0,
     "absorbed_energy_J": 0.05,

@@ -29,7 +29,7 @@ def check_kept(result):
     assert set(HISTORY_COLUMNS) <= set(result.history)
     assert {len(column) for column in result.history.values()} == {rows}
     for name, column in result.history.items():
-        assert name == "min_gap_m" or np.all(np.isfinite(column))
+        assert name in ("min_gap_m", "base_pressure_x_m") or np.all(np.isfinite(column))
     assert np.all(np.isfinite(result.frames["position_m"]))
     assert result.summary["status"] == result.status
     assert result.summary["message"] == result.message

@@ -102,6 +102,7 @@ def half_wave(rows, share=1.0):
     return {
         "time_s": time,
         "striker_speed_m_per_s": speed,
+        "target_speed_m_per_s": 0.0 * speed,
         "reaction_bottom_N": share * 0.1 * np.pi * np.sin(np.pi * time),
         "work_in_J": np.full(rows, 0.1),
         "kinetic_J": 0.025 * speed**2,

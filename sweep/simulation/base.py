@@ -1,0 +1,47 @@
+"""What the base feels: pressure on a patch, impulse, and its own motion where it moves freely."""
+
+from collections.abc import Mapping
+from math import nan
+
+import numpy as np
+
+from sweep.config.case import Case
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.of_file import OfFile
+from sweep.scene.mesh import Floats
+from sweep.simulation.striker import rebound
+
+OF_A_HIT = ("base_impulse_Ns", "target_speed_m_per_s", "peak_target_acceleration_m_per_s2")
+
+
+def patch_width(case: Case) -> float:
+    """Width (m) of the patch of the base that is pressed most; at most that of the lattice."""
+    loading = case.loading
+    return nan if isinstance(loading, OfFile) else min(loading.base_patch, case.footprint[0])
+
+
+def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
+    """The columns of the base: greatest pressure and its place, impulse, motion of the target."""
+    loading, pressure = case.loading, history["base_pressure_Pa"]
+    row = 0 if np.isnan(pressure).any() else int(pressure.argmax())
+    columns = {
+        "peak_base_pressure_Pa": float(pressure[row]),
+        "peak_base_pressure_x_m": float(history["base_pressure_x_m"][row]),
+        "indentation_m": float(history["top_displacement_m"].max()),
+    } | dict.fromkeys(OF_A_HIT, nan)
+    return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
+
+
+def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:
+    """Impulse on the base until the rebound of the striker; speed of the target then, and its
+    greatest acceleration, force / mass, NaN if the base is fixed.
+    """
+    force, row = history["reaction_bottom_N"], rebound(loading, history).row
+    impulse = np.sum(force[1 : row + 1] * np.diff(history["time_s"][: row + 1]))
+    columns = {"base_impulse_Ns": float(impulse)}
+    if loading.target_mass is None:
+        return columns
+    return columns | {
+        "target_speed_m_per_s": float(history["target_speed_m_per_s"][row]),
+        "peak_target_acceleration_m_per_s2": float(force.max()) / loading.target_mass,
+    }

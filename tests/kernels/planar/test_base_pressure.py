@@ -1,0 +1,80 @@
+"""Forces on the base by node, and the greatest of them on a patch."""
+
+import numpy as np
+import pytest
+
+from kernels.planar.base_pressure import force_on_base, greatest_on_patch, sort_along
+from tests.support.designs.scenes import run
+from tests.support.kernels.solving import whole
+from tests.support.kernels.states import SCENES, bent, struck
+from tests.sweep.simulation.test_target import hit
+
+BASES = ["free top", "loose platen", "loose and glued", "free base, glued", "free base, loose"]
+
+
+def forces(name):
+    """Step, state, its gradient, nodes that may press on the base, and their forces (N)."""
+    scene = SCENES[name]()
+    x = bent(scene)
+    args = whole(scene, x)
+    _, found = args.found(x)
+    nodes = scene.standing
+    pressing = [force_on_base(args.problem, x, found, p) for p in nodes]
+    return scene, args, x, found, nodes, np.array(pressing)
+
+
+@pytest.mark.parametrize("name", BASES)
+def test_the_forces_of_nodes_sum_to_that_on_the_base(name):
+    scene, _, _, found, _, pressing = forces(name)
+    low = scene.terms.contact.low
+    total = sum(found.elastic[c] if c == low else found.g[c] for c in scene.bottom)
+    assert np.count_nonzero(pressing) > 1
+    assert pressing.sum() == pytest.approx(total, rel=1e-12)
+
+
+@pytest.mark.parametrize("width", [1e-4, 2e-3, 5e-3, 1.0])
+@pytest.mark.parametrize("name", BASES)
+def test_no_window_has_more_force(name, width):
+    """Among all windows that begin or end at a node, or a little before it or after it."""
+    _, args, x, found, nodes, pressing = forces(name)
+    place = x[2 * nodes]
+    starts = np.concatenate([place, place - width])
+    starts = np.concatenate([starts - 1e-9, starts, starts + 1e-9])
+    within = (starts[:, None] <= place) & (place <= starts[:, None] + width)
+    sums = within @ pressing
+    greatest, at = greatest_on_patch(args.problem, x, found, nodes.copy(), width)
+    assert greatest == pytest.approx(sums.max(), rel=1e-9)
+    assert greatest > 0.0
+    centres = within[np.isclose(sums, greatest, rtol=1e-9)] @ (pressing * place) / greatest
+    assert np.abs(centres - at).min() < 1e-12
+
+
+def test_nodes_are_sorted_by_their_place():
+    x = np.random.default_rng(0).uniform(size=20)
+    nodes = np.arange(10)
+    sort_along(x, nodes)
+    np.testing.assert_array_equal(nodes, np.argsort(x[::2]))
+
+
+@pytest.mark.parametrize("target", [None, 0.2])
+def test_a_patch_as_wide_as_the_lattice_bears_all(target):
+    """Of loose walls, which do not pull, in every row of a run."""
+    case = hit("contact", target)
+    history = run(case.changed(loading={"base_patch": 1.0})).history
+    width, depth = case.footprint
+    force = width * depth * history["base_pressure_Pa"]
+    np.testing.assert_allclose(force, history["reaction_bottom_N"], rtol=1e-9, atol=1e-12)
+    narrow = run(case).summary["peak_base_pressure_Pa"]
+    assert narrow > 1.2 * history["base_pressure_Pa"].max()
+    assert narrow < width / case.loading.base_patch * history["base_pressure_Pa"].max()
+
+
+def test_a_base_that_moves_is_borne_by_its_inertia():
+    """The row that is glued to it follows it in y; what has no weight in y has no leader."""
+    scene = struck("glued")
+    layout, low = scene.terms.layout, scene.terms.contact.low
+    bottom = np.flatnonzero(layout.leader == low)
+    assert scene.terms.coordinates.mass[low] == 0.2
+    assert set(bottom) == set(scene.bottom)
+    assert layout.point[low] == layout.point[low + 1]
+    assert layout.slot[low] != layout.slot[low + 1]
