@@ -67,6 +67,8 @@ TWICE = """\
 is a range too (columns lowest_..., highest_...). =: a tie: the ranges of designs meet."""
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
+OPEN = """\
+The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""

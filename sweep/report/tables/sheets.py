@@ -16,6 +16,7 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
     EARLY,
+    OPEN,
     PRINTED,
     TWICE,
     UNSURE,
@@ -103,7 +104,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
                 *mark_notes(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
                 *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
-                *((EARLY,) if ranking.limited and rows["ends_early"].any() else ()),
+                *(_early(placed) if ranking.limited else ()),
                 *narrow_note(ranking.narrow[scene]),
                 *_cut_off(rows),
                 *_not_shown(placed),
@@ -114,6 +115,14 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             spare=_spare(columns, rows, ranking),
             elsewhere="crumple rank with --csv",
         )
+
+
+def _early(placed: DataFrame) -> Iterator[str]:
+    """What it means that crushes ended before the allowed force was reached."""
+    if placed["ends_early"].any():
+        yield EARLY
+    if (placed["ends_early"] & (placed["place"] > 1)).any():
+        yield OPEN
 
 
 def _spare(columns: Iterable[str], rows: DataFrame, ranking: Ranking) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from sweep.report.tables.legend import (
     COARSE,
     CROSSED,
     EARLY,
+    OPEN,
     SECOND,
     STRETCHED,
     UNSURE,
@@ -44,6 +45,16 @@ def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
     assert EARLY in sheet.notes
     (sheet,) = ranking_sheets(ranked(table), table)
     assert not any(text.startswith(">") for row in sheet.rows for text in row[:energy])
+
+
+@pytest.mark.parametrize(("energy", "is_open"), [(0.1, True), (0.3, False)])
+def test_a_first_place_is_open_if_a_longer_crush_may_change_it(energy, is_open):
+    given = {"loading.allowed_forces": 50.0, "mass_g": 1.0}
+    ended = SPARSE | given | {"absorbed_energy_at_50N_J": energy}
+    table = summary(CRUSHED_SOLID | given | {"absorbed_energy_at_50N_J": 0.2}, ended)
+    (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
+    assert EARLY in sheet.notes
+    assert (OPEN in sheet.notes) == is_open
 
 
 def test_walls_that_pass_through_one_another_are_marked():
