@@ -23,7 +23,7 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
+        "armor", "bumper", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
         "khatri_egan_square_out_of_plane", "panel", "reuse", "seed", "search", "slicer", "smoke",
         "thousand", "which_way", "which_way_lost",
     }  # fmt: skip
@@ -112,6 +112,16 @@ def test_panel_holds_its_numbers():
     summary = simulate(winner).summary
     assert summary["status"] == "converged"
     assert summary["absorbed_energy_until_packed_J"] == pytest.approx(41.233, rel=1e-3)
+
+
+def test_bumper_holds_its_numbers():
+    """Squares of 17 x 3 cells are rammed by a flat robot of 1 lb, as heavy as their own."""
+    case = expand(load_config(CONFIGS / "bumper.toml"))[0]
+    assert (case.lattice.cells_x, case.lattice.cells_y) == (17, 3)
+    summary = simulate(case).summary
+    assert summary["status"] == "converged"
+    assert summary["peak_force_N"] == pytest.approx(5869.8, rel=1e-3)
+    assert summary["target_speed_m_per_s"] == pytest.approx(3.3195, rel=1e-3)
 
 
 def test_reuse_holds_its_numbers():

@@ -62,7 +62,7 @@ def pattern_bars(
 def _draw(ax: Axes, shapes: Sequence[Mapping[str, Any]]) -> None:
     """Draw the shapes at rest left of their bars, and move the names out of their way."""
     rests = [in_unit(np.asarray(frames["position_m"][0], float), "mm") for frames in shapes]
-    aspects = [float(np.divide(*np.ptp(rest, axis=0))) for rest in rests]
+    aspects = [float(np.divide(*np.ptp(rest, axis=0)[:2])) for rest in rests]
     drawn = DRAWN * min(WIDEST, max(1.0, *aspects))
     ax.tick_params(axis="y", length=0.0, pad=72.0 * drawn + PAD)
     for place, (frames, rest, aspect) in enumerate(zip(shapes, rests, aspects, strict=True)):

@@ -184,9 +184,9 @@ def audit(case):
 
 
 def _numbers(result, case):
-    blank = ("min_gap_m",)
+    blank = ("min_gap_m", "base_pressure_x_m")
     if isinstance(case.lattice, CustomStructure):
-        blank += (*WITHOUT_PLATENS, "reaction_bottom_N")
+        blank += (*WITHOUT_PLATENS, "reaction_bottom_N", "base_pressure_Pa")
     for name, column in result.history.items():
         if name not in blank and not np.all(np.isfinite(column)):
             yield f"{name} is not finite"

@@ -2,7 +2,9 @@
 
 import os
 import time
+from contextlib import ExitStack
 from pathlib import Path
+from unittest.mock import patch
 
 import h5py
 import numpy as np
@@ -10,6 +12,8 @@ import numpy as np
 from sweep.columns import COLUMNS, HISTORY_COLUMNS, absorbed_energy_column
 from sweep.config.case import Case
 from sweep.result import Result, Status, design_columns
+from sweep.store.checksum import checked_columns, row_checksums
+from sweep.store.read import open_sealed
 from sweep.store.write import Writer
 
 NODES = 5
@@ -84,8 +88,19 @@ def write_older(path, batch):
 
 def make_older(path):
     """Make the rows of a results file those of the first version of the model."""
+    forge(path, "summary/model_version", lambda versions: versions.__setitem__(slice(None), 1))
+
+
+def forge(path, name, change):
+    """Change an array of a file, and the checksums of its rows to fit."""
     with h5py.File(path, "r+") as file:
-        file["summary/model_version"][:] = 1
+        change(file[name])
+    with ExitStack() as stack, patch("sweep.store.batch.Ragged.is_whole", lambda *_: True):
+        block = open_sealed(path, stack)
+        ranges = {name: (group.start, group.rows) for name, group in block.ragged.items()}
+        sums = row_checksums(checked_columns(block.summary, ranges))
+    with h5py.File(path, "r+") as file:
+        file["checksums"][:] = sums
 
 
 def parts_of(path):

@@ -159,7 +159,7 @@ def test_ranking_counts_failures_aloud(capsys, file):
 def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     config = {"rank": {"budgets": [0.5], "panel": [0.1, 0.05]}}
     file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
-    heading = "Panel of 100 mm x 50 mm, filled with specimens side by side. At most {} g. Best"
+    heading = "Panel of 100 mm x 50 mm, tiled with separate specimens. At most {} g. Best"
     assert heading.format(500) in crumple(capsys, "rank", file)[1]
     assert heading.format(200) in crumple(capsys, "rank", file, "--budget", "200 g")[1]
     other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
@@ -188,7 +188,7 @@ def test_requirements_of_the_config_hold_unless_an_option_replaces_or_drops_them
     assert "All designs (1) fulfil this." in out
     assert "Required" not in crumple(capsys, "rank", file, "--max-force", "none")[1]
     _, out, _ = crumple(capsys, "rank", file, "--per", "specimen", "--max-force", "20 N")
-    assert "of the part: force at most 20 N." in out
+    assert "of a specimen: force at most 20 N." in out
 
 
 def test_force_of_a_panel_is_allowed_by_curves(capsys, tmp_path):

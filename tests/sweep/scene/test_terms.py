@@ -44,7 +44,7 @@ def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
     assert layout.n_nodes == n
     places = zip(layout.point, layout.slot, strict=True)
     pairs = [(p, s) for p in range(n) for s in (0, 1)] + [(p, 2) for p in range(n)]
-    assert list(places) == [*pairs, (n, 0), (n, 0)]
+    assert list(places) == [*pairs, (n, 1), (n, 0)]  # the platens are one block, the upper first
     np.testing.assert_array_equal(layout.first, np.flatnonzero(layout.slot == 0)[:n])
     assert layout.driven == scene.terms.coordinates.driven
     held = scene.terms.coordinates.role == HELD

@@ -46,13 +46,12 @@ def test_time_limit():
     assert 1 < check_kept(result) < 2001
 
 
-@pytest.mark.parametrize("iterations", [1, 2])
-def test_limit_of_iterations(iterations):
+def test_limit_of_iterations():
     """A static step that fails is halved, and may take twice as many, up to sixteen times."""
-    result = simulate(pressed(3, 0.6, 20, friction=0.3, solver={"max_iterations": iterations}))
+    result = simulate(pressed(3, 0.6, 20, friction=0.3, solver={"max_iterations": 2}))
     assert result.status == Status.STOPPED
     assert "while loading, at strain" in result.message
-    assert f"within {16 * iterations} Newton iterations; try" in result.message
+    assert "within 32 Newton iterations; try" in result.message
     assert 1 <= check_kept(result) < 21
 
 

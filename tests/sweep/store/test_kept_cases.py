@@ -1,8 +1,5 @@
 """The case of every row: kept in parts and in the folded file, read only when it is asked for."""
 
-from contextlib import ExitStack
-from unittest.mock import patch
-
 import h5py
 import numpy as np
 import pytest
@@ -12,12 +9,11 @@ from sweep.config.load import load_config
 from sweep.result import Status, failed_result
 from sweep.store import parts
 from sweep.store.batch import FORMAT
-from sweep.store.checksum import checked_columns, row_checksums
-from sweep.store.read import StoreError, open_sealed, read_case, read_runs, read_summary
+from sweep.store.read import StoreError, read_case, read_runs, read_summary
 from sweep.store.write import Writer
 from tests.support.results.specimens import summary
 from tests.support.results.specimens import write as write_made_up
-from tests.support.results.standin import cases, parts_of, write
+from tests.support.results.standin import cases, forge, parts_of, write
 
 
 @pytest.fixture
@@ -101,18 +97,6 @@ def test_text_that_is_no_case_is_refused_by_name(path):
         read_case(path, "ab")
     with pytest.raises(StoreError, match="holds no case zz"):
         read_case(path, "zz")
-
-
-def forge(path, name, change):
-    """Change an array of a file, and the checksums of its rows to fit."""
-    with h5py.File(path, "r+") as file:
-        change(file[name])
-    with ExitStack() as stack, patch("sweep.store.batch.Ragged.is_whole", lambda *_: True):
-        block = open_sealed(path, stack)
-        ranges = {name: (group.start, group.rows) for name, group in block.ragged.items()}
-        sums = row_checksums(checked_columns(block.summary, ranges))
-    with h5py.File(path, "r+") as file:
-        file["checksums"][:] = sums
 
 
 def test_forged_stretches_beyond_their_arrays_are_damage(path):
