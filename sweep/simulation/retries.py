@@ -69,10 +69,15 @@ def _reach(result: Result) -> tuple[bool, bool]:
 
 
 def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:
-    """The result as that of ``case``, with all processor time (s) and what was tried in vain."""
+    """The result as that of ``case``, with all processor time (s).
+
+    Its message says what was tried without success, in place of advice to try that.
+    """
     message = best.message
     if tried and best.status is not Status.CONVERGED:
-        message = f"{message} (tried in vain: {'; '.join(tried)})"
+        what, _, advice = message.partition("; try ")
+        repeats = any(words.split(" = ")[0] in advice for words in tried)
+        message = f"{what if repeats else message} (tried without success: {'; '.join(tried)})"
     own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
     return replace(best, case=case, message=message, summary={**best.summary, **own})
 

@@ -53,7 +53,7 @@ STOPPED = {
     "status": "stopped",
     "loaded": 0,
     "message": "stopped while loading, at strain 0.2 after 80 steps: the solution diverged; try "
-    "smaller steps or a smaller load (tried in vain: solver.load_steps = 800)",
+    "smaller steps or a smaller load (tried without success: solver.load_steps = 800)",
 }
 RANKINGS = {
     "force that no impact meets": required(IMPACTS, {}, max_force="60 N"),

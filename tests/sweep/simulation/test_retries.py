@@ -22,7 +22,7 @@ WHY = "stopped here: try more"
 limits = []  # the seconds that each simulation may take
 
 
-def answers(monkeypatch, *outcomes, curable=True):
+def answers(monkeypatch, *outcomes, curable=True, why=WHY):
     """Let `simulate` end in these ways, one after another; return the cases that it is given."""
     asked, left = [], list(outcomes)
 
@@ -30,7 +30,7 @@ def answers(monkeypatch, *outcomes, curable=True):
         asked.append(case)
         limits.append(seconds)
         status, loaded = left.pop(0)
-        message = "" if status is Status.CONVERGED else WHY
+        message = "" if status is Status.CONVERGED else why
         made = failed_result(case, status, message)
         summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
         return replace(made, summary=summary, curable=curable and status is not Status.CONVERGED)
@@ -72,15 +72,25 @@ def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch):
     answers(monkeypatch, *[STOPS] * 3)
     result = simulate_again(CRUSH)
     tried = "solver.load_steps = 800; lattice.imperfection = 0.015"
-    assert result.message == result.summary["message"] == f"{WHY} (tried in vain: {tried})"
+    assert result.message == result.summary["message"] == f"{WHY} (tried without success: {tried})"
     assert result.summary["retry"] == ""
+
+
+@pytest.mark.parametrize(
+    ("advice", "kept"),
+    [("; try more solver.load_steps", ""), ("; try a larger solver.max_iterations", None)],
+)
+def test_advice_that_was_followed_is_not_given(monkeypatch, advice, kept):
+    answers(monkeypatch, *[STOPS] * 3, why=f"stopped here{advice}")
+    message = simulate_again(CRUSH).message
+    assert message.startswith(f"stopped here{advice if kept is None else kept} (tried without")
 
 
 def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch):
     answers(monkeypatch, STOPS, LOADS, STOPS)
     result = simulate_again(CRUSH)
     assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 800")
-    assert "tried in vain" in result.message
+    assert "tried without success" in result.message
 
 
 @pytest.mark.parametrize(
@@ -115,7 +125,7 @@ def test_all_together_keep_the_time_limit(monkeypatch):
     limited = CRUSH.changed(solver={"time_limit": 60.0})
     result = simulate_again(limited)
     assert limits == [60.0, 20.0]
-    assert result.message.endswith("(tried in vain: solver.load_steps = 800)")
+    assert result.message.endswith("(tried without success: solver.load_steps = 800)")
 
 
 def test_the_switch_is_no_part_of_the_id():
