@@ -208,6 +208,11 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             if len(rows)
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
+        lost={
+            scene_label(part): len(part)
+            for part in by_scene(whole)
+            if len(part) and loaded(part).empty
+        },
         per=per,
         required=required,
         outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},

@@ -39,6 +39,7 @@ class Ranking:
     versions : number of loaded cases of each version of the model, the oldest first.
     budgets_g : the budgets (g), each once.
     lightest_g : the least mass (g) of each scene. lightest : the row of that design.
+    lost : number of cases of each scene in which no case completed its loading.
     narrow : patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
     per : what the allowed force and the requirements are of, "specimen" or "panel".
     required : the limit (SI) of each requirement.
@@ -63,6 +64,7 @@ class Ranking:
     budgets_g: tuple[float, ...]
     lightest_g: Mapping[str, float]
     lightest: Mapping[str, DataFrame]
+    lost: Mapping[str, int] = field(default_factory=dict)
     narrow: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     per: str = "specimen"
     required: Mapping[str, float] = field(default_factory=dict)

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
+LOST = "No design is ranked here: all cases failed ({})."
 LONG_SPAN = 0.1  # of strain
 NO_TEXT = Series(dtype=str)
 
@@ -115,6 +116,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             spare=_spare(columns, rows, ranking),
             elsewhere="crumple rank with --csv",
         )
+    for scene, count in ranking.lost.items():
+        yield Sheet(scene, [], [], notes=(LOST.format(count),))
 
 
 def _early(placed: DataFrame) -> Iterator[str]:

@@ -74,7 +74,8 @@ def test_nothing_finished_is_an_empty_ranking():
     ranking = ranked(summary({"status": "stopped"}))
     assert ranking.table.empty
     assert {"place", "scene", "pareto", "budget_g"} <= set(ranking.table)
-    assert list(ranking_sheets(ranking, summary({"status": "stopped"}))) == []
+    (sheet,) = ranking_sheets(ranking, summary({"status": "stopped"}))
+    assert (sheet.rows, sheet.notes) == ([], ("No design is ranked here: all cases failed (1).",))
 
 
 GENTLE = ["peak_force_N", "peak_deceleration_m_per_s2", "rebound_share", "rebound_speed_m_per_s"]

@@ -57,6 +57,15 @@ def test_a_first_place_is_open_if_a_longer_crush_may_change_it(energy, is_open):
     assert (OPEN in sheet.notes) == is_open
 
 
+def test_a_scene_in_which_all_cases_failed_is_named():
+    stopped = {"status": "stopped", "loaded": 0, "platen": "contact"}
+    table = summary(CRUSHED_SOLID, stopped, stopped)
+    first, lost = ranking_sheets(ranked(table), table)
+    assert (len(first.rows), lost.rows) == (1, [])
+    assert "contact platens" in lost.title
+    assert lost.notes == ("No design is ranked here: all cases failed (2).",)
+
+
 def test_walls_that_pass_through_one_another_are_marked():
     table = summary(CRUSHED_SOLID, SPARSE | {"contact_model": "none", "max_crossings": 3})
     ranking = ranked(table, by="absorbed_energy_J")
