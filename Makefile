@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures \
+.PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures rammed \
         bars spread effort search sides memory stability plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
@@ -71,6 +71,11 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 
 mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4 min)
 	@$(PYTHON) -m tests.studies.mesh results/mesh
+
+rammed: setup  ## ram a panel with three fronts; the table of README.md and its picture (10 min)
+	@$(PYTHON) -m sweep run configs/rammed.toml | tee results/rammed.txt
+	@$(PYTHON) -m sweep show results/rammed.h5 8445 --out results/rammed
+	@cp results/rammed/shapes.png docs/pictures/rammed.png
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
 	@$(PYTHON) -m tests.studies.rankings.bars results/bars

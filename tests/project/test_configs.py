@@ -23,9 +23,9 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "bumper", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
-        "khatri_egan_square_out_of_plane", "panel", "reuse", "seed", "search", "slicer", "smoke",
-        "thousand", "which_way", "which_way_lost",
+        "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
+        "khatri_egan_square_out_of_plane", "panel", "rammed", "reuse", "seed", "search", "slicer",
+        "smoke", "thousand", "which_way", "which_way_lost",
     }  # fmt: skip
 
 
@@ -114,9 +114,9 @@ def test_panel_holds_its_numbers():
     assert summary["absorbed_energy_until_packed_J"] == pytest.approx(41.233, rel=1e-3)
 
 
-def test_bumper_holds_its_numbers():
+def test_rammed_holds_its_numbers():
     """Squares of 17 x 3 cells are rammed by a flat robot of 1 lb, as heavy as their own."""
-    case = expand(load_config(CONFIGS / "bumper.toml"))[0]
+    case = expand(load_config(CONFIGS / "rammed.toml"))[0]
     assert (case.lattice.cells_x, case.lattice.cells_y) == (17, 3)
     summary = simulate(case).summary
     assert summary["status"] == "converged"

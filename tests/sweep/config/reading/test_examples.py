@@ -39,7 +39,7 @@ CONFIGS = Path(__file__).parents[4] / "configs"
         ("armor", 140),
         ("infills", 13),
         ("panel", 23),
-        ("bumper", 102),
+        ("rammed", 102),
         ("thousand", 1000),
         ("custom", 1),
         ("seed", 14),
@@ -61,7 +61,7 @@ def test_shipped_configs_expand(name, cases):
 
 def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
-    names = {"smoke", "armor", "bumper", "drop", "infills", "panel", "slicer", "thousand"}
+    names = {"smoke", "armor", "rammed", "drop", "infills", "panel", "slicer", "thousand"}
     names |= {f"khatri_egan_{cells}_out_of_plane" for cells in ("square", "hexagon")}
     names |= {"which_way", "which_way_lost"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies
