@@ -26,6 +26,7 @@ from tests.studies.tables import publish
 
 GRIDS, MORE, SEED = 300, 4, 38
 ITERATIONS, STEPS = (3, 4, 5, 20), (25, 50)  # of the small effort
+PATIENCE = 10.0  # s for a case: with few iterations some go on in very short steps
 BY = ("absorbed_energy_until_packed_J", "specific_absorption_J_per_g", "peak_force_N")
 
 
@@ -45,6 +46,7 @@ class Grid:
         """The cases with so many times the effort."""
         loading = {"mode": "displacement", "strain": self.strain, "platen": self.platen}
         solver = {"load_steps": steps * self.steps, "retry": False}
+        solver["time_limit"] = PATIENCE
         return [
             Case.of(
                 lattice=design,
