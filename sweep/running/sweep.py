@@ -65,7 +65,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
             return len(cases) - _converged(out, cases)
         done = cases.keys() & finished_ids(out, rerun)
         if lost := damaged_ids(out):
-            announce(f"damaged rows in {out}: {len(lost)}; their cases run again")
+            announce(f"damaged rows in {out}: {len(lost)}; cases of this sweep run again")
         if old := done & older_ids(out):
             announce(
                 f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"

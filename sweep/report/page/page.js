@@ -497,6 +497,7 @@ function notes() {
     lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
   if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
+  if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
   if (rows.some((row) => row.design.coarse))
