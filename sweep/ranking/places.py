@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from pandas import DataFrame, Series
+from pandas import DataFrame, Series, concat
 
-from sweep.columns import correction_column, end_columns
+from sweep.columns import correction_column, end_columns, less_is_better
+from sweep.ranking.merit import doubtful
 
 
 def pareto(mass: Series, energy: Series) -> Series:
@@ -17,8 +18,25 @@ def pareto(mass: Series, energy: Series) -> Series:
 
 
 def places_by(rows: DataFrame, by: str) -> Series:
-    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`)."""
+    """Places of the rows of one scene, sorted by a column, the best first (`shared_places`).
+
+    Doubtful rows follow the others and share no place with them.
+    """
+    doubt = doubtful(rows)
+    sound, others = _shared(rows[~doubt], by), _shared(rows[doubt], by)
+    return concat([sound, others + len(sound)]).reindex(rows.index)
+
+
+def _shared(rows: DataFrame, by: str) -> Series:
     return shared_places(rows[by], rows.get(correction_column(by)), *reach(rows, by))
+
+
+def passed_over(rows: DataFrame, by: str) -> Series:
+    """Number of doubtful rows that follow each trusted row although their values are better."""
+    sound = rows[~doubtful(rows)]
+    places = (part[by].rank(method="min", ascending=less_is_better(by)) for part in (rows, sound))
+    among_all, among_sound = places
+    return (among_all - among_sound).reindex(rows.index).fillna(0.0).astype(int)
 
 
 def reach(rows: DataFrame, by: str) -> tuple[Series, Series]:

@@ -2,7 +2,8 @@
 
 Only cases of the same loading scene are compared, since the energies absorbed under a dead load and
 in a crush to half the height answer different questions. Under a dead load the design with the
-least strain is the best, under a striker the one with the least force on the support.
+least strain is the best, under a striker the one with the least force on the support. Designs whose
+results cannot be trusted (`merit.doubtful`) come last, whatever their values.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from sweep.columns import describe_column, error_column, is_grid_key, less_is_be
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import LEAST, Compared, merits
+from sweep.ranking.merit import LEAST, Compared, doubtful, merits
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.places import pareto, places_by, reach
+from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
@@ -48,6 +49,7 @@ LEADING = [
     "ranked_error",
     "sharing",
     "contenders",
+    "passed_over",
     "counted_mass_g",
     "panel_specimens",
     "panel_width_m",
@@ -105,14 +107,16 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
 
     budget_g, scene : the ranking to which a row belongs.
     place : equal values share a place, and so do values whose order the estimated errors may
-        reverse (`shared_places`).
+        reverse (`shared_places`). Designs that are `beyond_model` or `crossed` come after all
+        others.
     tied : with error bars, or where an energy stands for a range: True if the place is shared.
     ranked_error : with error bars: the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
+    passed_over : number of designs that have a better value but come later, as they are doubtful.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
-        and is as light, of those that meet all requirements; where `LEAST` is compared, the same
-        with that column.
+        and is as light, of those to be trusted that meet all requirements; where `LEAST` is
+        compared, the same with that column.
     ranked_by : the sorting column.
     counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
     panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, and the true
@@ -236,21 +240,24 @@ def _least(rows: DataFrame) -> str | None:
 
 
 def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:
-    """Rows of one scene with its label and their Pareto flag."""
-    merit = rows[names.energy] if least is None else -rows[least]
-    return rows.assign(scene=label, pareto=pareto(rows[names.mass], merit))
+    """Rows of one scene with its label and their Pareto flag; the front is of trusted designs."""
+    sound = rows[~doubtful(rows)]
+    merit = sound[names.energy] if least is None else -sound[least]
+    front = sound.index[pareto(sound[names.mass], merit)]
+    return rows.assign(scene=label, pareto=rows.index.isin(front))
 
 
 def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
-    """The first ``top`` rows of one scene within a budget, best first.
+    """The first ``top`` rows of one scene within a budget, best first, doubtful ones last.
 
     Rows of equal value are sorted by mass, then by id, so that the order of the input rows does not
     matter.
     """
-    order = [*dict.fromkeys([by, mass, "case_id"])]
+    order = [*dict.fromkeys(["doubtful", by, mass, "case_id"])]
     upwards = [name != by or less_is_better(by) for name in order]
     rows = rows[rows[mass] <= greatest_mass(budget_g)].dropna(subset=by)
-    rows = rows.sort_values(order, ascending=upwards)
+    rows = rows.assign(doubtful=doubtful(rows)).sort_values(order, ascending=upwards)
+    rows = rows.drop(columns="doubtful")
     error = rows.get(error_column(by))
     place = places_by(rows, by)
     columns = {} if error is None else {"ranked_error": error}
@@ -258,7 +265,7 @@ def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | Non
         columns["tied"] = place.duplicated(keep=False)
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
-    columns |= {"sharing": sharing, "contenders": len(rows)}
+    columns |= {"sharing": sharing, "contenders": len(rows), "passed_over": passed_over(rows, by)}
     rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **columns)
     rows = rows.head(len(rows) if top is None else top)
     first = [name for name in LEADING if name in rows]

@@ -10,7 +10,8 @@ other, the final value of the sorted column lies between two ends, of which one 
   its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
-the place that it has at least. A requirement that it already misses, or its mass, excludes it.
+the place that it has at least; doubtful designs stand behind all others. A requirement that it
+already misses, or its mass, excludes it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
 from sweep.ranking.budget import greatest_mass
-from sweep.ranking.merit import Compared
+from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import measured, misses
@@ -99,11 +100,11 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     fits = (mass <= greatest_mass(budget_g)) | mass.isna()
     bounds = Ends(*(end[fits] for end in ends(stopped, by, names, question)))
     rows = stopped[fits]
-    values = ranked[by][ranked[names.mass] <= greatest_mass(budget_g)].dropna().to_numpy()
-    less = less_is_better(by)
+    placed = ranked[ranked[names.mass] <= greatest_mass(budget_g)].dropna(subset=by)
+    less, doubt = less_is_better(by), doubtful(rows)
     better, worse = (bounds.low, bounds.high) if less else (bounds.high, bounds.low)
     missed, certain = _judged(rows, bounds, names, question, required)
-    best, least = (_place(end, values, less) for end in (better, worse))
+    best, least = (_place(end, doubt, placed, by) for end in (better, worse))
     rows = rows.assign(best_place=best, least_place=least.where(np.isfinite(worse) & certain))
     rows = rows[~missed & (best <= (question.top or np.inf))].sort_values([*PLACES, "case_id"])
     rows = rows.assign(budget_g=budget_g if np.isfinite(budget_g) else np.nan, ranked_by=by)
@@ -146,12 +147,13 @@ def stroke_left(rows: DataFrame) -> Series:
     return (rows["stroke_m"] - rows["peak_strain"] * rows["height_m"]).clip(lower=0.0)
 
 
-def _place(value: Series, ranked: np.ndarray, less: bool) -> Series:
-    """1 + the number of ranked values that are better."""
-    better = ranked[None, :] < value.to_numpy()[:, None]
-    if not less:
-        better = ranked[None, :] > value.to_numpy()[:, None]
-    return Series(1 + better.sum(axis=1), value.index, dtype=int)
+def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
+    """1 + the number of ranked rows that are better; a doubtful one is so only than its like."""
+    own, their = (np.asarray(values, float) for values in (value, placed[by]))
+    better = their < own[:, None] if less_is_better(by) else their > own[:, None]
+    mine, yours = doubt.to_numpy()[:, None], doubtful(placed).to_numpy()
+    ahead = np.where(mine == yours, better, mine & ~yours)
+    return Series(1 + ahead.sum(axis=1), value.index, dtype=int)
 
 
 def _judged(

@@ -176,7 +176,7 @@ def until(ranking: Ranking) -> str:
 def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
     """Words, mass and merit of the best design of one scene within each budget.
 
-    Without budgets, those of the first design.
+    Without budgets, those of the first design. A design that cannot be trusted is never the best.
     """
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
@@ -186,8 +186,8 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
         for limit in [greatest_mass(budget)]
     ]
     if not winners:
-        best = rows[rows["place"] == 1].head(1)
-        winners, name = [("best", best, rows)], best["ranked_by"].item()
+        best = rows[(rows["place"] == 1) & ~doubtful(rows)].head(1)
+        winners, name = [("best", best, rows)], rows["ranked_by"].iloc[0]
     return [
         (
             f"{limit}: {_words(won, others, ranking, name)}",
@@ -200,7 +200,7 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
 
 
 def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str:
-    """A design with its merit, error and marks, such as "cells 3 x 3, wall 0.8 mm, 13.4 J".
+    """A design with its merit and error, such as "cells 3 x 3, wall 0.8 mm, 13.4 J".
 
     name: the column in which the design is the best `among` others; its value comes last.
     """
@@ -215,9 +215,7 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
         words += f", {value} J/g"
     elif name != _compared(won, energy)[0]:
         words += f", {name} {value}"
-    beyond = ", beyond the model" if won["beyond_model"].item() else ""
-    crossed = ", walls cross" if won["crossed"].item() else ""
-    return f"{design}, {words}{_ties(among, won, name)}{beyond}{crossed}"
+    return f"{design}, {words}{_ties(among, won, name)}"
 
 
 def _of_panel(won: DataFrame) -> str:

@@ -14,7 +14,7 @@ from sweep.design.panel import BEHIND, BESIDE
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, merits, through_solid
+from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, doubtful, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
@@ -248,9 +248,10 @@ def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
         rows, names = merits(finished, Question(panel=panel, allowed_force=counted.force))
         for scene in by_scene(rows) if len(rows) else []:
             least = LEAST.get(scene["loading_mode"].iloc[0])
-            merit = scene[names.energy] if least is None else -scene[least]
-            yield from scene["case_id"][pareto(scene[names.mass], merit)]
-            yield from scene.nlargest(1, names.per_gram)["case_id"]
+            sound = scene[~doubtful(scene)]
+            merit = sound[names.energy] if least is None else -sound[least]
+            yield from sound["case_id"][pareto(sound[names.mass], merit)]
+            yield from sound.nlargest(1, names.per_gram)["case_id"]
 
 
 class _Stored:

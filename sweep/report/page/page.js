@@ -498,8 +498,9 @@ function notes() {
   if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
-  if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result.");
-  if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result.");
+  if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result. Placed behind all others.");
+  if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result. Placed behind all others.");
+  if (now.passedOver) lines.push(`By value alone, ${now.passedOver} design${now.passedOver > 1 ? "s" : ""} marked ! or x would stand before the first.`);
   if (rows.some((row) => row.design.coarse))
     lines.push("i: the time steps are coarse: the integrator took much of the energy (integrator_share). Forces are uncertain.");
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");

@@ -133,6 +133,7 @@ function measured(data, design, question) {
     energy: times(energy, factor),
     perGram: energy === null || design.mass === null ? null : energy / design.mass,
     passed: force === null ? design.passed : least(design.peak, force),
+    pareto: false, // until `markFront`
     beyond: design.solid || exceeds(energy, times(design.within, 1 + slack)),
   };
   row.stroke = countedStroke(data, design, question, force);
@@ -179,14 +180,17 @@ function markFront(rows, merit) {
     row.pareto = merit(row) === best.get(key(row)) && merit(row) > least.get(key(row));
 }
 
-// Places of sorted rows: a value shares the place of the first value of that place if it differs
-// from it by no more than their corrections differ, a missing one is 0, or if their ranges meet.
+// Places of sorted rows, doubtful ones last: a value shares the place of the first value of that
+// place if it differs from it by no more than their corrections differ, a missing one is 0, or if
+// their ranges meet; but no doubtful row shares a place with one that is not.
 function markPlaces(rows) {
   let best = NaN;
   let [first, low] = [NaN, NaN];
   rows.forEach((row, i) => {
     const correction = row.correction ?? 0;
-    if (Math.abs(row.value - best) <= Math.abs(correction - first) + low + row.above) row.place = rows[i - 1].place;
+    const apart = i > 0 && doubtful(row) !== doubtful(rows[i - 1]);
+    const reached = Math.abs(row.value - best) <= Math.abs(correction - first) + low + row.above;
+    if (reached && !apart) row.place = rows[i - 1].place;
     else [best, first, low, row.place] = [row.value, correction, row.below, i + 1];
   });
   const sharing = new Map();
@@ -206,9 +210,9 @@ function further(data, row, question) {
   return row.panel ? most * row.panel.specimens : most;
 }
 
-// The best place that a stopped case could have had among values, the best of which is first, and
-// the one that it has at least, or null; nothing if it misses a requirement already.
-function couldPlace(data, row, values, question) {
+// The best place that a stopped case could have had among rows that have one, and the place that it
+// has at least, or null; nothing if it misses a requirement already.
+function couldPlace(data, row, placed, question) {
   const sign = data.scenes[question.scene].least ? -1 : 1;
   const { unresolved } = row.design;
   const value = unresolved ? null : row.value;
@@ -218,7 +222,9 @@ function couldPlace(data, row, values, question) {
   const sure = (name) => (data.measures[name].least ? low === high : !unresolved || name === "max_mass");
   const missed = ([name, share]) => share > 0 && share < Infinity && sure(name);
   if (Object.entries(row.misses).some(missed)) return null;
-  const place = (end) => 1 + values.filter((value) => sign * value > sign * end).length;
+  const ahead = (other, end) =>
+    doubtful(row) === doubtful(other) ? sign * other.value > sign * end : doubtful(row) > doubtful(other);
+  const place = (end) => 1 + placed.filter((other) => ahead(other, end)).length;
   const certain = Object.keys(row.misses).every((name) => name === "max_mass") && Number.isFinite(worse);
   return { row, best: place(better), least: certain ? place(worse) : null };
 }
@@ -227,12 +233,11 @@ function couldPlace(data, row, values, question) {
 function unfinished(data, placed, question) {
   const stopped = [...data.unfinished, ...data.cases.filter((design) => design.unloaded)];
   const most = greatestMass(data, question);
-  const values = placed.map((row) => row.value);
   return stopped
     .filter((design) => design.scene === question.scene)
     .map((design) => measured(data, design, question))
     .filter((row) => (!row.design.unloaded || row.value === null) && (row.design.mass === null || row.mass <= most))
-    .map((row) => couldPlace(data, row, values, question))
+    .map((row) => couldPlace(data, row, placed, question))
     .filter(Boolean)
     .sort((a, b) => a.best - b.best || (a.least ?? Infinity) - (b.least ?? Infinity) || (a.row.design.id < b.row.design.id ? -1 : 1));
 }
@@ -245,20 +250,21 @@ function doubtful(row) {
 // within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
 // lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`; `ranged`: some
-// energies stand for a range.
+// energies stand for a range; `passedOver`: doubtful designs whose values are better than the first.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const weighed = (design) => design.scene === question.scene && design.mass !== null;
   const rows = data.cases.filter(weighed).map((design) => measured(data, design, question));
   const sign = scene.least ? 1 : -1;
+  const sound = (row) => !doubtful(row);
   const meeting = rows.filter((row) => row.worst === 0);
-  markFront(meeting, scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
+  markFront(meeting.filter(sound), scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
   const most = greatestMass(data, question);
   const within = meeting.filter((row) => row.mass <= most);
   const placed = within.filter((row) => row.value !== null);
   const byId = (a, b) => (a.design.id < b.design.id ? -1 : 1);
   const byMass = (a, b) => a.mass - b.mass || byId(a, b);
-  placed.sort((a, b) => sign * (a.value - b.value) || byMass(a, b));
+  placed.sort((a, b) => doubtful(a) - doubtful(b) || sign * (a.value - b.value) || byMass(a, b));
   const missing = rows.filter((row) => row.worst > 0 && row.mass <= most);
   const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
@@ -266,10 +272,10 @@ function ranked(data, question) {
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
   const ranged = placed.some((row) => row.below > 0 || row.above > 0);
   markPlaces(placed);
-  const sound = (row) => !doubtful(row);
   const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
+  const passedOver = placed.filter((row) => sign * (row.value - placed[0].value) < 0 && doubtful(row) > doubtful(placed[0])).length;
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);
   const lightest = Math.min(...rows.map((row) => row.mass));
   const stopped = unfinished(data, placed, question);
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged };
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged, passedOver };
 }

@@ -52,7 +52,7 @@ TIED = """\
 BEYOND = """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
 length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
-pressed along the cells fill the whole area (solid_strain)."""
+pressed along the cells fill the whole area (solid_strain). Placed behind all others."""
 PRINTED = """\
 print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count this mass;
 for designs without a slicer they count mass g."""
@@ -69,6 +69,7 @@ EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 OPEN = """\
 The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
+PASSED_OVER = "{}By value alone, {} marked ! or x would stand before the first."
 STRETCHED = """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far)."""
@@ -80,7 +81,9 @@ b: simulated with another imperfection, as it stopped with the one asked for (re
 ONE_PERIOD = """\
 Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel."""
 HEADS = ("displacement", "force", "impact")
-CROSSED = "x: walls cross one another, as no contact stops them. Do not trust this result."
+CROSSED = """\
+x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
+all others."""
 
 COARSE = """\
 i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact, or 30 %

@@ -17,6 +17,7 @@ from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
     EARLY,
     OPEN,
+    PASSED_OVER,
     PRINTED,
     TWICE,
     UNSURE,
@@ -103,6 +104,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *((PRINTED,) if "print g" in columns else ()),
                 *mark_notes(rows),
+                *_passed_over(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
                 *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
                 *(_early(placed) if ranking.limited else ()),
@@ -152,6 +154,15 @@ def _places(rows: DataFrame) -> Series:
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
     return places + rows["pareto"].map({True: "*", False: " "}) + marks(rows)
+
+
+def _passed_over(rows: DataFrame) -> Iterator[str]:
+    """A sentence for each budget whose first place a design has that others exceed by value."""
+    for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
+        count = int(shown["passed_over"].iloc[0])
+        within = f"Up to {shown['up_to'].iloc[0]} g: " if "up_to" in rows else ""
+        if count:
+            yield PASSED_OVER.format(within, f"{count} design{'s' * (count > 1)}")
 
 
 def _cut_off(rows: DataFrame) -> Iterator[str]:

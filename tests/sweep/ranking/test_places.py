@@ -12,7 +12,7 @@ from sweep.ranking.places import shared_places
 from sweep.ranking.rank import rank, ranked
 from sweep.report.tables.legend import TIED, legend
 from sweep.report.tables.sheets import ranking_sheets
-from tests.support.results.specimens import designs, summary, write
+from tests.support.results.specimens import designs, ids, summary, write
 
 NAN = float("nan")
 
@@ -204,3 +204,14 @@ def test_energies_that_stand_for_a_range_tie_where_their_ranges_meet():
     assert list(rank(ranged)["place"]) == [1, 2, 2]
     ranged.loc[1, f"lowest_{column}"], ranged.loc[0, f"lowest_{column}"] = 0.3, 0.32
     assert list(rank(ranged)["place"]) == [1, 1, 3]
+
+
+def test_doubtful_designs_come_last_and_tie_with_none_that_is_not():
+    rows = with_bars([12.0, 11.0, 11.5, 10.0], [1.0] * 4)
+    for row in rows[:2]:
+        row["max_crossings"] = 1
+    table = summary(*rows)
+    assert ids(rank(table)) == [2, 3, 0, 1]
+    assert list(rank(table)["place"]) == [1, 1, 3, 3]
+    assert list(rank(table)["passed_over"]) == [1, 2, 0, 0]
+    assert list(rank(table)["pareto"]) == [True, False, False, False]

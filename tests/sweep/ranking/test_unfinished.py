@@ -61,9 +61,12 @@ def test_an_allowed_force_limits_what_the_rest_of_the_stroke_adds():
     table = crushes(STOPPED | {"height_m": 0.01, "stroke_m": 6e-3, "peak_strain": 0.5})
     table[column] = [0.1, 0.2, 0.3, 0.195]
     table["peak_force_N"] = [20.0, 20.0, 20.0, 8.0]
+    table["absorbed_energy_within_model_J"] = 1.0
     assert named(ranked(table, allowed_force="10 N", budget="2 g")) == [(3, 2, 3)]  # + 10 mJ
     table.loc[3, "peak_force_N"] = 11.0
     assert named(ranked(table, allowed_force="10 N")) == [(3, 3, 3)]
+    doubtful = table.assign(max_crossings=[0, 0, 1, 1])
+    assert named(ranked(doubtful, allowed_force="10 N")) == [(3, 4, 4)]  # behind its like, too
 
 
 def test_budgets_and_requirements_that_are_missed_already_exclude():

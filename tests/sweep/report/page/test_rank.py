@@ -41,6 +41,7 @@ function told({ data, questions }) {
         value: row.value, mass: row.mass, early: row.early || row.open,
       })),
       missing: found.missing.length,
+      passed_over: found.passedOver,
       nearest: found.nearest ? found.nearest.design.id : null,
       stopped: found.stopped.map(({ row, best, least }) => [row.design.id, best, least]),
       lightest: found.lightestMeeting ? found.lightestMeeting.design.id : null,
@@ -87,9 +88,11 @@ def expected(table, question):
     names += ["value", "mass", "early"]
     scenes = {}
     for label in ranking.lightest_g:
-        placed = frame[frame["scene"] == label][names].to_dict("records")
+        rows = frame[frame["scene"] == label]
+        placed = rows[names].to_dict("records")
         outcome = ranking.outcomes[label][0] if question["require"] else None
         scenes[label] = {"placed": placed} | _of_requirements(outcome)
+        scenes[label]["passed_over"] = int(rows["passed_over"].iloc[0]) if len(rows) else 0
         stopped = ranking.unfinished[ranking.unfinished["scene"] == label]
         columns = stopped[["case_id", *PLACES]].itertuples(index=False, name=None)
         scenes[label]["stopped"] = [[k, n, None if np.isnan(m) else m] for k, n, m in columns]
@@ -157,7 +160,7 @@ def asked_of_both(told, path, seed):
 @pytest.mark.parametrize("seed", range(SWEEPS))
 def test_page_and_python_rank_alike(told, tmp_path, seed):
     """What the page reads from curves has four digits."""
-    rows, missing, nearest, border, stopped = [], 0, 0, 0, 0
+    rows, missing, nearest, border, stopped, passed_over = [], 0, 0, 0, 0, 0
     for question, found, wanted in asked_of_both(told, tmp_path, seed):
         one, other = of_the_page(found, wanted), wanted
         if read_from_curves(question):
@@ -166,13 +169,14 @@ def test_page_and_python_rank_alike(told, tmp_path, seed):
             assert one == other, question
         rows += found["placed"]
         missing += found["missing"]
+        passed_over += found["passed_over"]
         stopped += sum(best > 1 for _, best, _ in found["stopped"])
         stopped += sum(least is not None for _, _, least in found["stopped"])
         nearest += bool(found["nearest"])
         most = 1e3 * (question["budget"] or np.inf)
         border += sum(0.0 < abs(most / row["mass"] - 1.0) < 5e-9 for row in found["placed"])
     counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
-    assert min(*counts, missing, stopped) > 5
+    assert min(*counts, missing, stopped, passed_over) > 5
     assert min(nearest, border) > 0
 
 

@@ -10,6 +10,7 @@ from sweep.report.tables.legend import (
     CROSSED,
     EARLY,
     OPEN,
+    PASSED_OVER,
     SECOND,
     STRETCHED,
     UNSURE,
@@ -26,12 +27,12 @@ UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
 def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
     table = summary(CRUSHED_SOLID, SPARSE)
     ranking = ranked(table, by="absorbed_energy_J")
-    assert [int(case_id) for case_id in ranking.table["case_id"]] == [0, 1]
-    assert list(ranking.table["passed_on_N"]) == [900.0, 25.0]
-    assert list(ranking.table["beyond_model"]) == [True, False]
+    assert [int(case_id) for case_id in ranking.table["case_id"]] == [1, 0]
+    assert list(ranking.table["passed_on_N"]) == [25.0, 900.0]
+    assert list(ranking.table["beyond_model"]) == [False, True]
     (sheet,) = ranking_sheets(ranking, table)
-    assert [row[0] for row in sheet.rows] == ["1*!", "2 "]
-    assert sheet.notes == (BEYOND,)
+    assert [row[0] for row in sheet.rows] == ["1*", "2 !"]
+    assert sheet.notes == (BEYOND, PASSED_OVER.format("", "1 design"))
     (sheet,) = ranking_sheets(ranked(table), table)
     assert sheet.notes == ()
 
@@ -71,7 +72,7 @@ def test_walls_that_pass_through_one_another_are_marked():
     ranking = ranked(table, by="absorbed_energy_J")
     assert list(ranking.table["crossed"]) == [False, True]
     (sheet,) = ranking_sheets(ranking, table)
-    assert [row[0] for row in sheet.rows] == ["1*!", "2 x"]
+    assert [row[0] for row in sheet.rows] == ["1 !", "2 x"]
     assert sheet.notes == (BEYOND, CROSSED)
 
 
