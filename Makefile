@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures rammed \
-        bars spread effort search sides memory stability plates plates_solid bench experiment along figures lint clean
+        bars spread effort search sides wide memory stability plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -91,6 +91,9 @@ search: setup  ## compare what optimize finds with a scan and with a grid; kept 
 
 sides: setup  ## compare narrow strips, with free and with tied sides, with a wide panel; kept in results/sides/ (6 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.sides results/sides
+
+wide: setup  ## press panels of 24 and 48 cells, of all infills, and tell the cost; kept in results/wide/
+	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.sides.wide results/wide
 
 memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.memory results/memory

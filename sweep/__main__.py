@@ -33,6 +33,7 @@ EXAMPLES = """examples:
   crumple optimize search --budget "1.2 g"      seek the best design within a budget
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
+  crumple verify results/armor.h5               is the file whole, do its numbers come out again?
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 1               pictures of the best design
@@ -48,6 +49,8 @@ armor, search and accuracy/impact are examples that come with Crumple; your own 
 exit status: 0 done, also if no design meets the requirements; 1 some cases failed, or interrupted;
 2 wrong config, file or arguments
 """
+VERIFY = """Read everything that a results file holds against its checksums, compute the id of every
+stored case anew, and simulate some of the cases again. The exit status is 1 if anything differs."""
 CONFIG = "TOML file with the case and its [grid], or the name of an example"
 RUN = """Simulate every case of CONFIG that the results file does not hold yet, then rank.
 Finished cases are never lost and never computed twice: after a stop or a kill, or after an
@@ -212,6 +215,7 @@ def parser() -> Parser:
         "warm", help="compile the kernels", description=WARM, formatter_class=AS_WRITTEN
     )
     _add_status(verbs)
+    _add_verify(verbs)
     _add_rank(verbs)
     _add_show(verbs)
     _add_export(verbs)
@@ -305,6 +309,21 @@ def _add_status(verbs: Any) -> None:
     status = verbs.add_parser("status", help="what is done, and what failed and why")
     offer(status.add_argument("file", type=_path, metavar="F.h5"), results)
     status.add_argument("--json", action="store_true", help="as json on stdout")
+
+
+def _add_verify(verbs: Any) -> None:
+    """Add the verb that checks a results file."""
+    verify = verbs.add_parser(
+        "verify", help="whether a file is whole, and its numbers come out again", description=VERIFY
+    )
+    offer(verify.add_argument("file", type=_path, metavar="F.h5"), results)
+    verify.add_argument(
+        "--again",
+        type=_number,
+        default=3,
+        metavar="N",
+        help="cases drawn at random that are simulated again (default: 3)",
+    )
 
 
 def _add_rank(verbs: Any) -> None:
@@ -460,6 +479,11 @@ def _count(text: str) -> int:
     if text.isdecimal() and int(text) > 0:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 1 or more")
+
+
+def _number(text: str) -> int:
+    """A whole number, or none."""
+    return 0 if text == "0" else _count(text)
 
 
 def _path(text: str) -> str:

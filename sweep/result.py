@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 9
+MODEL_VERSION = 10
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = (

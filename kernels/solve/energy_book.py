@@ -13,6 +13,7 @@ returns it at commit; it is booked under material, and subtracted from the integ
 
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact
+from kernels.solve import integrators
 from kernels.solve.problem import FREE, LED
 
 LARGEST_IMBALANCE = 1e-3  # work of the residual in a step, as a share of the largest energy
@@ -62,16 +63,20 @@ def impose_speed(state, problem, speed, led):
 
 
 @jit_exact
-def energy_gain(state, found, mass, dt):
-    """Return the energy that a step of backward Euler generates, and the largest energy, in J.
+def energy_gain(scheme, problem, step, state, found):
+    """Return the energy that the integrator generates in a step, and the largest energy, in J.
 
-    The generated energy is the negative of the integrator's loss. Where the potential is not
-    convex it can be positive, and it grows with the step.
+    The generated energy is the negative of the integrator's loss, which here contains what the
+    material dissipates. Where it is positive the step is too long: for backward Euler where the
+    potential is not convex, for the trapezoidal rule where forces are not linear. found: of the
+    end of the step, before `integrators.update`.
     """
-    loss, largest = 0.0, state.book[0].kinetic
-    for i in range(mass.size):
-        change = found.u[i] / dt - state.v[i]
-        loss += found.elastic[i] * found.u[i] + 0.5 * mass[i] * change * change
+    loss, largest, coordinates = 0.0, state.book[0].kinetic, problem.scene.coordinates
+    last, theta, before = state.gradients.elastic, step.theta, 1.0 - step.theta
+    if step.dynamic:
+        loss = integrators.kinetic_loss(scheme, state, step, coordinates, found.u)
+    for i in range(last.size):
+        loss += (theta * found.elastic[i] + before * last[i]) * (state.x[i] - step.x0[i])
     for k in range(found.stored.size):
         loss -= found.stored[k] - state.stored[k]
         largest += max(found.stored[k], state.stored[k])

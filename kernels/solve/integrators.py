@@ -97,32 +97,51 @@ def _tie(state, problem):
 
 
 @jit_exact
-def update(scheme, state, step, problem, u):
-    """Update v and the rates after a step; replace ``u`` = x - y by x - x0.
+def _acceleration(state, step, i, after):
+    """Return that of coordinate ``i`` at the end of a step of second order; after: its velocity."""
+    ahead = step.duration - step.h
+    return (after - state.v[i] - ahead * state.rates.velocity[i]) / step.h
 
-    Return the integrator's loss of kinetic energy in J: (theta a1 + (1 - theta) a0) . M (x - x0)
-    less the gain of kinetic energy.
+
+@jit_exact
+def kinetic_loss(scheme, state, step, coordinates, u):
+    """Return the integrator's loss of kinetic energy in a step, before `update`, in J.
+
+    That is (theta a1 + (1 - theta) a0) . M (x - x0) less the gain of kinetic energy. u (n,): x - y.
     """
-    by_h, ahead, theta, loss = 1.0 / step.h, step.duration - step.h, step.theta, 0.0
-    rates, v, x0 = state.rates, state.v, step.x0
-    mass, heavy = problem.scene.coordinates.mass, problem.scene.coordinates.heavy
+    by_h, theta, loss = 1.0 / step.h, step.theta, 0.0
     for i in range(u.size):
-        before, after = v[i], by_h * u[i]
-        v[i], u[i] = after, state.x[i] - x0[i]
+        before, after, mass = state.v[i], by_h * u[i], coordinates.mass[i]
         if scheme == BACKWARD_EULER:
-            loss += 0.5 * mass[i] * (after - before) ** 2
+            loss += 0.5 * mass * (after - before) ** 2
             continue
-        a = by_h * (after - before - ahead * rates.velocity[i])
-        mean = theta * a + (1.0 - theta) * rates.change[i] if heavy[i] > 0.0 else 0.0
-        loss += mass[i] * (mean * u[i] - 0.5 * (after - before) * (after + before))
-        rates.change[i] = a if heavy[i] > 0.0 else u[i] / step.duration
+        mean = 0.0
+        if coordinates.heavy[i] > 0.0:
+            a = _acceleration(state, step, i, after)
+            mean = theta * a + (1.0 - theta) * state.rates.change[i]
+        move = state.x[i] - step.x0[i]
+        loss += mass * (mean * move - 0.5 * (after - before) * (after + before))
+    return loss
+
+
+@jit_exact
+def update(scheme, state, step, problem, u):
+    """Update v and the rates after a step; replace ``u`` = x - y by x - x0."""
+    by_h, rates, v, heavy = 1.0 / step.h, state.rates, state.v, problem.scene.coordinates.heavy
+    for i in range(u.size):
+        before, after, move = v[i], by_h * u[i], state.x[i] - step.x0[i]
+        if scheme == BACKWARD_EULER:
+            v[i], u[i] = after, move
+            continue
+        a = _acceleration(state, step, i, after)
+        v[i], u[i] = after, move
+        rates.change[i] = a if heavy[i] > 0.0 else move / step.duration
         rates.position[i], rates.velocity[i] = after, heavy[i] * a
         if scheme == BDF2:
-            rates.position[i] = u[i] / step.duration
+            rates.position[i] = move / step.duration
             rates.velocity[i] = heavy[i] * (after - before) / step.duration
     if scheme != BACKWARD_EULER:
         _tie(state, problem)
-    return loss
 
 
 @jit_exact

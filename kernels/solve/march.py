@@ -37,6 +37,7 @@ MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple
 MOST_DOUBLINGS = 4  # of the iterations of a static share
 MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
+LARGEST_ERROR = 5e-2  # the same of the trapezoidal rule of other steps, whose loss has either sign
 UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
 # steps is checked in sweep/simulation/simulate.py
 NOT_STARTED = -1  # corrections of a share before `_begin_share`
@@ -202,15 +203,14 @@ def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, c
 
 
 @jit_exact
-def _gains_energy(problem, stage, state, found, share, noise):
-    """Return whether backward Euler generates too much energy in a ``share`` of a step.
+def _gains_energy(problem, stage, state, step, found, share, noise):
+    """Return whether the integrator generates too much energy in a ``share`` of a step.
 
-    That is, `LARGEST_GAIN` of the largest energy more than the integrator has lost so far, and more
-    than the part of this limit that the share has in the stage.
+    That is, `LARGEST_GAIN` or `LARGEST_ERROR` of the largest energy more than the integrator has
+    lost so far, and more than the part of this limit that the share has in the stage.
     """
-    dt, mass = stage.duration * share, problem.scene.coordinates.mass
-    gain, largest = energy_gain(state, found, mass, dt)
-    limit = LARGEST_GAIN * largest + noise
+    gain, largest = energy_gain(stage.scheme, problem, step, state, found)
+    limit = (LARGEST_GAIN if step.theta == 1.0 else LARGEST_ERROR) * largest + noise
     return gain - state.book[0].integrator > limit and gain > limit * share / stage.steps
 
 
@@ -224,9 +224,9 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
     found, work, ratio = workspace.found, workspace.work, 0.0
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
-    accurate, first_order = ratio <= 1.0, stage.dynamic and step.h == step.duration
-    if accurate and first_order and progress.share > UNCHECKED_SHARE:
-        accurate = not _gains_energy(problem, stage, state, found, progress.share, tolerance.noise)
+    accurate, share = ratio <= 1.0, progress.share
+    if accurate and share > UNCHECKED_SHARE:
+        accurate = not _gains_energy(problem, stage, state, step, found, share, tolerance.noise)
     if not accurate:
         return INACCURATE, ratio
     decrement = descent.decrement
@@ -261,7 +261,10 @@ def _accept(problem, stage, step, state, workspace, load, descent):
     """
     found, work, book, totals = workspace.found, workspace.work, state.book[0], state.totals[0]
     if stage.dynamic:
-        book.integrator += integrators.update(stage.scheme, state, step, problem, found.u)
+        book.integrator += integrators.kinetic_loss(
+            stage.scheme, state, step, problem.scene.coordinates, found.u
+        )
+        integrators.update(stage.scheme, state, step, problem, found.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     problem.commit(state.x, step, found)

@@ -84,6 +84,13 @@ def status(arguments: Namespace) -> int:
     return DONE if print_status(arguments.file, arguments.json) else SOME_FAILED
 
 
+def verify(arguments: Namespace) -> int:
+    """Check that a results file is whole, and that cases of it come out again."""
+    from sweep.cli.verify import verify as is_sound
+
+    return DONE if is_sound(arguments.file, arguments.again) else SOME_FAILED
+
+
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
     from sweep.ranking.curves import with_allowed
@@ -184,6 +191,8 @@ def report(arguments: Namespace) -> int:
     with writing(out.parent, out):
         page = write_page(arguments.file, summary, question, out)
     say(f"{page} ({text_in(page.stat().st_size, 'MB', 2)})")
+    if failed := len(failed_cases(summary)):
+        hint([f"{failed} of {len(summary)} cases failed: the page lists them"])
     return _exit_status(summary)
 
 
@@ -213,7 +222,7 @@ def completion(arguments: Namespace) -> int:
 
 
 ALL = (
-    *(run, optimize, accuracy, warm, status, rank, show, export, report),
+    *(run, optimize, accuracy, warm, status, verify, rank, show, export, report),
     *(materials, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}

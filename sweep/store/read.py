@@ -18,7 +18,7 @@ with the same case id it takes the newer one.
 """
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -117,10 +117,27 @@ def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
     """The case that a row was computed from. Its labels are those of the sweep that computed it."""
+    return _case(path, case_id, _read_arrays(Path(path), case_id, ["cases"]))
+
+
+def unreadable(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoreError]:
+    """What is wrong with each row whose curves, shapes or case cannot be read, or whose case has
+    not the id of the row.
+    """
+    with _stored(Path(path)) as arrays_of:
+        for case_id in case_ids:
+            try:
+                arrays = arrays_of[case_id](GROUPS)
+                _case(path, case_id, arrays)
+            except StoreError as error:
+                yield error
+
+
+def _case(path: str | os.PathLike[str], case_id: str, arrays: dict[str, np.ndarray]) -> "Case":
     from sweep.config.case import Case
     from sweep.config.faults import MisfitError
 
-    text = bytes(_read_arrays(Path(path), case_id, ["cases"]).get(TEXT, b""))
+    text = bytes(arrays.get(TEXT, b""))
     try:
         case = Case.from_json(text.decode())
         if case.case_id != case_id:
@@ -148,19 +165,25 @@ def read_runs(
 
     shapes: False leaves the shapes unread, and `frames` empty.
     """
-    with _union(Path(path)) as blocks:
-        where = {
-            case_id: (block, row)
+    with _stored(Path(path)) as arrays_of:
+        for case_id in case_ids:
+            if case_id not in arrays_of:
+                raise StoreError(f"{path} holds no case {case_id}.")
+            arrays = arrays_of[case_id]
+            frames = _frames(arrays(FRAME_GROUPS)) if shapes else {}
+            yield StoredRun(case_id, _history(arrays(["histories"])), frames)
+
+
+@contextmanager
+def _stored(path: Path) -> Iterator[dict[str, Callable[[Iterable[str]], dict[str, np.ndarray]]]]:
+    """For each case what reads its arrays in named groups; the files stay open inside the block."""
+    with _union(path) as blocks:
+        yield {
+            case_id: partial(_arrays, block, row)
             for block in blocks
             for row, case_id in enumerate(block.summary["case_id"])
             if row not in block.damaged
         }
-        for case_id in case_ids:
-            if case_id not in where:
-                raise StoreError(f"{path} holds no case {case_id}.")
-            arrays = partial(_arrays, *where[case_id])
-            frames = _frames(arrays(FRAME_GROUPS)) if shapes else {}
-            yield StoredRun(case_id, _history(arrays(["histories"])), frames)
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":

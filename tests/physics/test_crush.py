@@ -141,13 +141,13 @@ def test_work_of_a_static_crush_is_the_area_under_its_curve():
     assert kept == pytest.approx(trapezoid(history), rel=1e-3)
 
 
-def test_steps_too_few_to_balance_are_refused():
-    case = Case.of(
-        loading=dict(mode="displacement", strain=0.6, platen="contact"),
-        solver=dict(load_steps=2),
+def test_steps_too_few_to_balance_are_taken_in_shares():
+    """In 4 steps the trapezoidal rule alone would make a tenth of the work."""
+    loading = dict(mode="displacement", strain=0.6, platen="contact")
+    few, more = (
+        simulate(Case.of(loading=loading, solver=dict(load_steps=steps))) for steps in (4, 200)
     )
-    found = simulate(case)
-    assert found.status == "stopped"
-    assert found.message.endswith("gained energy; try more solver.load_steps")
-    more = Case.of(loading=case.loading, solver=dict(load_steps=20))
-    assert simulate(more).status == "converged"
+    assert (few.status, more.status) == ("converged", "converged")
+    assert few.summary["steps"] > 8  # there and back
+    energies = (result.summary["absorbed_energy_J"] for result in (few, more))
+    assert next(energies) == pytest.approx(next(energies), rel=0.05)

@@ -83,7 +83,8 @@ def _verdict(spread: Spread) -> Iterator[str]:
     first = float(kept.iloc[0])
     if first < NARROW or first > 1.0 / NARROW:
         at = _where(spread)
-        yield f"The first design stands on a narrow peak: {at} leaves {percent(first)} % of it."
+        what = f"with {at} it has {percent(first)} % of this value"
+        yield f"The first design stands on a narrow peak: {what}."
     safest = worst if spread.sign > 0 else -worst
     if safest.notna().any() and (k := int(safest.argmax())):
         place, value = spread.rows["place"].iloc[k], three_digits(float(worst.iloc[k]))

@@ -154,13 +154,13 @@ def test_a_stiff_pendulum_is_safe_with_damped_integrators(integrator, lost):
         assert energy.gained(result)[-1] == pytest.approx(-lost, rel=0.02)
 
 
-def test_a_stiff_pendulum_is_not_safe_with_newmark():
-    """It keeps the energy of a soft one, and makes energy of a stiff one, which is a failure."""
+def test_newmark_takes_shares_of_the_steps_in_which_it_would_make_energy():
+    """It keeps the energy of a soft pendulum; of a stiff one it would make many times as much."""
     soft, stiff = (energy.pendulum("newmark", y) for y in (energy.SOFT, energy.STIFF))
-    assert soft.status == "converged"
+    assert (soft.status, stiff.status) == ("converged", "converged")
     assert abs(energy.gained(soft)[-1]) < 0.02
-    assert stiff.status == "stopped"
-    assert "gained energy" in stiff.message
+    assert energy.gained(stiff).max() < 0.05
+    assert stiff.summary["steps"] > 2 * soft.summary["steps"]
 
 
 SCENES = {

@@ -1,7 +1,5 @@
 """Friction in a march: nothing is paid without it, and what used to stop a crush does not."""
 
-from itertools import pairwise
-
 import pytest
 
 from sweep.config.case import Case
@@ -31,15 +29,13 @@ def test_contact_that_nothing_touches_takes_no_iteration():
     assert summary["absorbed_energy_J"] == pytest.approx(bare["absorbed_energy_J"], rel=1e-12)
 
 
-def test_an_error_of_the_first_order_in_the_step():
-    """The normal forces are those of the start of a step."""
-    energies = [
+def test_few_steps_are_enough():
+    """Though the normal forces are those of the start of a step."""
+    *coarse, fine = (
         crushed(dict(friction=0.6), strain=0.5, load_steps=steps).summary["absorbed_energy_J"]
         for steps in (50, 100, 200, 400)
-    ]
-    coarse, _, fine = (abs(a - b) for a, b in pairwise(energies))
-    assert coarse < 5e-3 * energies[-1]
-    assert fine < 0.5 * coarse
+    )
+    assert coarse == pytest.approx([fine] * 3, rel=5e-4)
 
 
 def test_duals_that_mislead_are_forgotten():

@@ -4,6 +4,7 @@ import pandas as pd
 import pytest
 
 from sweep.simulation.simulate import simulate
+from tests.studies.sides import wide
 from tests.studies.sides.panels import NARROW, WIDE, crush, strips
 from tests.studies.sides.table import middle, table
 
@@ -44,3 +45,21 @@ def test_what_stopped_has_no_error():
         strip: one | {"status": "stopped" if strip.cells == 48 else "converged"} for strip in piece
     }
     assert table(rows).rows[0][4:] == ["-", "-", "-"]
+
+
+def test_a_piece_of_the_study_of_wide_panels():
+    """Narrow panels take part; a slicer's pattern has nothing to be compared with."""
+    few, tied = wide.Panel("square", "glued", 3), wide.Panel("square", "glued", 3, "periodic")
+    sliced = wide.Panel("grid", "round", 0)
+    rows = {panel: pd.Series(simulate(wide.pressed(panel)).summary) for panel in (few, tied)}
+    rows |= {sliced: rows[few], few._replace(cells=24): rows[tied]}
+    (line, other), (_, count) = (sheet := wide.table(rows)).rows, sheet.notes
+    assert (line[0], line[-1], other[-2:]) == ("square", "+0.0", ["-", "-"])
+    assert abs(float(line[-2])) > 1.0
+    assert count == "4 of 4 crushes converge."
+    assert wide.pressed(sliced).loading.striker_radius == 5e-3
+
+
+def test_wide_panels_are_of_all_infills_and_of_a_slicer():
+    cases = [wide.pressed(panel) for panel in wide.panels()]
+    assert len({case.case_id for case in cases}) == 8 * 9 + 15

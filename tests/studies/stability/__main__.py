@@ -96,18 +96,21 @@ def scenes():
 
 
 def main(folder):
-    """Print the table; write it and what every scene did."""
-    cases = scenes()
-    with ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool:
-        found = pool.map(audit, cases)
-        audits = list(track(found, "scenes", len(cases), console=Console(stderr=True)))
-    tell(markdown(counted(cases, audits)), folder / "stability.md")
-    with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
+    """Print the table; write it and, while it goes on, what every scene did."""
+    cases, audits = scenes(), []
+    folder.mkdir(parents=True, exist_ok=True)
+    with (
+        ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool,
+        (folder / "scenes.csv").open("w", newline="", encoding="utf-8", buffering=1) as file,
+    ):
         rows = csv.writer(file)
         rows.writerow(("scene", "case_id", "status", "retry", "cpu_s", "violations", "message"))
-        for number, (case, found) in enumerate(zip(cases, audits, strict=True)):
-            told = found.status, found.retry, found.cpu_s, "; ".join(found.violations)
-            rows.writerow((number, case.case_id, *told, found.message))
+        found = track(pool.map(audit, cases), "scenes", len(cases), console=Console(stderr=True))
+        for case, seen in zip(cases, found, strict=True):
+            told = seen.status, seen.retry, seen.cpu_s, "; ".join(seen.violations)
+            rows.writerow((len(audits), case.case_id, *told, seen.message))
+            audits.append(seen)
+    tell(markdown(counted(cases, audits)), folder / "stability.md")
     return any(found.violations for found in audits)
 
 

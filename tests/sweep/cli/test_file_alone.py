@@ -94,8 +94,8 @@ def test_everything_follows_from_the_file(file, capsys, tmp_path):
             status, said, _ = command(capsys, "export", file, case_id, "--to", f"a{ending}")
             assert status == 0, said
         assert_same(results, number)
-    for verb in ("status", "rank", "report"):
-        assert command(capsys, verb, file)[0] == 0
+    for verb in ("status", "verify", "rank", "report"):
+        assert command(capsys, verb, file)[0] == 0, verb
     assert (tmp_path / "away" / "trial.html").stat().st_size > 10_000
 
 

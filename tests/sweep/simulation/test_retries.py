@@ -132,14 +132,11 @@ def test_the_switch_is_no_part_of_the_id():
     assert CRUSH.changed(solver={"retry": False}).case_id == CRUSH.case_id
 
 
-def test_a_drawn_scene_gains_energy_in_few_steps_and_converges_in_more():
+def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
     case = scene(269)[1].changed(solver={"time_limit": 300.0})  # compilation may be part of it
-    alone, result = simulate(case), simulate_again(case)
-    assert (alone.status, alone.curable) == (Status.STOPPED, True)
-    assert (result.status, result.case_id) == (Status.CONVERGED, case.case_id)
-    assert result.summary["retry"] == "solver.load_steps = 24"
-    more = simulate(case.changed(solver={"load_steps": 24}))
-    assert result.summary["absorbed_energy_J"] == more.summary["absorbed_energy_J"]
+    result = simulate_again(case)
+    assert (result.status, result.summary["retry"]) == (Status.CONVERGED, "")
+    assert result.summary["steps"] > case.solver.load_steps
 
 
 def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):

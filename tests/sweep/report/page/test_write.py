@@ -182,7 +182,8 @@ def test_verb_writes_the_page_beside_the_file(capsys, tmp_path):
 
 def test_failures_give_status_one(capsys, tmp_path):
     file = write(tmp_path / "trial.h5", summary({}, {"status": "stopped", "message": "no"}))
-    assert crumple(capsys, "report", file)[0] == 1
+    status, _, err = crumple(capsys, "report", file)
+    assert (status, err) == (1, "1 of 2 cases failed: the page lists them\n")
 
 
 @pytest.mark.parametrize("name", ["a.txt", "", "DIR", "FILE/a.html"])

@@ -1,0 +1,84 @@
+"""The verb `verify`: whether a results file is whole, and whether its numbers come out again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from sweep.cli.status import failed_cases
+from sweep.cli.terminal import say, say_all
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from pandas import DataFrame
+
+SEED = 0  # of the choice of cases that run again
+SAME = 1e-6  # relative: of numbers that are equal
+SHOWN = 10  # of what is wrong
+VARYING = ("cpu_s", "git_revision")  # not compared
+
+
+def verify(file: str, again: int) -> bool:
+    """Print what is wrong with a results file, and return whether nothing is.
+
+    Checksums, curves, shapes and stored cases of all rows are read, the ids are computed anew, and
+    ``again`` cases that converged, drawn at random, are simulated again.
+    """
+    from sweep.numbers import counted
+    from sweep.store.read import read_summary, unreadable
+
+    summary = read_summary(file)
+    ids = list(summary["case_id"])
+    wrong = [str(error) for error in unreadable(file, ids)]
+    say_all(wrong[:SHOWN])
+    if len(wrong) > SHOWN:
+        say(f"{len(wrong) - SHOWN} more cases cannot be read")
+    say(f"{file}: {len(ids) - len(wrong)} of {counted(len(ids), 'case')} whole")
+    if wrong:
+        return False
+    chosen = _drawn(summary["case_id"].drop(failed_cases(summary).index), again)
+    different = list(_different(file, summary.set_index("case_id").loc[chosen]))
+    say_all(different)
+    say(f"{len(chosen) - len(different)} of {counted(len(chosen), 'case')} simulated again: same")
+    return not different
+
+
+def _drawn(ids: Sequence[str], count: int) -> list[str]:
+    import numpy as np
+
+    rng = np.random.default_rng(SEED)
+    return sorted(rng.choice(ids, min(count, len(ids)), replace=False).tolist())
+
+
+def _different(file: str, rows: DataFrame) -> Iterator[str]:
+    """A sentence for each case that has other numbers now, or ends in another way."""
+    import numpy as np
+
+    from sweep.config.kinds.solver import Arcs
+    from sweep.running.sweep import real_simulate
+    from sweep.store.read import read_case
+
+    cases = [read_case(file, case_id) for case_id in rows.index]
+    simulate = real_simulate(
+        any(isinstance(case.solver, Arcs) for case in cases), any(case.along for case in cases)
+    )
+    for case in cases:
+        case_id, row = case.case_id, rows.loc[case.case_id]
+        new = simulate(case, np.zeros(2, np.int64)).summary
+        others = [
+            name
+            for name in new.keys() & set(row.index)
+            if name not in VARYING and not _equal(new[name], row[name])
+        ]
+        if others:
+            first = min(others, key=list(new).index)
+            more = f" and {len(others) - 1} more columns" if len(others) > 1 else ""
+            stored = f"stored {row[first]} by model version {row['model_version']}"
+            yield f"case {case_id}: {first} is {new[first]}, {stored}{more}"
+
+
+def _equal(one: Any, other: Any) -> bool:
+    if isinstance(one, str) or isinstance(other, str):
+        return str(one) == str(other)
+    unknown = one != one and other != other
+    return unknown or bool(abs(one - other) <= SAME * max(abs(one), abs(other)))

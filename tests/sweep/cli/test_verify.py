@@ -1,0 +1,37 @@
+"""The verb `verify`: it names what cannot be read, and numbers that do not come out again."""
+
+import re
+
+import h5py
+
+from sweep.store.read import read_summary
+from tests.support.command import crumple
+from tests.support.results.standin import cases, write
+
+
+def test_a_whole_file_whose_numbers_are_made_up(capsys, tmp_path):
+    write(tmp_path / "trial.h5", cases(5), fold=True)
+    file = str(tmp_path / "trial.h5")
+    assert crumple(capsys, "verify", file, "--again", "0")[:2] == (
+        0, f"{file}: 5 of 5 cases whole\n0 of 0 cases simulated again: same\n"
+    )  # fmt: skip
+    status, said, _ = crumple(capsys, "verify", file, "--again", "2")
+    one, other, last = said.splitlines()[1:]
+    known = {*read_summary(file)["case_id"]}
+    for line in (one, other):
+        assert re.match(r"case (\w{16}): \w+ is .*, stored .*model version \d", line)[1] in known
+    assert (status, last) == (1, "0 of 2 cases simulated again: same")
+
+
+def test_what_cannot_be_read_is_named_and_nothing_is_simulated(capsys, tmp_path):
+    write(tmp_path / "trial.h5", cases(3), fold=True)
+    path = tmp_path / "trial.h5"
+    with h5py.File(path) as file:
+        piece = file["cases/values/json"].id.get_chunk_info(0)
+    content = bytearray(path.read_bytes())
+    content[piece.byte_offset : piece.byte_offset + piece.size] = bytes(piece.size)
+    path.write_bytes(content)
+    status, said, _ = crumple(capsys, "verify", str(path))
+    *lines, last = said.splitlines()
+    assert (status, len(lines), last) == (1, 3, f"{path}: 0 of 3 cases whole")
+    assert all("damaged" in line for line in lines)
