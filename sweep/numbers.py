@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 Values = TypeVar("Values")
 
 NOTHING = "–"
+LARGE = 1e9  # from here on, numbers have an exponent
 SCALES = {
     "m": ((1e3, "mm"), (1e6, "um")),
     "s": ((1.0, "s"), (1e3, "ms"), (1e6, "us")),
@@ -57,14 +58,20 @@ def to_si(values: Values, unit: str) -> Values:
 
 def text_in(value: float, unit: str, digits: int = 4) -> str:
     """A quantity in SI as text with its unit: (0.0123456, "mm") -> "12.35 mm"."""
-    return f"{in_unit(value, unit):.{digits}g} {unit}"
+    return f"{significant(in_unit(value, unit), digits)} {unit}"
+
+
+def significant(value: float, digits: int = 4) -> str:
+    """A number with so many significant digits; a large one has all of its digits, no exponent."""
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < LARGE else text
 
 
 def short(value: float | str | None) -> str:
     """A number with four digits, text unchanged, a dash for a missing value."""
     if value is None or value != value:  # NaN
         return NOTHING
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    return significant(value) if isinstance(value, float) else str(value)
 
 
 def scaled(unit: str, greatest: float) -> tuple[float, str]:

@@ -1,10 +1,11 @@
 """Forces of a lattice on its base, node by node, and the patch of the base that is pressed most.
 
 A node of a row that is glued to the base, or held there, presses on it with the gradient of the
-step, the inertia of the node included; a loose node with its contact force. A patch is a window of
-a given width that slides along x. The sum of the point forces in it changes where one enters or
-leaves, and is looked at after each of these events, so that the greatest sum is exact also where a
-glued row pulls at the base.
+step, the inertia of the node included; a loose node with its contact force. The force acts evenly
+over the thickness t of the wall, from x - t / 2 to x + t / 2. A patch is a window of a given width
+w that slides along x; the force on it is piecewise linear in its centre, with knots at
+x +- (w + t) / 2 and x +- |w - t| / 2 of each node. The greatest force is that at a knot, also where
+a glued row pulls at the base.
 """
 
 import numpy as np
@@ -35,24 +36,50 @@ def sort_along(x, nodes):
 
 
 @jit_exact
+def share_on_patch(x, thickness, centre, width):
+    """Return the share of a force at ``x`` that acts on a patch round ``centre`` (all in m)."""
+    low = max(x - 0.5 * thickness, centre - 0.5 * width)
+    high = min(x + 0.5 * thickness, centre + 0.5 * width)
+    return max(high - low, 0.0) / thickness
+
+
+@jit_exact
+def _on_patch(problem, x, found, nodes, first, centre, width):
+    """Return the force on a patch round ``centre``, from node ``nodes[first]`` on, and its moment
+    about x = 0.
+    """
+    thickness, force, moment = problem.scene.contact.node_thickness, 0.0, 0.0
+    for i in range(first, nodes.size):
+        p = nodes[i]
+        if x[2 * p] > centre + width + thickness[p]:
+            break
+        share = share_on_patch(x[2 * p], thickness[p], centre, width)
+        if share > 0.0:
+            pressing = share * force_on_base(problem, x, found, p)
+            force += pressing
+            moment += pressing * x[2 * p]
+    return force, moment
+
+
+@jit_exact
 def greatest_on_patch(problem, x, found, nodes, width):
     """Return the greatest force (N) of ``nodes`` (k,) on a patch of ``width`` m, at least 0, and
     the centre of the forces on it, x in m; NaN without a force.
     """
     sort_along(x, nodes)
-    greatest, at, force, moment, first, last = 0.0, np.nan, 0.0, 0.0, 0, 0
-    while first < nodes.size:
-        enters = last < nodes.size and x[2 * nodes[last]] <= x[2 * nodes[first]] + width
-        p = nodes[last] if enters else nodes[first]
-        change = force_on_base(problem, x, found, p)
-        if enters:
-            last += 1
-        else:
-            change, first = -change, first + 1
-        force += change
-        moment += change * x[2 * p]
-        if force > greatest:
-            greatest, at = force, moment / force
+    thickness, greatest, at, first = problem.scene.contact.node_thickness, 0.0, np.nan, 0
+    thickest = 0.0
+    for p in nodes:
+        thickest = max(thickest, thickness[p])
+    for p in nodes:
+        while x[2 * nodes[first]] < x[2 * p] - width - thickest:
+            first += 1
+        for side in (-0.5, 0.5):
+            for span in (width + thickness[p], abs(width - thickness[p])):
+                centre = x[2 * p] + side * span
+                force, moment = _on_patch(problem, x, found, nodes, first, centre, width)
+                if force > greatest:
+                    greatest, at = force, moment / force
     return greatest, at
 
 

@@ -7,7 +7,7 @@ Rankings, sentences, options of the command line and the page take them from her
 from typing import Any, NamedTuple
 
 MODES = ("displacement", "impact", "force", "custom")
-NEEDED = {"displacement": "a crush", "impact": "a striker", "force": "a dead load"}
+NEEDED = {"displacement": "a crush", "impact": "an impact", "force": "a dead load"}
 """Loadings that a requirement may need, in words."""
 
 
@@ -76,7 +76,7 @@ MEASURES = {
         none="None presses on the base with less than {}; the least is {}",
         example="200 kPa",
         about="required, on a patch of the base, loading.base_patch wide",
-        unknown="a lattice along its cells has none",
+        unknown="a lattice along its cells, on ribs or with tied sides has none",
     ),
     "max_target_acceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),

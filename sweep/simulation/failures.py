@@ -85,6 +85,12 @@ def still_moving_down(where: str) -> Failure:
     return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
 
 
+def missed(where: str) -> Failure:
+    """The striker of a case that has finished is below the base."""
+    why = "the striker has passed the lattice: it misses it, slips off, or both fall off the base"
+    return Status.STOPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
+
+
 def still_pushed_back(where: str) -> Failure:
     """The striker of a case that has finished still gains speed upwards."""
     why = "the lattice still pushes the striker back"

@@ -39,6 +39,7 @@ from sweep.simulation.failures import (
     broke,
     energy_gained,
     energy_unresolved,
+    missed,
     momentum_unresolved,
     still_moving_down,
     still_pushed_back,
@@ -131,7 +132,8 @@ def _of_impact(
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
-        return still_moving_down(where)
+        gone = travel[last] > case.height and not case.along
+        return missed(where) if gone else still_moving_down(where)
     speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)

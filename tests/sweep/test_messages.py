@@ -220,6 +220,7 @@ def of_failures() -> Iterator[str]:
         failures.energy_gained(TIMED),
         failures.unbalanced("at the end"),
         failures.still_moving_down("at the end"),
+        failures.missed("at the end"),
         failures.still_pushed_back("at the end"),
         failures.energy_unresolved(STRUCK, 0.34),
         failures.energy_unresolved(STRUCK.changed(solver={"integrator": "backward_euler"}), 0.34),

@@ -35,6 +35,8 @@ def test_quantities_are_shown_in_a_unit_and_read_back():
     assert to_si(in_unit(lengths, "mm"), "mm") == pytest.approx(lengths)
     assert text_in(0.0123456, "mm") == "12.35 mm"
     assert text_in(0.125, "%", 6) == "12.5 %"
+    assert (text_in(10.0, "mm"), text_in(123.4567, "g")) == ("10000 mm", "123457 g")
+    assert text_in(1e12, "mm") == "1e+15 mm"
     assert in_unit(9.80665, "g0") == pytest.approx(FACTORS["N"])
 
 

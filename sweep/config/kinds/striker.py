@@ -191,7 +191,8 @@ def _check(own: Given, width: float) -> None:
     if face is not None and given_or(tip, 0.0) > 0.5 * face:
         allowed = f"at most half of loading.striker_width, {0.5 * face:g} m here"
         raise RefusedError("loading.striker_tip", tip, allowed)
-    span = own.get("base_span", 0.0)
-    if span > width:
-        allowed = f"at most the width of the lattice, {width:g} m here"
+    span, radius = own.get("base_span"), own.get("base_radius", 0.0)
+    if span is not None and not 2.0 * radius < span <= width:
+        allowed = f"more than twice loading.base_radius, {2.0 * radius:g} m here, and at most the "
+        allowed += f"width of the lattice, {width:g} m here"
         raise RefusedError("loading.base_span", span, allowed)

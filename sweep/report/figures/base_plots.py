@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from sweep.numbers import in_unit, text_in
+from sweep.numbers import in_unit, significant, text_in
 from sweep.report.figures.case_plots import BLUE, mark, plain
 from sweep.report.figures.storyboard import headline, path_of, turns
 
@@ -26,7 +26,11 @@ def base_pressure(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     peak = int(pressure.argmax())
     where = text_in(history["base_pressure_x_m"][peak], "mm", 3)
     ax.plot(
-        place[peak], pressure[peak], "o", color=BLUE, label=f"{pressure[peak]:.3g} kPa, x = {where}"
+        place[peak],
+        pressure[peak],
+        "o",
+        color=BLUE,
+        label=f"{significant(pressure[peak], 3)} kPa, x = {where}",
     )
     ax.set(xlabel=words, ylabel="greatest pressure on a patch of the base, kPa")
     ax.set_title(headline(row), loc="left", fontsize="medium")

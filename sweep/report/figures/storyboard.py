@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,13 +31,14 @@ PARTS = {
 
 NEGLIGIBLE = 0.005  # of the work: smaller energies are not drawn
 SHAPES = 6
+TITLE = 80  # letters in a line of a title
 RELEASED = 0.01  # below this strain a specimen counts as released
 ROUND_OFF = 1e-12
 FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
 
 
 def headline(row: Mapping[str, Any]) -> str:
-    """Design and scene of a case, on two lines; row : its row of the summary."""
+    """Design and scene of a case, each on lines of its own; row : its row of the summary."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
     if pattern == "custom":
         cells = ""
@@ -45,7 +47,8 @@ def headline(row: Mapping[str, Any]) -> str:
     wall = f"wall {text_in(row['wall_thickness_m'], 'mm', 3)}"
     if row["direction"] == ALONG:
         wall += ", along its cells"
-    return f"{pattern}{cells}, {wall}, {row['material']}\n{scene_label(DataFrame([row]))}"
+    lines = (f"{pattern}{cells}, {wall}, {row['material']}", scene_label(DataFrame([row])))
+    return "\n".join(fill(line, TITLE, break_on_hyphens=False) for line in lines)
 
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:

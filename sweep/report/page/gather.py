@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
+from sweep.columns import ABSORBED_AT, TIED_SIDES, correction_column, end_columns, error_column
 from sweep.design.panel import BEHIND, BESIDE
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
@@ -145,6 +145,8 @@ def _cases(
         if part.empty:
             continue
         least = LEAST.get(part["loading_mode"].iloc[0])
+        tied = part["sides"].str.startswith(TIED_SIDES)  # a period fills no panel
+        width = part["outer_width_m"].where(~tied)
         energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
         columns = {
             "id": part["case_id"],
@@ -154,7 +156,7 @@ def _cases(
             or [()] * len(part),
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
             "mass": _exact(part[counted[0].names.mass]),
-            "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
+            "outer": list(zip(_exact(width), _exact(part["depth_m"]), strict=True)),
             "gap": _exact(part["direction"].map(BEHIND)),
             "energies": list(zip(*energies, strict=True)),
             "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
@@ -244,7 +246,8 @@ def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Ques
 
 def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
     """Ids of the designs that are the best for some budget, and of the best per gram."""
-    for panel in (None, (1.0, 1.0)):
+    tied = counted.rows["sides"].str.startswith(TIED_SIDES).any()
+    for panel in (None,) if tied else (None, (1.0, 1.0)):
         rows, names = merits(finished, Question(panel=panel, allowed_force=counted.force))
         for scene in by_scene(rows) if len(rows) else []:
             least = LEAST.get(scene["loading_mode"].iloc[0])

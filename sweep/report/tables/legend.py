@@ -41,7 +41,7 @@ walls that are not elastic also in the material, or is still stored as they rela
 LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
 force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
-closed. rebound: energy of the striker at rebound / at first contact."""
+closed. rebound: energy of the striker, relative to the base, at rebound / at first contact."""
 SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""

@@ -34,19 +34,33 @@ def test_the_forces_of_nodes_sum_to_that_on_the_base(name):
 
 @pytest.mark.parametrize("width", [1e-4, 2e-3, 5e-3, 1.0])
 @pytest.mark.parametrize("name", BASES)
-def test_no_window_has_more_force(name, width):
-    """Among all windows that begin or end at a node, or a little before it or after it."""
-    _, args, x, found, nodes, pressing = forces(name)
-    place = x[2 * nodes]
-    starts = np.concatenate([place, place - width])
-    starts = np.concatenate([starts - 1e-9, starts, starts + 1e-9])
-    within = (starts[:, None] <= place) & (place <= starts[:, None] + width)
-    sums = within @ pressing
+def test_no_patch_has_more_force(name, width):
+    """Among patches all along the base; each force acts over the thickness of its wall."""
+    scene, args, x, found, nodes, pressing = forces(name)
+    place, t = x[2 * nodes], scene.terms.contact.node_thickness[nodes]
+    knots = [place + side * span for side in (-0.5, 0.5) for span in (width + t, width - t)]
+    centres = np.concatenate([*knots, np.linspace(place.min() - width, place.max() + width, 999)])
+    low = np.maximum(place - 0.5 * t, centres[:, None] - 0.5 * width)
+    high = np.minimum(place + 0.5 * t, centres[:, None] + 0.5 * width)
+    shares = np.clip(high - low, 0.0, None) / t
+    sums = shares @ pressing
     greatest, at = greatest_on_patch(args.problem, x, found, nodes.copy(), width)
     assert greatest == pytest.approx(sums.max(), rel=1e-9)
     assert greatest > 0.0
-    centres = within[np.isclose(sums, greatest, rtol=1e-9)] @ (pressing * place) / greatest
-    assert np.abs(centres - at).min() < 1e-12
+    middles = shares[np.isclose(sums, greatest, rtol=1e-9)] @ (pressing * place) / greatest
+    assert np.abs(middles - at).min() < 1e-12
+
+
+def test_a_patch_a_little_wider_has_a_little_more_force():
+    """Also where it is as wide as two joints are apart."""
+    _, args, x, found, nodes, _ = forces("loose platen")
+    apart = np.diff(np.sort(x[2 * nodes])).max()
+    forces_on = [
+        greatest_on_patch(args.problem, x, found, nodes.copy(), width)[0]
+        for width in apart * np.linspace(0.99, 1.01, 21)
+    ]
+    assert (np.diff(forces_on) >= 0.0).all()
+    assert np.diff(forces_on).max() < 0.02 * forces_on[0]
 
 
 def test_nodes_are_sorted_by_their_place():

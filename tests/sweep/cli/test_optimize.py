@@ -86,7 +86,7 @@ REFUSED = [
     (["--budget", "1 g", "--by", "cells_x"], '"cells_x" is no column'),
     (["--budget", "1 g", "--pareto", "weight"], '"weight" is no column'),
     (["--budget", "1 g", "--per", "panel"], "needed: a panel"),
-    (["--budget", "1 g", "--max-deceleration", "9 g0"], "needs a striker"),
+    (["--budget", "1 g", "--max-deceleration", "9 g0"], "needs an impact"),
     (["--budget", "1 g", "--min-absorbed", "9"], "a bare number"),
     (["--budget", "1 g", "--max-force", "9 N", "--allowed-force", "9 N"], "allowed: one of them"),
     (["--evaluations", "0"], "1 or more"),

@@ -125,7 +125,7 @@ def test_crushes_are_not_asked_for_a_deceleration():
     left_out = [outcome.left_out for (outcome,) in ranking.outcomes.values()]
     assert left_out == [(), ("max_deceleration",), ("max_deceleration",)]
     assert sorted(ids(ranking.table)) == [0, 1, 2]
-    with pytest.raises(RankError, match="max_deceleration needs a striker"):
+    with pytest.raises(RankError, match="max_deceleration needs an impact"):
         rank(CRUSHED, require={"max_deceleration": "500 m/s^2"})
 
 
@@ -147,7 +147,7 @@ def test_a_loading_is_not_asked_for_what_it_sets_itself():
 @pytest.mark.parametrize(
     ("name", "limit", "needed"),
     [
-        ("max_force", "70 N", "max_force needs a crush or a striker, and there is none"),
+        ("max_force", "70 N", "max_force needs a crush or an impact, and there is none"),
         ("min_absorbed", "1 J", "min_absorbed needs a crush, and there is none"),
     ],
 )

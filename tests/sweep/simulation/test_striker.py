@@ -234,6 +234,13 @@ def test_a_striker_that_still_sinks_is_a_failure():
     assert result.history["time_s"][-1] == pytest.approx(2e-3, rel=0.01)
 
 
+def test_a_striker_that_slips_off_has_passed_the_lattice():
+    shaped = dict(striker="round", striker_radius=1e-4, striker_at=1.0, platen="contact")
+    result = simulate(struck(striker_mass=0.1, striker_speed=5.0, duration=1e-2, **shaped))
+    assert result.status == "stopped"
+    assert "the striker has passed the lattice" in result.message
+
+
 def test_a_rebound_that_is_cut_off_is_a_failure():
     """The striker stops after 5.3 ms and is pushed back for as long."""
     result = simulate(struck(duration=8e-3))

@@ -74,6 +74,7 @@ def test_words_of_a_striker():
         (dict(striker="round", mode="force", platen="none"), "platen", '"contact" or "glued"'),
         (dict(base="ribs"), "base_span", "distance of the ribs"),
         (dict(base="ribs", base_span=13e-3), "base_span", "at most the width"),
+        (dict(base="ribs", base_span=2e-3), "base_span", "more than twice loading.base_radius"),
         (dict(base="ribs", base_span=9e-3, platen="glued"), "platen", '"contact" if'),
         (dict(striker="round", direction="out_of_plane"), "striker", '"flat" if loading.dir'),
         (dict(base="ribs", base_span=9e-3, direction="out_of_plane"), "base", '"flat" if'),

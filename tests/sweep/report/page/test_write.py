@@ -156,6 +156,12 @@ def test_page_without_data_is_small():
     assert len(data) < 73_000
 
 
+def test_tied_sides_fill_no_panel_but_have_a_page(tmp_path):
+    html = written(tmp_path, sweep(6, more={"sides": "tied, fixed"}))
+    cases = json.loads(re.search(r'id="data">(.*?)</script>', html)[1])["cases"]
+    assert {design["outer"][0] for design in cases} == {None}
+
+
 def test_slicer_settings_are_shown_if_a_file_has_them(tmp_path):
     table = sweep(2, more={"slicer_settings": "PrusaSlicer: Grid, 15 %"})
     assert "PrusaSlicer: Grid, 15 %" in written(tmp_path, table)
