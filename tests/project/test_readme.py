@@ -49,7 +49,7 @@ def test_commands_are_accepted():
     text = "\n".join([*blocks("sh"), *blocks("text")])
     commands = re.findall(r"^(?:\$ )?crumple (\w+ .*)", text, re.MULTILINE)
     verbs = [parser().parse_args(shlex.split(words, comments=True)).verb for words in commands]
-    told = {"run", "optimize", "rank", "status", "show", "report", "export", "materials"}
+    told = {"run", "optimize", "rank", "status", "verify", "show", "report", "export", "materials"}
     assert {*verbs} == told
 
 

@@ -33,8 +33,7 @@ def test_processors_are_busy_while_one_computes():
 
 
 def test_sweeps_are_timed_and_checked():
-    rough = sweeps.errors([cases.crush(2, 0.3, 4)])
-    fine = sweeps.errors([cases.crush(2, 0.3, 64)])
+    rough, fine = (sweeps.errors([cases.crush(2, 0.1, steps)]) for steps in (4, 64))
     assert rough > 4.0 * fine > 0.0
     smooth = [cases.crush(2, 0.1, 5, contact) for contact in (cases.SMOOTH, cases.ROUGH)]
     throughput = sweeps.throughput(smooth, 1)

@@ -16,7 +16,7 @@ from tests.support.designs.scenes import pressed, run
 from tests.support.kernels.solving import at_rest, ramp, whole
 from tests.support.kernels.states import STATES, driven, loaded
 
-FEW, SOLVED = 40, 13
+FEW, SOLVED = 40, 14
 ENDS = "converged", "unresolved"  # an impact in steps of backward Euler that are far too long
 
 

@@ -32,7 +32,7 @@ def test_row_has_the_fine_mesh_and_the_spread():
 
 def test_least_is_the_best_where_the_column_says_so():
     found = sheet((1.0, 2.0), (1.0, 2.0), (3.0, 2.1), "mass_g")
-    assert "walls +5 % leaves 300 % of it." in found.notes[1]
+    assert "with walls +5 % it has 300 % of this value." in found.notes[1]
     assert found.notes[2].startswith("The safest of these is number 2, with 2.10")
 
 

@@ -322,7 +322,7 @@ def test_error_columns_have_the_unit_of_what_they_are_about():
 
 def test_error_bar_covers_the_error_of_a_crush():
     """A slice of what `make bars` measures: four cells pressed to half their height."""
-    cells = {"cells_x": 2, "cells_y": 2, "wall_thickness": 0.6e-3}
+    cells = {"cells_x": 2, "cells_y": 2, "wall_thickness": 0.5e-3}
     loading = dict(mode="displacement", strain=0.5)
     design = Case.of(lattice=cells, loading=loading, solver=dict(load_steps=50))
     fine = dict(**cells, nodes_per_wall=11)
