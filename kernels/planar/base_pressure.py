@@ -44,40 +44,55 @@ def share_on_patch(x, thickness, centre, width):
 
 
 @jit_exact
-def _on_patch(problem, x, found, nodes, first, centre, width):
-    """Return the force on a patch round ``centre``, from node ``nodes[first]`` on, and its moment
-    about x = 0.
+def _gather(problem, x, found, nodes, pressing):
+    """Fill ``pressing`` (k, 3) with x, thickness and force of the ``nodes`` (k,) that have a force,
+    by x; return their number and the greatest thickness.
     """
-    thickness, force, moment = problem.scene.contact.node_thickness, 0.0, 0.0
-    for i in range(first, nodes.size):
-        p = nodes[i]
-        if x[2 * p] > centre + width + thickness[p]:
+    thickness, count, thickest = problem.scene.contact.node_thickness, 0, 0.0
+    sort_along(x, nodes)
+    for p in nodes:
+        force = force_on_base(problem, x, found, p)
+        if force != 0.0:
+            pressing[count, 0], pressing[count, 1], pressing[count, 2] = (
+                x[2 * p],
+                thickness[p],
+                force,
+            )
+            count, thickest = count + 1, max(thickest, thickness[p])
+    return count, thickest
+
+
+@jit_exact
+def _on_patch(pressing, first, centre, width, reach):
+    """Return the force on a patch round ``centre``, of the rows of ``pressing`` from ``first`` on,
+    and its moment about x = 0.
+    """
+    force, moment = 0.0, 0.0
+    for i in range(first, len(pressing)):
+        at, thickness = pressing[i, 0], pressing[i, 1]
+        if at > centre + reach:
             break
-        share = share_on_patch(x[2 * p], thickness[p], centre, width)
-        if share > 0.0:
-            pressing = share * force_on_base(problem, x, found, p)
-            force += pressing
-            moment += pressing * x[2 * p]
+        part = share_on_patch(at, thickness, centre, width) * pressing[i, 2]
+        force += part
+        moment += part * at
     return force, moment
 
 
 @jit_exact
-def greatest_on_patch(problem, x, found, nodes, width):
+def greatest_on_patch(problem, x, found, nodes, pressing, width):
     """Return the greatest force (N) of ``nodes`` (k,) on a patch of ``width`` m, at least 0, and
-    the centre of the forces on it, x in m; NaN without a force.
+    the centre of the forces on it, x in m; NaN without a force. pressing (k, 3): scratch.
     """
-    sort_along(x, nodes)
-    thickness, greatest, at, first = problem.scene.contact.node_thickness, 0.0, np.nan, 0
-    thickest = 0.0
-    for p in nodes:
-        thickest = max(thickest, thickness[p])
-    for p in nodes:
-        while x[2 * nodes[first]] < x[2 * p] - width - thickest:
+    count, thickest = _gather(problem, x, found, nodes, pressing)
+    pressing, greatest, at, first = pressing[:count], 0.0, np.nan, 0
+    for k in range(count):
+        place, thickness = pressing[k, 0], pressing[k, 1]
+        while pressing[first, 0] < place - width - thickest:
             first += 1
         for side in (-0.5, 0.5):
-            for span in (width + thickness[p], abs(width - thickness[p])):
-                centre = x[2 * p] + side * span
-                force, moment = _on_patch(problem, x, found, nodes, first, centre, width)
+            for span in (width + thickness, abs(width - thickness)):
+                centre, reach = place + side * span, 0.5 * (width + thickest)
+                force, moment = _on_patch(pressing, first, centre, width, reach)
                 if force > greatest:
                     greatest, at = force, moment / force
     return greatest, at
@@ -89,5 +104,5 @@ def write(problem, out, k, state, found):
     rows.write(problem, out, k, state, found)
     row = out.rows[k]
     row.patch_force, row.patch_at = greatest_on_patch(
-        problem, state.x, found, out.standing, out.patch
+        problem, state.x, found, out.standing, out.pressing, out.patch
     )

@@ -48,6 +48,7 @@ class Output(NamedTuple):
     bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
     probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k). standing
     (b,): nodes that may press on the base, of which a patch is ``patch`` m wide; sorted in place.
+    pressing (b, 3): scratch for their places and forces.
     """
 
     rows: np.ndarray
@@ -59,6 +60,7 @@ class Output(NamedTuple):
     probes: np.ndarray
     probed: np.ndarray
     standing: np.ndarray
+    pressing: np.ndarray
     patch: float
 
 

@@ -310,6 +310,7 @@ class _Run:
             self.scene.probes,
             self.probed[span],
             self.standing,
+            np.empty((self.standing.size, 3)),
             patch_width(self.case),
         )
         if not self.struck:

@@ -143,7 +143,8 @@ def _impact(**loading):
     frames = np.zeros((count, scene.x_rest.size))
     out = Output(
         rows, np.arange(count), frames, scene.bottom, scene.top, scene.base, scene.probes,
-        np.zeros((count, 2, 0)), scene.standing, 0.0,
+        np.zeros((count, 2, 0)), scene.standing,
+        np.zeros((scene.standing.size, 3)), 0.0,
     )  # fmt: skip
     given = scene.terms, tolerances(case, scene, stage), stage, state, out, np.zeros(2, np.int64)
     assert march.march(*given) == (CONVERGED, count)

@@ -25,7 +25,7 @@ def crushed():
     none = np.zeros((STEPS, 2, 0))
     out = Output(
         rows, np.arange(STEPS), frames, of.bottom, of.top, of.base, of.probes, none,
-        of.standing, 0.0,
+        of.standing, np.zeros((0, 3)), 0.0,
     )  # fmt: skip
     outcome, written = march.march(
         of.terms, tolerances(case, of, stage), stage, state, out, control

@@ -162,21 +162,21 @@ def test_slicer_holds_its_numbers():
 
 
 def test_drop_holds_its_numbers():
-    """A stiff design needs a multiple of the deceleration of one that uses half of its height."""
+    """A stiff design decelerates the box more than one that uses half of its height."""
     found = {
         (case.lattice.kind, case.lattice.cells_x, case.lattice.wall_thickness): case
         for case in expand(load_config(CONFIGS / "drop.toml"))
     }
     assert len(found) == 8
-    summary = simulate(found["diamond", 2, 0.8e-3]).summary
+    summary = simulate(found["hex", 6, 0.8e-3]).summary
     assert summary["status"] == "converged"
-    assert summary["impact_energy_J"] == pytest.approx(15e-3 * 9.80665 * 0.5)
+    assert summary["impact_energy_J"] == pytest.approx(0.5 * 9.80665 * 0.5)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
-    assert summary["peak_force_N"] == pytest.approx(8.918, rel=2e-3)
+    assert summary["peak_force_N"] == pytest.approx(354.3, rel=2e-3)
     filtered = "peak_deceleration_filtered_m_per_s2"
-    assert summary[filtered] / 9.80665 == pytest.approx(76.29, rel=2e-3)
-    stiff = simulate(found["square", 3, 0.8e-3]).summary
-    assert stiff[filtered] > 5.0 * summary[filtered]
+    assert summary[filtered] / 9.80665 == pytest.approx(65.10, rel=2e-3)
+    stiff = simulate(found["hex", 8, 0.8e-3]).summary
+    assert stiff[filtered] > 1.5 * summary[filtered]
 
 
 def test_search_holds_its_number():

@@ -44,7 +44,9 @@ def test_no_patch_has_more_force(name, width):
     high = np.minimum(place + 0.5 * t, centres[:, None] + 0.5 * width)
     shares = np.clip(high - low, 0.0, None) / t
     sums = shares @ pressing
-    greatest, at = greatest_on_patch(args.problem, x, found, nodes.copy(), width)
+    greatest, at = greatest_on_patch(
+        args.problem, x, found, nodes.copy(), np.zeros((nodes.size, 3)), width
+    )
     assert greatest == pytest.approx(sums.max(), rel=1e-9)
     assert greatest > 0.0
     middles = shares[np.isclose(sums, greatest, rtol=1e-9)] @ (pressing * place) / greatest
@@ -56,7 +58,7 @@ def test_a_patch_a_little_wider_has_a_little_more_force():
     _, args, x, found, nodes, _ = forces("loose platen")
     apart = np.diff(np.sort(x[2 * nodes])).max()
     forces_on = [
-        greatest_on_patch(args.problem, x, found, nodes.copy(), width)[0]
+        greatest_on_patch(args.problem, x, found, nodes.copy(), np.zeros((nodes.size, 3)), width)[0]
         for width in apart * np.linspace(0.99, 1.01, 21)
     ]
     assert (np.diff(forces_on) >= 0.0).all()

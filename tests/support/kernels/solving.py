@@ -233,7 +233,8 @@ def go_on(case, scene, state, stage, control=RUN, **tolerance):
     out = Output(
         np.zeros(stage.steps, ROW), np.full(stage.steps, -1),
         np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
-        scene.probes, np.zeros((stage.steps, 2, scene.probes.size)), scene.standing, 5e-3,
+        scene.probes, np.zeros((stage.steps, 2, scene.probes.size)), scene.standing,
+        np.zeros((scene.standing.size, 3)), 5e-3,
     )  # fmt: skip
     allowed = tolerances(case, scene, stage)._replace(**tolerance)
     outcome, written = march.march(scene.terms, allowed, stage, state, out, control)

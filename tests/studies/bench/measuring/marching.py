@@ -44,7 +44,7 @@ def go(case, scene, state, ramps):
             np.zeros(stage.steps, ROW), np.full(stage.steps, -1),
             np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
             scene.probes, np.zeros((stage.steps, 2, scene.probes.size)),
-            scene.standing, 0.0,
+            scene.standing, np.zeros((scene.standing.size, 3)), 0.0,
         )  # fmt: skip
         allowed = tolerances(case, scene, stage)
         given = (scene.terms, allowed, stage, state, out, np.zeros(2, np.int64))
