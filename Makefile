@@ -92,7 +92,7 @@ search: setup  ## compare what optimize finds with a scan and with a grid; kept 
 sides: setup  ## compare narrow strips, with free and with tied sides, with a wide panel; kept in results/sides/ (6 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.sides results/sides
 
-wide: setup  ## press panels of 24 and 48 cells, of all infills, and tell the cost; kept in results/wide/
+wide: setup  ## press panels of 24 and 48 cells, of all infills, and tell the cost; kept in results/wide/ (6 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.sides.wide results/wide
 
 memory: setup  ## measure what loss and softening change; goes to results/memory/ (10 min)
@@ -104,7 +104,7 @@ plates: setup  ## compare shells with the theory of plates, at five meshes
 plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling (15 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates.gate
 
-stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (30 min)
+stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (90 min)
 	@$(PYTHON) -m tests.studies.stability results/stability
 
 bench: setup  ## measure how fast it is; the tables go to results/bench/

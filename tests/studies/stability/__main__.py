@@ -59,7 +59,8 @@ def outcome(found):
         return RETRIED
     if found.status != "stopped":
         return found.status.replace("_", " ")
-    why = re.split(r";|,| at strain ", found.message.split(":")[-1])[0]
+    message = found.message.partition(" (tried without success")[0]
+    why = re.split(r";|,| at strain ", message.split(":")[-1])[0]
     return f"stopped: {why.strip()}"
 
 
