@@ -53,11 +53,9 @@ def _gather(problem, x, found, nodes, pressing):
     for p in nodes:
         force = force_on_base(problem, x, found, p)
         if force != 0.0:
-            pressing[count, 0], pressing[count, 1], pressing[count, 2] = (
-                x[2 * p],
-                thickness[p],
-                force,
-            )
+            pressing[count, 0] = x[2 * p]
+            pressing[count, 1] = thickness[p]
+            pressing[count, 2] = force
             count, thickest = count + 1, max(thickest, thickness[p])
     return count, thickest
 
