@@ -115,6 +115,7 @@ function settle() {
   $("force-box").hidden = !crushed();
   if (!sized) asked.panel = null;
   if (!crushed()) asked.force = null;
+  $("per-box").hidden = !asked.panel && asked.per !== "panel";
 }
 
 // A box and a number for each requirement that the scene can be asked for, in a maker's unit.
@@ -253,7 +254,8 @@ function valueText(row) {
   if (mode === "impact") return `${digits(row.value)} N on the support`;
   if (mode === "force") return `compressed by ${digits(inUnits(row.value, "%"))} %`;
   const least = row.early ? "at least " : "";
-  return least + (row.value === row.energy ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
+  const whole = asked.panel || asked.budget !== null; // energy is ranked, not energy per gram
+  return least + (whole ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
 }
 
 // The true lengths of a panel, in mm.
@@ -760,7 +762,7 @@ function showBase({ base }) {
   const [place, pressure] = base.values;
   const plot = chart($("base"), {
     x: { range: [place[0], place[place.length - 1]], label: base.label },
-    y: { range: extent([pressure]), label: "pressure on a patch of the base, kPa" },
+    y: { range: extent([pressure]), label: "base pressure, kPa" },
     height: 240,
     label: "pressure on the base over the path",
   });

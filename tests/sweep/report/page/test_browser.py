@@ -160,7 +160,7 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
     said = tab.run('document.getElementById("sentence").textContent')
     assert said == "No design up to 60 g meets the requirements."
     more = tab.run('document.getElementById("detail").textContent')
-    assert "Required of the part: absorbed energy at least 1000 J." in more
+    assert "Required of a specimen: absorbed energy at least 1000 J." in more
     assert "Nearest: " in more
     put(tab, "budget-on", False, what="checked", event="change")
     without_budget = tab.run('document.getElementById("sentence").textContent')
