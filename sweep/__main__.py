@@ -482,8 +482,10 @@ def _count(text: str) -> int:
 
 
 def _number(text: str) -> int:
-    """A whole number, or none."""
-    return 0 if text == "0" else _count(text)
+    """A whole number, zero included."""
+    if text.isdecimal():
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number")
 
 
 def _path(text: str) -> str:

@@ -29,7 +29,7 @@ def verify(file: str, again: int) -> bool:
 
     summary = read_summary(file)
     ids = list(summary["case_id"])
-    wrong = [str(error) for error in unreadable(file, ids)]
+    wrong = [f"case {case_id}: {error}" for case_id, error in unreadable(file, ids)]
     say_all(wrong[:SHOWN])
     if len(wrong) > SHOWN:
         say(f"{len(wrong) - SHOWN} more cases cannot be read")

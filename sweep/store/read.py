@@ -120,9 +120,11 @@ def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
     return _case(path, case_id, _read_arrays(Path(path), case_id, ["cases"]))
 
 
-def unreadable(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoreError]:
-    """What is wrong with each row whose curves, shapes or case cannot be read, or whose case has
-    not the id of the row.
+def unreadable(
+    path: str | os.PathLike[str], case_ids: Iterable[str]
+) -> Iterator[tuple[str, StoreError]]:
+    """Ids of rows whose curves, shapes or case cannot be read, or whose case has another id, each
+    with what is wrong.
     """
     with _stored(Path(path)) as arrays_of:
         for case_id in case_ids:
@@ -130,7 +132,7 @@ def unreadable(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterato
                 arrays = arrays_of[case_id](GROUPS)
                 _case(path, case_id, arrays)
             except StoreError as error:
-                yield error
+                yield case_id, error
 
 
 def _case(path: str | os.PathLike[str], case_id: str, arrays: dict[str, np.ndarray]) -> "Case":
