@@ -59,7 +59,9 @@ def test_both_models_follow_a_node_that_turns_by_more_than_half(turn):
 
 def test_light_scenes_violate_nothing(drawn):
     light = [
-        case for case in drawn if case.lattice.counts[1] * (case.lattice.nodes_per_wall + 1) < 200
+        case.changed(solver={"retry": False})
+        for case in drawn
+        if case.lattice.counts[1] * (case.lattice.nodes_per_wall + 1) < 200
     ]
     audits = [audit.audit(case) for case in light]
     assert [found.violations for found in audits] == [()] * len(light)
@@ -75,7 +77,7 @@ def test_light_scenes_violate_nothing(drawn):
 def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
     """A soft coordinate was not balanced beside a stiff one, nor friction at the end of a step."""
     warm_up()
-    assert audit.audit(case).violations == ()
+    assert audit.audit(case.changed(solver={"retry": False})).violations == ()
 
 
 def corner(case, cells_x, cells_y):
