@@ -14,8 +14,9 @@ from sweep.ranking.question import Question, in_si
 
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from sweep.config.case import Case
     from sweep.config.grid import Config
     from sweep.running.searching.search import Search
 
@@ -42,7 +43,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
     question = _question(config, arguments)
     limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
     space = DesignSpace(config, *limits)
-    question = _of_mode(question, arguments, Search(space, question, out, how).mode)
+    question = _of_start(question, arguments, Search(space, question, out, how).start)
     space = DesignSpace(_with_force(config, question), *limits)
     search = Search(space, question, out, how)
     search.run()
@@ -84,14 +85,15 @@ def _question(config: Config, arguments: Namespace) -> Question:
     )
 
 
-def _of_mode(question: Question, arguments: Namespace, mode: str) -> Question:
+def _of_start(question: Question, arguments: Namespace, start: Sequence[Case]) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
-    requirement. mode : of the loading, "" if no design is known.
+    requirement. start : designs of the search, all of one loading; empty if none exists.
     """
     from sweep.ranking.requirements import check_modes
+    from sweep.running.applicable import check_required
 
-    if mode:
-        check_modes(question.require or {}, [mode])
+    check_required(question.require or {}, start)
+    mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):
         return question
     if arguments.allowed_force is not None:

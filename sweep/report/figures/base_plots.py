@@ -25,13 +25,8 @@ def base_pressure(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     ax.plot(place, pressure, color=BLUE, lw=1.8)
     peak = int(pressure.argmax())
     where = text_in(history["base_pressure_x_m"][peak], "mm", 3)
-    ax.plot(
-        place[peak],
-        pressure[peak],
-        "o",
-        color=BLUE,
-        label=f"{significant(pressure[peak], 3)} kPa, x = {where}",
-    )
+    label = f"{significant(pressure[peak], 3)} kPa, x = {where}"
+    ax.plot(place[peak], pressure[peak], "o", color=BLUE, label=label)
     ax.set(xlabel=words, ylabel="greatest pressure on a patch of the base, kPa")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0)

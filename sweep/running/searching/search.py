@@ -76,11 +76,10 @@ class Search:
     _before: int = 0  # designs before the present generation
 
     @property
-    def mode(self) -> str:
-        """The loading mode of the first design that exists; "" if none of the start does."""
+    def start(self) -> list[Case]:
+        """The designs of the start that exist."""
         points = self._start(self.settings.seed * 1000)
-        first = next((case for point in points if (case := self.space.case(point))), None)
-        return first.loading.mode if first else ""
+        return [case for point in points if (case := self.space.case(point))]
 
     @property
     def left(self) -> int:

@@ -104,6 +104,14 @@ def test_refusals_write_nothing(capsys, config, tmp_path, words, told):
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
 
 
+def test_a_requirement_of_which_no_design_has_a_value_is_refused(capsys, config):
+    struck = 'energy = "1 J"\nstriker_mass = "50 g"\nbase = "ribs"\nbase_span = "8 mm"'
+    config.write_text(TOML.replace('mode = "displacement"\nstrain = 0.6', struck))
+    for words in (["--max-base-pressure", "9 kPa"], ["--max-target-acceleration", "9 g0"]):
+        status, _, err = crumple(capsys, "optimize", str(config), *words)
+        assert (status, "and there is none" in err) == (2, True)
+
+
 def test_configs_are_for_one_verb(capsys, config, tmp_path):
     status, _, err = crumple(capsys, "run", str(config))
     assert status == 2

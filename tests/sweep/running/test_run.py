@@ -42,24 +42,6 @@ def test_pictures_require_what_the_config_requires(config):
     assert not ranked(run(config).table).table.empty
 
 
-@pytest.mark.parametrize(
-    ("loading", "limit", "needed"),
-    [
-        ('base = "ribs"\nbase_span = "9 mm"', 'max_base_pressure = "1 kPa"', "a flat base"),
-        ('platen = "contact"', 'max_target_acceleration = "9 g0"', "loading.target_mass"),
-    ],
-)
-def test_a_requirement_of_which_no_case_has_a_value_is_refused(
-    monkeypatch, tmp_path, loading, limit, needed
-):
-    monkeypatch.chdir(tmp_path)
-    struck = f'[loading]\nmode = "impact"\nstriker_mass = "9 g"\nstriker_speed = "1 m/s"\n{loading}'
-    (tmp_path / "mine.toml").write_text(f'name = "mine"\n{struck}\n[require]\n{limit}\n')
-    with pytest.raises(RankError, match=f"{limit.split()[0]} needs {needed}.*, and there is none"):
-        run("mine.toml")
-    assert not Path("results").exists()
-
-
 def test_a_panel_that_holds_no_specimen_is_refused_before_anything_runs(config):
     text = Path(config).read_text()
     Path(config).write_text(text.replace("[rank]\n", '[rank]\npanel = ["5 mm", "5 mm"]\n'))

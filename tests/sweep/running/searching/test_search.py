@@ -153,4 +153,4 @@ def test_a_first_design_is_sought_where_few_points_are_one(searched, monkeypatch
 
 
 def test_mode_is_that_of_the_loading(searched):
-    assert searched(evaluations=1)[0].mode == "displacement"
+    assert searched(evaluations=1)[0].start[0].loading.mode == "displacement"

@@ -1,0 +1,36 @@
+"""Which requirements cases can be asked for; others are refused before a case runs."""
+
+from collections.abc import Callable, Iterable, Sequence
+
+from sweep.config.case import Case
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.striker import Struck
+from sweep.ranking.question import RankError
+from sweep.ranking.requirements import check_modes
+
+
+def check_required(required: Iterable[str], cases: Sequence[Case]) -> None:
+    """Refuse a requirement of which none of these cases has a value."""
+    names = list(required)
+    check_modes(names, {case.loading.mode for case in cases})
+    for name, (needed, has) in MEASURED.items():
+        if name in names and cases and not any(map(has, cases)):
+            raise RankError(f"{name} needs {needed}, and there is none")
+
+
+def _has_patch(case: Case) -> bool:
+    """Whether the pressure on a patch of the base is measured."""
+    loading, lattice = case.loading, case.lattice
+    flat = isinstance(loading, Struck) and loading.base == "flat"
+    return flat and not (case.along or lattice.endless or lattice.tied)
+
+
+def _has_target(case: Case) -> bool:
+    return isinstance(case.loading, Impact) and case.loading.target_mass is not None
+
+
+MEASURED: dict[str, tuple[str, Callable[[Case], bool]]] = {
+    "max_base_pressure": ("a flat base below walls across it, whose sides are free", _has_patch),
+    "max_target_acceleration": ("loading.target_mass", _has_target),
+}
+"""Requirements of which some cases have no value: what they need, and whether a case has it."""
