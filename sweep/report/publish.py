@@ -20,7 +20,7 @@ from sweep.report.figures.base_plots import base_pressure
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars
 from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.shaded import cut_open
-from sweep.report.figures.storyboard import headline, last_loaded
+from sweep.report.figures.storyboard import design_and_scene, last_loaded
 from sweep.report.figures.work_precision import work_precision
 from sweep.report.tables.accuracy_tables import MARKS, accuracy_sheets, scene_title
 from sweep.report.tables.design_text import design_labels
@@ -221,7 +221,7 @@ def case_figures(file: str, row: Series) -> Named:
     if frames:
         dead = row["loading_mode"] == "force"
         release = history["time_s"][last_loaded(history, row)] if dead else None
-        drawn = headline(row).replace("\n", ", "), frames, release
+        drawn = ", ".join(design_and_scene(row)), frames, release
         figure = case_plots.blank(*case_plots.shapes_size(*drawn))
         case_plots.deformed_shapes(figure, *drawn)
         yield "shapes", figure

@@ -39,6 +39,11 @@ FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
 
 def headline(row: Mapping[str, Any]) -> str:
     """Design and scene of a case, each on lines of its own; row : its row of the summary."""
+    return "\n".join(fill(part, TITLE, break_on_hyphens=False) for part in design_and_scene(row))
+
+
+def design_and_scene(row: Mapping[str, Any]) -> tuple[str, str]:
+    """Design and scene of a case in words."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
     if pattern == "custom":
         cells = ""
@@ -47,8 +52,7 @@ def headline(row: Mapping[str, Any]) -> str:
     wall = f"wall {text_in(row['wall_thickness_m'], 'mm', 3)}"
     if row["direction"] == ALONG:
         wall += ", along its cells"
-    lines = (f"{pattern}{cells}, {wall}, {row['material']}", scene_label(DataFrame([row])))
-    return "\n".join(fill(line, TITLE, break_on_hyphens=False) for line in lines)
+    return f"{pattern}{cells}, {wall}, {row['material']}", scene_label(DataFrame([row]))
 
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:

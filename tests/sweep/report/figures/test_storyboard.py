@@ -5,6 +5,7 @@ import pytest
 
 from sweep.report.figures.storyboard import (
     crushes,
+    design_and_scene,
     headline,
     last_loaded,
     parts_of,
@@ -92,6 +93,17 @@ def test_headline_names_cells_wall_material_and_scene():
         headline(row)
         == "square, 3 x 2 cells, wall 0.8 mm, ninjaflex\ncrushed to 50 %, glued platens"
     )
+
+
+def test_a_long_scene_takes_more_lines_of_a_headline():
+    row = {"lattice_kind": "square", "striker": "edge, 60 deg, tip 1 mm, at 50 %", "material": "x"}
+    row |= {"loading_mode": "impact", "striker_mass_g": 1360.0, "target_mass_g": 1360.0}
+    (row,) = summary(row).to_dict("records")
+    design, scene = design_and_scene(row)
+    first, *others = headline(row).split("\n")
+    assert (first, " ".join(others)) == (design, scene)
+    assert len(others) == 2
+    assert max(map(len, others)) <= 80
 
 
 def test_negligible_energies_are_no_parts():
