@@ -52,8 +52,8 @@ class Kernel:
             "fastmath": fastmath,
             "no_cfunc_wrapper": True,
         } | HOW  # fmt: skip
-        if not owning and hasattr(DefaultOptions, "_nrt"):
-            self._options["_nrt"] = False
+        if hasattr(DefaultOptions, "_nrt"):  # left out, it would be that of the first caller
+            self._options["_nrt"] = owning
         self.linked = self._dispatcher(function, no_cpython_wrapper=True)
         functools.update_wrapper(self, function)
 

@@ -31,3 +31,15 @@ def test_only_an_owning_kernel_may_make_an_array():
         with pytest.raises(numba.TypingError, match=r"No implementation of function .*ones"):
             decorator(total)(3)
     assert jit_owning(total)(3) == 3.0
+
+
+def test_an_owning_kernel_makes_arrays_whoever_calls_it_first():
+    @jit_owning
+    def total(n):
+        return np.ones(n).sum()
+
+    @jit
+    def twice(n):
+        return 2.0 * total(n)
+
+    assert twice(3) == 6.0
