@@ -92,9 +92,9 @@ def _mark(name):
     return Path(numba.config.CACHE_DIR) / f"{name}.warm"
 
 
-def is_cold(*names):
-    """Return whether something may have to be compiled, as none of these was ever warmed up."""
-    return not (numba.config.DISABLE_JIT or any(_mark(name).exists() for name in names))
+def is_cold(name):
+    """Return whether something may have to be compiled, as this was never warmed up."""
+    return not (numba.config.DISABLE_JIT or _mark(name).exists())
 
 
 def warmed_up(name):

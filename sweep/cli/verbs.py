@@ -65,16 +65,22 @@ def accuracy(arguments: Namespace) -> int:
 
 
 def warm(_: Namespace) -> int:
-    """Compile the kernels ahead of the first run."""
-    from kernels.compile.cache import is_cold, is_lasting
-    from sweep.running.sweep import UNWRITABLE, real_simulate
+    """Compile the kernels ahead of the first run: those of shells in a process of their own."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    from kernels.compile.cache import is_lasting
+    from sweep.running.sweep import UNWRITABLE, cold_kernels, load
 
     if not is_lasting():
         raise ArgumentError(UNWRITABLE)
-    cold = is_cold("arcs") or is_cold("plates")
+    cold = cold_kernels(["marches", "arcs", "plates"])
     done = "compiled the kernels" if cold else "found compiled kernels and loaded them"
     started = time.perf_counter()
-    real_simulate(arcs=True, plates=True)
+    with ProcessPoolExecutor(1, get_context("spawn")) as beside:
+        shells = beside.submit(load, ["plates"])
+        load(["marches", "arcs"])
+        shells.result()
     say(f"{done} in {time.perf_counter() - started:.1f} s; later runs need not compile")
     return DONE
 

@@ -54,14 +54,11 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
     """A sentence for each case that has other numbers now, or ends in another way."""
     import numpy as np
 
-    from sweep.config.kinds.solver import Arcs
     from sweep.running.sweep import real_simulate
     from sweep.store.read import read_case
 
     cases = [read_case(file, case_id) for case_id in rows.index]
-    simulate = real_simulate(
-        any(isinstance(case.solver, Arcs) for case in cases), any(case.along for case in cases)
-    )
+    simulate = real_simulate(cases)
     for case in cases:
         case_id, row = case.case_id, rows.loc[case.case_id]
         new = simulate(case, np.zeros(2, np.int64)).summary

@@ -79,8 +79,7 @@ def dry_run(
         counts += f"\nerror bars: {companions}, {len(ready):,} of them finished"
     if not waiting:
         return f"{counts}\nnothing is left to run"
-    plates = any(case.along for case in waiting)
-    forecast = estimate(waiting, real_simulate(plates=plates))
+    forecast = estimate(waiting, real_simulate(waiting))
     wall = forecast.cpu / min(workers, len(waiting))
     lines = [
         counts,

@@ -74,8 +74,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         asked = list(waiting.values())
         for line in (*sentences_on_lossless(asked), *sentences_on_periods(asked)):
             announce(line)
-        plates = any(case.along for case in waiting.values())
-        chosen = simulate or real_simulate(plates=plates) if waiting else None
+        chosen = simulate or real_simulate(waiting.values()) if waiting else None
         with interruptible(stop):
             if not chosen:
                 with writer_thread() as thread:
@@ -101,32 +100,41 @@ def _converged(out: str | os.PathLike[str], cases: Iterable[str]) -> int:
     return sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
 
 
-def real_simulate(arcs: bool = False, plates: bool = False) -> Simulate:
-    """The function `simulate_again`, imported only here since it loads or compiles the kernels.
+def real_simulate(cases: Iterable[Case]) -> Simulate:
+    """The function `simulate_again`, with the kernels that these cases need.
 
-    arcs, plates: as of `simulation.simulate.warm_up`.
+    It is imported only here, since it loads or compiles the kernels.
     """
-    from kernels.compile.cache import is_cold, is_lasting, warmed_up
+    from kernels.compile.cache import is_lasting
     from kernels.compile.choice import FAST, compiler
+    from sweep.simulation.retries import simulate_again
+    from sweep.simulation.simulate import kernels_of
 
-    def load() -> Simulate:
-        from sweep.simulation.retries import simulate_again
-        from sweep.simulation.simulate import warm_up
+    kernels = sorted({kernels_of(case) for case in cases})
+    if cold_kernels(kernels):
+        takes = "a minute or two" if compiler() == FAST else "two or three minutes"
+        announce(f"compiling the kernels, once: this takes {takes}")
+        if not is_lasting():
+            announce(f"for this run alone: {UNWRITABLE}")
+    load(kernels)
+    return simulate_again
 
-        warm_up(arcs, plates)
-        return simulate_again
 
-    what = "arcs" if arcs else "marches"
-    if not is_cold("arcs", what) and not (plates and is_cold("plates")):
-        return load()
-    takes = "a minute or two" if compiler() == FAST else "two or three minutes"
-    announce(f"compiling the kernels, once: this takes {takes}")
-    if not is_lasting():
-        announce(f"for this run alone: {UNWRITABLE}")
-    loaded = load()
-    for name in [what, *(["plates"] if plates else [])]:
+def cold_kernels(kernels: Iterable[str]) -> list[str]:
+    """Those of the named kernels (keys of `SMALLEST`) that may have to be compiled."""
+    from kernels.compile.cache import is_cold
+
+    return [name for name in kernels if is_cold(name)]
+
+
+def load(kernels: Iterable[str]) -> None:
+    """Load or compile the named kernels, and note that they are kept."""
+    from kernels.compile.cache import warmed_up
+    from sweep.simulation.simulate import warm_up
+
+    for name in kernels:
+        warm_up([name])
         warmed_up(name)
-    return loaded
 
 
 @contextmanager

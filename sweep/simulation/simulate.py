@@ -1,7 +1,7 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -160,30 +160,39 @@ def _scene(case: Case) -> Scene | PlateScene:
     return build_scene(case)
 
 
-def warm_up(arcs: bool = False, plates: bool = False) -> None:
-    """Load or compile the kernels, so that no case spends time on it.
-
-    arcs, plates: also the kernels of the arc-length method, and of crushes along the cells, which
-    few sweeps need.
-    """
-    cell = {"cells_x": 1, "cells_y": 1}
-    _warm(lattice=cell, loading={"release_time": 1e-4, "duration": 2e-4})
-    if arcs:
-        clamp = Support(node=0, fix=("x", "y", "rotation"))
-        tip = Load(node=1, force_N=(0.0, -1e-3))
-        wall = Structure(
-            nodes_mm=((0, 0), (10, 0)), walls=((0, 1),), supports=(clamp,), loads=(tip,)
-        )
-        path = {"integrator": "arc_length", "load_steps": 1}
-        _warm(lattice={"kind": "custom", "structure": wall}, solver=path)
-    if plates:
-        tube = cell | {"nodes_per_wall": 1, "layers": 2}
-        pressed = {"direction": "out_of_plane", "strain": 1e-3, "unload": False}
-        _warm(lattice=tube, loading=pressed, solver={"load_steps": 1})
+def kernels_of(case: Case) -> str:
+    """Which kernels a case runs on, a key of `SMALLEST`."""
+    if case.along:
+        return "plates"
+    return "arcs" if isinstance(case.solver, Arcs) else "marches"
 
 
-def _warm(**tables: Given) -> None:
-    simulate(complete(tables).sound())
+CELL = {"cells_x": 1, "cells_y": 1}
+WALL = Structure(
+    nodes_mm=((0, 0), (10, 0)),
+    walls=((0, 1),),
+    supports=(Support(node=0, fix=("x", "y", "rotation")),),
+    loads=(Load(node=1, force_N=(0.0, -1e-3)),),
+)
+SMALLEST: Mapping[str, Given] = {
+    "marches": {"lattice": CELL, "loading": {"release_time": 1e-4, "duration": 2e-4}},
+    "arcs": {
+        "lattice": {"kind": "custom", "structure": WALL},
+        "solver": {"integrator": "arc_length", "load_steps": 1},
+    },
+    "plates": {
+        "lattice": CELL | {"nodes_per_wall": 1, "layers": 2},
+        "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
+        "solver": {"load_steps": 1},
+    },
+}
+"""A case of each kind of kernels: motion and crushes in the plane, arc lengths, shells."""
+
+
+def warm_up(kernels: Iterable[str] = ("marches",)) -> None:
+    """Load or compile kernels, by their keys in `SMALLEST`, so that no case spends time on it."""
+    for name in kernels:
+        simulate(complete(SMALLEST[name]).sound())
 
 
 class _Run:

@@ -2,6 +2,7 @@
 
 from kernels.compile.cache import cache_home
 from sweep.__main__ import main
+from sweep.config.case import Case
 from sweep.running.sweep import real_simulate
 from sweep.store.read import read_summary
 from tests.studies.bench import starts
@@ -36,5 +37,5 @@ def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
     )
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda *_: True)
     monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda _: None)
-    real_simulate()
+    real_simulate([Case.of()])
     assert "for this run alone: CRUMPLE_CACHE_DIR, else" in capsys.readouterr().err
