@@ -45,6 +45,10 @@ RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
 
+FILES_REMEMBERED = 4096
+_DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
+"""Damaged rows of files that this process has checked: a sealed file never changes."""
+
 
 class Rerun(NamedTuple):
     """Which cases run again although they have a row: failed ones, those of another model."""
@@ -84,29 +88,29 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
 
 def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:
     """Status of every finished case, by its id; empty if there is no file."""
-    return _read_by_case(path, "status")
+    return dict(zip(*_read_columns(path, "case_id", "status"), strict=True))
 
 
-def _read_by_case(path: str | os.PathLike[str], name: str) -> dict[str, Any]:
-    """A column of the summary, by case id; empty if there is no file."""
+def _read_columns(path: str | os.PathLike[str], *names: str) -> list[np.ndarray]:
+    """Columns of the summary; empty if there is no file."""
     if not exists(path):
-        return {}
+        return [np.zeros(0, object) for _ in names]
     with _union(Path(path)) as blocks:
-        table = newest(blocks, ("case_id", name))
-    return dict(zip(table["case_id"], table[name], strict=True))
+        table = newest(blocks, names)
+    return [table[name] for name in names]
 
 
 def finished_ids(path: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING) -> set[str]:
     """Ids of the cases that need not run again; empty if there is no file."""
-    statuses, old = read_statuses(path), older_ids(path) if rerun.older else set()
-    kept = {i for i, status in statuses.items() if not rerun.failed or status == Status.CONVERGED}
-    return kept - old
+    ids, statuses, versions = _read_columns(path, "case_id", "status", "model_version")
+    again = (statuses != Status.CONVERGED) & rerun.failed | (versions < MODEL_VERSION) & rerun.older
+    return {*ids[~again]}
 
 
 def older_ids(path: str | os.PathLike[str]) -> set[str]:
     """Ids of the finished cases computed with an older version of the model."""
-    versions = _read_by_case(path, "model_version")
-    return {case_id for case_id, version in versions.items() if version < MODEL_VERSION}
+    ids, versions = _read_columns(path, "case_id", "model_version")
+    return {*ids[versions < MODEL_VERSION]}
 
 
 def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -259,8 +263,17 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
         attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
         columns = _Columns(path, file["summary"])
-        damaged = _changed_rows(columns, ragged, file["checksums"][:])
-        return Block(columns, ragged, attributes, damaged)
+        if (content := _identity(file)) not in _DAMAGED:
+            while len(_DAMAGED) >= FILES_REMEMBERED:
+                _DAMAGED.pop(next(iter(_DAMAGED)), None)
+            _DAMAGED[content] = _changed_rows(columns, ragged, file["checksums"][:])
+        return Block(columns, ragged, attributes, _DAMAGED[content])
+
+
+def _identity(file: h5py.File) -> tuple[int, ...]:
+    """What changes if the content of a file does."""
+    about = os.fstat(file.id.get_vfd_handle())
+    return about.st_dev, about.st_ino, about.st_size, about.st_mtime_ns, about.st_ctime_ns
 
 
 def _changed_rows(
@@ -310,8 +323,7 @@ def _undamaged(path: Path) -> Iterator[None]:
 
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
-    arrays = {name: _Array(path, data) for name, data in dict(group["values"]).items()}
-    return Ragged(group["start"][:], group["rows"][:], arrays)
+    return Ragged(group["start"][:], group["rows"][:], _Arrays(path, group["values"]))
 
 
 class _Array:
@@ -326,16 +338,40 @@ class _Array:
             return self._data[rows]
 
 
-class _Columns(Mapping[str, np.ndarray]):
-    """Columns of a sealed file, read when indexed."""
+class _Arrays(Mapping[str, _Array]):
+    """Arrays of a group of a sealed file, each opened when it is indexed."""
 
     def __init__(self, path: Path, group: h5py.Group) -> None:
         self._path, self._data = path, group
+        self._opened: dict[str, _Array] = {}
+
+    def __getitem__(self, name: str) -> _Array:
+        if name not in self._opened:
+            with _undamaged(self._path):
+                self._opened[name] = _Array(self._path, self._data[name])
+        return self._opened[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+
+class _Columns(Mapping[str, np.ndarray]):
+    """Columns of a sealed file, each read when it is first indexed."""
+
+    def __init__(self, path: Path, group: h5py.Group) -> None:
+        self._path, self._data = path, group
+        self._read: dict[str, np.ndarray] = {}
 
     def __getitem__(self, name: str) -> np.ndarray:
-        with _undamaged(self._path):
-            data = self._data[name]
-            return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
+        if name not in self._read:
+            with _undamaged(self._path):
+                data = self._data[name]
+                text = h5py.check_string_dtype(data.dtype)
+                self._read[name] = data.asstr()[:] if text else data[:]
+        return self._read[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._data)
