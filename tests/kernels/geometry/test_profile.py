@@ -73,7 +73,7 @@ def test_the_gap_of_a_wall_separates_it_from_the_profile(shape, seed):
         assert min(a @ n, b @ n) - (shaped.chain @ n).max() - shaped.radius > d - 1e-9
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("shape", SHAPES)
 def test_no_move_leads_through_a_profile(shape, seed):
     """Up to the share the wall stays apart; if that is less than 1, a little more would touch."""
@@ -83,7 +83,7 @@ def test_no_move_leads_through_a_profile(shape, seed):
         a, b = outside(of, draw.integers(1 << 30)), outside(of, draw.integers(1 << 30))
     da, db = draw.uniform(-9, 9, (2, 2)) * 10.0 ** draw.uniform(-2, 1)
     begun, share = profile.gap(of, 0, *a, *b)[2], profile.advance(of, 0, a, b, da, db)
-    for s in np.linspace(0.0, share, 200):
+    for s in np.linspace(0.0, share, 60):
         at = a + s * da, b + s * db
         assert profile.gap(of, 0, *at[0], *at[1])[2] > 0.099 * begun
         assert not crosses(of, *at)
@@ -94,7 +94,7 @@ def test_no_move_leads_through_a_profile(shape, seed):
 def crosses(of, a, b):
     """Whether a wall is inside of a profile somewhere."""
     return any(
-        profile.distance(of, 0, *(a + t * (b - a)))[2] <= 0.0 for t in np.linspace(0.0, 1.0, 101)
+        profile.distance(of, 0, *(a + t * (b - a)))[2] <= 0.0 for t in np.linspace(0.0, 1.0, 41)
     )
 
 

@@ -17,11 +17,11 @@ def test_every_infill_between_all_platens_in_all_widths():
 
 def test_a_piece_of_the_study():
     """Few cells with tied sides are the middle of the panel; with free sides they are not."""
-    piece = strips(kinds=("square", "hex"), platens=("glued", "smooth"), narrow=(3,))
+    piece = strips(kinds=("square",), platens=("glued", "smooth"), narrow=(3,))
     rows = {strip: pd.Series(simulate(crush(strip)).summary) for strip in piece}
     sheet = table(rows)
     assert [line[:2] for line in sheet.rows] == [
-        [kind, platens] for kind in ("square", "hex") for platens in ("glued", "smooth")
+        ["square", platens] for platens in ("glued", "smooth")
     ]
     for *_, free, tied in sheet.rows:
         assert abs(float(tied)) < 0.1

@@ -34,9 +34,9 @@ name = "cells"
 [lattice]
 infill = "20 %"
 [loading]
-strain = 0.05
+strain = 0.02
 [solver]
-load_steps = 10
+load_steps = 4
 [rank]
 budgets = ["50 g"]
 """,
@@ -90,7 +90,7 @@ def test_everything_follows_from_the_file(file, capsys, tmp_path):
     results = crumple.Results(file)
     for number, case_id in enumerate(results.table["case_id"]):
         assert command(capsys, "show", file, case_id, "--out", case_id)[0] == 0
-        for ending in (".stl", ".3mf", ".svg", ".dxf", ".csv", ".pvd"):
+        for ending in (".3mf", ".svg", ".dxf", ".csv", ".pvd") if number == 0 else (".stl",):
             status, said, _ = command(capsys, "export", file, case_id, "--to", f"a{ending}")
             assert status == 0, said
         assert_same(results, number)

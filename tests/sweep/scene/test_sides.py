@@ -60,8 +60,8 @@ def test_diamonds_that_widen_freely_only_bend():
 
 @pytest.mark.parametrize(
     ("kind", "platens"),
-    [(kind, way) for kind in ("square", "hex") for way in ("glued", "loose", "smooth")]
-    + [("diamond", "smooth")],
+    [("square", way) for way in ("glued", "loose", "smooth")]
+    + [("hex", "smooth"), ("diamond", "smooth")],
 )
 def test_a_period_is_what_a_wide_lattice_gains_by_its_width(kind, platens):
     """The edges of two wide lattices are the same: their difference is the middle."""

@@ -28,7 +28,7 @@ def every_kind():
         Case.of(lattice=dict(slicer="orca", pattern="grid", mass=5e-3, width=25e-3)),
         Case.of(lattice=dict(boundary="periodic"), loading=dict(strain=0.3)),
         Case.of(loading=dict(direction="out_of_plane")),
-        *cases(40),
+        *cases(12),
     ]
 
 
