@@ -91,6 +91,13 @@ def missed(where: str) -> Failure:
     return Status.STOPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
 
 
+def slipped_off(share: float) -> Failure:
+    """The lattice has slipped away from a striker, or between ribs, before full stroke."""
+    why = f"at full stroke the striker bears {percent(share)} % of its greatest force"
+    advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
+    return Status.STOPPED, f"{why}: the lattice has slipped away; {advice}"
+
+
 def still_pushed_back(where: str) -> Failure:
     """The striker of a case that has finished still gains speed upwards."""
     why = "the lattice still pushes the striker back"

@@ -1,7 +1,7 @@
 """From a case to its result: build the arrays, march through the stages, measure. No files."""
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
 from sweep.config.case import Case, complete
 from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
@@ -41,6 +42,7 @@ from sweep.simulation.failures import (
     energy_unresolved,
     missed,
     momentum_unresolved,
+    slipped_off,
     still_moving_down,
     still_pushed_back,
     stopped,
@@ -68,6 +70,7 @@ CURABLE = {  # other steps or another imperfection may help
     *(outcomes.UNBALANCED, outcomes.NOT_FINITE),
 }
 EXPIRED = 2  # what `stop[0]` is after the time limit
+LOST = 0.1  # of the greatest force, at full stroke: the lattice has slipped away from the striker
 CREATED = 0.1  # of the work done: energy that an integrator may create
 
 
@@ -100,11 +103,15 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         else strains_of(shapes, scene.terms)
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles)
+    borne = _borne_at_full_stroke(case, curves, run.cycles)
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
+    if status == Status.CONVERGED and borne < LOST:
+        status, message = slipped_off(borne)
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
     unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
+    counts = run.is_loaded() and not unresolved and borne >= LOST
     if status != Status.CONVERGED:
         summary |= dict.fromkeys(OF_THE_WHOLE_RUN, np.nan)
     summary |= {
@@ -112,7 +119,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         "status": str(status),
         "message": message,
         "retry": "",
-        "loaded": int(status == Status.CONVERGED or (run.is_loaded() and not unresolved)),
+        "loaded": int(status == Status.CONVERGED or counts),
         "steps": int(run.state.totals["steps"][0]),
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
@@ -138,6 +145,14 @@ def _of_impact(
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)
     return Status.CONVERGED, ""
+
+
+def _borne_at_full_stroke(case: Case, curves: Curves, cycles: Sequence[CycleRows]) -> float:
+    """Force at full stroke of a crush / the greatest until then; 1 between flat platens."""
+    if not isinstance(case.loading, Crush) or not case.loading.is_shaped:
+        return 1.0
+    force = curves["reaction_top_N"][: cycles[0].loaded + 1]
+    return float(force[-1] / force.max()) if force.max() > 0.0 else 1.0
 
 
 def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:

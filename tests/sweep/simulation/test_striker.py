@@ -1,5 +1,6 @@
 """A rigid striker: momentum and energy, the spring that it meets at best, its stop and rebound."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -239,6 +240,25 @@ def test_a_striker_that_slips_off_has_passed_the_lattice():
     result = simulate(struck(striker_mass=0.1, striker_speed=5.0, duration=1e-2, **shaped))
     assert result.status == "stopped"
     assert "the striker has passed the lattice" in result.message
+
+
+def test_a_lattice_that_slips_away_from_a_striker_is_not_ranked():
+    """A thin striker at the very side pushes the wall there outwards, not down."""
+    lattice = dict(width=0.04, height=0.015, cell_size=5e-3, wall_thickness=0.4e-3)
+    pressed = dict(mode="displacement", strain=0.7, platen="contact", unload=False)
+    shaped = dict(striker="round", striker_radius=1e-4)
+    side, middle = (
+        simulate(Case.of(
+            lattice=lattice, loading=pressed | shaped | dict(striker_at=at),
+            material=dict(name="cheetah"), solver=dict(load_steps=100),
+        ))
+        for at in (1.0, 0.58)
+    )  # fmt: skip
+    assert (middle.status, middle.summary["loaded"]) == ("converged", 1)
+    assert (side.status, side.summary["loaded"]) == ("stopped", 0)
+    assert re.search(r"bears [0-9] % of its greatest force: .* loading.striker_at", side.message)
+    force = side.history["reaction_top_N"]
+    assert force[-1] < 0.1 * force.max()
 
 
 def test_a_rebound_that_is_cut_off_is_a_failure():
