@@ -33,7 +33,7 @@ TEXT = "json"
 DIMENSIONS = {"points": 2, "plate_points": 3}
 """Length of a row of positions."""
 
-FORMAT = 6
+FORMAT = 7
 """Version of the layout and of the columns of a file; `read` refuses files of another."""
 
 GROUPS = ("cases", "histories", *FRAME_GROUPS)

@@ -1,6 +1,8 @@
 """Writes a sealed file: blocks are added one after another, the summary is written at the end.
 
-The layout is described in `read`. The file has a temporary name until it is sealed.
+The layout is described in `read`. The file has a temporary name until it is sealed. Texts have a
+fixed length: HDF5 keeps those of variable length in heaps without checksums, and a damaged heap can
+send a reader into an endless loop.
 """
 
 from collections.abc import Mapping, Sequence
@@ -86,7 +88,7 @@ class Growing:
         summary = self._file.create_group("summary", track_order=True)
         rows = relabel(take(table, order), about.axes)
         for name, column in arrange(rows).items():
-            data = _write_column(summary, name, column)
+            data = _write_column(summary, name, column, self._packed)
             if self._packed:
                 _describe(data, describe_column(name))
         ranges = {name: ragged.finish(order) for name, ragged in self._ragged.items()}
@@ -97,7 +99,7 @@ class Growing:
             "other_cases": beyond(rows, about.axes),
         }
         attributes = {**about.attributes, "format": FORMAT, **counts}
-        self._file.attrs.update(attributes | {CHECKSUM: attribute_checksum(attributes)})
+        _write_attributes(self._file, attributes | {CHECKSUM: attribute_checksum(attributes)})
         self._file.close()
         self._disk.seal()
 
@@ -167,9 +169,11 @@ def _filters(packed: bool) -> dict[str, Any]:
     return {"compression": "gzip", "compression_opts": int(packed), "shuffle": packed}
 
 
-def _write_column(group: h5py.Group, name: str, column: np.ndarray) -> h5py.Dataset:
+def _write_column(group: h5py.Group, name: str, column: np.ndarray, packed: bool) -> h5py.Dataset:
     if column.dtype == object:
-        return group.create_dataset(name, data=column, dtype=h5py.string_dtype("utf-8"))
+        small = len(column) <= 1 or not packed
+        how = {} if small else {"chunks": (min(len(column), CHUNK),), **_filters(packed)}
+        return group.create_dataset(name, data=_fixed([*column]), **how)
     # `create_dataset` does the same but checks many options, and takes four times as long.
     kind, space = h5t.py_create(column.dtype, logical=True), h5s.create_simple(column.shape)
     data = h5d.create(group.id, name.encode(), kind, space)
@@ -177,5 +181,17 @@ def _write_column(group: h5py.Group, name: str, column: np.ndarray) -> h5py.Data
     return h5py.Dataset(data)
 
 
+def _fixed(texts: list[str]) -> np.ndarray:
+    """Texts as UTF-8 of the length of the longest, filled with zeros."""
+    encoded = [text.encode() for text in texts]
+    length = max([1, *map(len, encoded)])
+    return np.array(encoded, dtype=h5py.string_dtype("utf-8", length))
+
+
 def _describe(data: h5py.Dataset, column: Column) -> None:
-    data.attrs.update({"units": column.units, "description": column.description})
+    _write_attributes(data, {"units": column.units, "description": column.description})
+
+
+def _write_attributes(of: h5py.HLObject, attributes: Mapping[str, Any]) -> None:
+    for name, value in attributes.items():
+        of.attrs[name] = _fixed([value])[0] if isinstance(value, str) else value

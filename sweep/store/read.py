@@ -18,6 +18,7 @@ with the same case id it takes the newer one.
 """
 
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import partial
@@ -43,7 +44,9 @@ SHOWN = 3  # damaged cases that are named
 ATTEMPTS = 100  # to open all files of a set before the writer changes the set
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
-DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError)
+ID = re.compile(r"[0-9a-f]{1,16}")
+ELSEWHERE = "close it there, or run `h5clear -s` on it if that program has crashed"
+DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
 FILES_REMEMBERED = 4096
 _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
@@ -255,19 +258,37 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
     with _undamaged(path):
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = stack.enter_context(h5py.File(path, "r", locking=False))
-        if (written := file.attrs["format"]) != FORMAT:
+        if (written := _attribute(file, "format")) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")
-        if attribute_checksum(file.attrs) != file.attrs[CHECKSUM]:
+        attributes = {name: _attribute(file, name) for name in file.attrs}
+        if attribute_checksum(attributes) != attributes[CHECKSUM]:
             raise ValueError("attributes other than those written")
         ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
-        attributes = {**file.attrs, "folded": int(file.attrs["folded"])}
         columns = _Columns(path, file["summary"])
         if (content := _identity(file)) not in _DAMAGED:
             while len(_DAMAGED) >= FILES_REMEMBERED:
                 _DAMAGED.pop(next(iter(_DAMAGED)), None)
-            _DAMAGED[content] = _changed_rows(columns, ragged, file["checksums"][:])
+            _DAMAGED[content] = _changed_rows(columns, ragged, _numbers(file["checksums"]))
         return Block(columns, ragged, attributes, _DAMAGED[content])
+
+
+def _attribute(file: h5py.File, name: str) -> Any:
+    """A text, or a whole number."""
+    _refuse_heaps(file.attrs.get_id(name).dtype)
+    value = file.attrs[name]
+    return value.decode() if isinstance(value, bytes) else int(value)
+
+
+def _refuse_heaps(dtype: np.dtype) -> None:
+    """Nothing of variable length is read: HDF5 can loop for ever in a heap that is damaged."""
+    if dtype.kind == "O":
+        raise ValueError("values of variable length, which Crumple does not write")
+
+
+def _numbers(data: h5py.Dataset) -> np.ndarray:
+    _refuse_heaps(data.dtype)
+    return data[:]
 
 
 def _identity(file: h5py.File) -> tuple[int, ...]:
@@ -279,9 +300,12 @@ def _identity(file: h5py.File) -> tuple[int, ...]:
 def _changed_rows(
     columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
 ) -> frozenset[int]:
-    """Numbers of the rows whose checksums are not those written."""
+    """Numbers of the rows whose checksums are not those written, or whose id is none of Crumple's:
+    ids become names of files.
+    """
     ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
     same = row_checksums(checked_columns(columns, ranges)) == written
+    same &= [bool(ID.fullmatch(case_id)) for case_id in columns["case_id"]]
     if not all(group.is_whole(same) for group in ragged.values()):
         raise ValueError("ranges beyond the end of their arrays")
     return frozenset(np.flatnonzero(~same).tolist())
@@ -318,18 +342,24 @@ def _undamaged(path: Path) -> Iterator[None]:
     except DAMAGE as error:
         if isinstance(error, OSError) and error.errno:
             raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
+        if "open for write" in str(error):  # a mark of HDF5 in the file
+            raise StoreError(
+                f"{path} is open for writing in another program: {ELSEWHERE}."
+            ) from error
         line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
         raise StoreError(line) from error
 
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
-    return Ragged(group["start"][:], group["rows"][:], _Arrays(path, group["values"]))
+    start, rows = _numbers(group["start"]), _numbers(group["rows"])
+    return Ragged(start, rows, _Arrays(path, group["values"]))
 
 
 class _Array:
     """An array of a sealed file, which is read when it is indexed."""
 
     def __init__(self, path: Path, data: h5py.Dataset) -> None:
+        _refuse_heaps(data.dtype)
         self._path, self._data = path, data
         self.dtype, self.shape = data.dtype, data.shape
 
@@ -369,6 +399,7 @@ class _Columns(Mapping[str, np.ndarray]):
         if name not in self._read:
             with _undamaged(self._path):
                 data = self._data[name]
+                _refuse_heaps(data.dtype)
                 text = h5py.check_string_dtype(data.dtype)
                 self._read[name] = data.asstr()[:] if text else data[:]
         return self._read[name]

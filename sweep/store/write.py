@@ -152,4 +152,5 @@ def _only_writer(path: Path) -> Iterator[None]:
             yield
     except LockedError as error:
         holder = f" (process {error.holder})" if error.holder else ""
-        raise StoreError(f"Another run is writing into {path}{holder}.") from None
+        gone = f" If it has ended, delete {error.left}." if error.left else ""
+        raise StoreError(f"Another run is writing into {path}{holder}.{gone}") from None

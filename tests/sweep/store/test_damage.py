@@ -1,5 +1,8 @@
 """A results file or a part that is not what it was: one line that names it and says what to do."""
 
+import subprocess
+import sys
+
 import h5py
 import pytest
 
@@ -12,7 +15,7 @@ from sweep.store.read import (
     read_history,
     read_summary,
 )
-from tests.support.results.standin import cases, parts_of, write
+from tests.support.results.standin import cases, forge, parts_of, write
 
 
 @pytest.fixture
@@ -89,6 +92,26 @@ def test_file_that_the_system_does_not_let_us_read_is_not_called_damaged(path):
         read_summary(path)
 
 
+HOLDER = """
+import h5py, sys
+with h5py.File(sys.argv[1], "r+", libver="latest"):
+    print("open", flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_a_file_that_another_program_has_open_is_not_called_damaged(path):
+    write(path, cases(2), fold=True)
+    words, pipe = [sys.executable, "-c", HOLDER, str(path)], subprocess.PIPE
+    with subprocess.Popen(words, stdin=pipe, stdout=pipe) as holder:
+        assert holder.stdout.readline() == b"open\n"
+        with pytest.raises(StoreError, match="open for writing in another program") as refusal:
+            read_summary(path)
+        holder.stdin.close()
+    assert "damaged" not in str(refusal.value)
+    assert len(read_summary(path)) == 2
+
+
 def flipped(path, at, bit):
     """The file with one bit of its byte `at` flipped."""
     content = bytearray(path.read_bytes())
@@ -127,3 +150,34 @@ def test_a_flipped_attribute_is_damage(path):
         file.attrs["folded"] = 7
     with pytest.raises(StoreError, match="is damaged: move it away"):
         finished_ids(path)
+
+
+def test_an_id_that_could_be_a_path_is_damage(path):
+    """With checksums that fit: the file comes from elsewhere."""
+    write(path, cases(2), fold=True)
+    forge(path, "summary/case_id", lambda ids: ids.__setitem__(0, b"../../a"))
+    with pytest.raises(StoreError, match=r"damaged rows of cases \.\./\.\./a;"):
+        read_summary(path)
+
+
+@pytest.mark.parametrize("fold", [False, True])
+def test_no_text_lies_in_a_heap(path, fold):
+    """A damaged heap of HDF5 has no checksum, and can keep a reader for ever."""
+    write(path, cases(3), fold)
+    (sealed,) = [path] if fold else parts_of(path)[:1]
+    assert b"GCOL" not in sealed.read_bytes()
+
+
+@pytest.mark.parametrize("name", ["summary/message", "checksums", "histories/start", "attribute"])
+def test_values_in_a_heap_are_refused_unread(path, name):
+    write(path, cases(2), fold=True)
+    with h5py.File(path, "r+") as file:
+        if name == "attribute":
+            file.attrs["config"] = "{}"
+        else:
+            del file[name]
+            file.create_dataset(name, data=["a", "b"], dtype=h5py.string_dtype())
+    assert path.read_bytes().count(b"GCOL") == 1
+    flipped(path, path.read_bytes().find(b"GCOL") + 16, 0)  # and with it the heap has no end
+    with pytest.raises(StoreError, match="is damaged: move it away"):
+        read_summary(path)

@@ -256,8 +256,8 @@ def test_every_column_says_what_it_is(path):
         columns = [*file["summary"].values(), *file["histories/values"].values()]
         assert all(column.attrs["description"] for column in columns)
         assert all("units" in column.attrs for column in columns)
-        assert file["summary/absorbed_energy_at_50N_J"].attrs["units"] == "J"
-        assert file["summary/peak_force_N"].attrs["units"] == "N"
+        assert file["summary/absorbed_energy_at_50N_J"].attrs["units"] == b"J"
+        assert file["summary/peak_force_N"].attrs["units"] == b"N"
 
 
 def test_attributes_are_those_of_the_last_run(path):

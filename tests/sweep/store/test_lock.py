@@ -1,0 +1,75 @@
+"""One writer at a time, also where the file system has no locks."""
+
+import errno
+import fcntl
+import os
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from sweep.store.lock import LockedError, exclusive
+from sweep.store.read import StoreError, read_summary
+from sweep.store.write import Writer
+from tests.support.results.standin import cases, write
+
+
+@pytest.fixture(params=[errno.ENOLCK, errno.EOPNOTSUPP])
+def without_locks(request, monkeypatch):
+    def refuse(*_):
+        raise OSError(request.param, os.strerror(request.param))
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+
+
+def dead_process():
+    with subprocess.Popen([sys.executable, "-c", ""]) as process:
+        process.wait()
+    return process.pid
+
+
+def test_there_is_one_holder_and_nothing_is_left(tmp_path, without_locks):
+    with exclusive(tmp_path / "lock"):
+        with pytest.raises(LockedError) as refusal, exclusive(tmp_path / "lock"):
+            pass
+        assert refusal.value.holder == f"{os.getpid()} on {socket.gethostname()}"
+        assert refusal.value.left.exists()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_writes_and_another_is_told_which_file_to_delete(tmp_path, without_locks):
+    path = tmp_path / "armor.h5"
+    with Writer(path), pytest.raises(StoreError, match=r"process \d+ on .*delete .*\.owner"):
+        write(path, cases(1))
+    write(path, cases(2), fold=True)
+    assert len(read_summary(path)) == 2
+
+
+def test_what_a_kill_has_left_is_taken_over(tmp_path, without_locks):
+    left = tmp_path / "lock.owner"
+    left.write_text(f"{dead_process()} on {socket.gethostname()}")
+    with exclusive(tmp_path / "lock"):
+        assert left.read_text().startswith(f"{os.getpid()} on ")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_another_host_has_left_is_not(tmp_path, without_locks):
+    left = tmp_path / "lock.owner"
+    left.write_text(f"{dead_process()} on elsewhere")
+    with pytest.raises(LockedError), exclusive(tmp_path / "lock"):
+        pass
+    assert left.exists()
+
+
+def test_other_errors_are_errors(tmp_path):
+    with pytest.raises(FileNotFoundError), exclusive(tmp_path / "no folder" / "lock"):
+        pass
+
+
+def test_the_system_releases_the_lock_of_a_dead_holder(tmp_path):
+    """What it has left of the file is no lock."""
+    (tmp_path / "lock").write_text(str(dead_process()))
+    with exclusive(tmp_path / "lock"):
+        pass
+    assert list(tmp_path.iterdir()) == []
