@@ -45,7 +45,10 @@ ATTEMPTS = 100  # to open all files of a set before the writer changes the set
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 ID = re.compile(r"[0-9a-f]{1,16}")
-ELSEWHERE = "close it there, or run `h5clear -s` on it if that program has crashed"
+ELSEWHERE = (
+    "is open for writing in another program: close it there, or run `h5clear -s` on it if that "
+    "program has crashed"
+)
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
 FILES_REMEMBERED = 4096
@@ -343,9 +346,7 @@ def _undamaged(path: Path) -> Iterator[None]:
         if isinstance(error, OSError) and error.errno:
             raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
         if "open for write" in str(error):  # a mark of HDF5 in the file
-            raise StoreError(
-                f"{path} is open for writing in another program: {ELSEWHERE}."
-            ) from error
+            raise StoreError(f"{path} {ELSEWHERE}.") from error
         line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
         raise StoreError(line) from error
 

@@ -106,7 +106,6 @@ TESTED_ELSEWHERE = {
     "sweep.store.batch": "sweep/store/test_read.py",
     "sweep.store.tables": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",
-    "sweep.store.lock": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",
     "sweep.version": "sweep/cli/test_verbs.py",
 }
