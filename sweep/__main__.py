@@ -20,6 +20,7 @@ from sweep.cli.completion import SHELLS, cases, columns, complete, configs, offe
 from sweep.cli.completion import materials as material_words
 from sweep.cli.new import KINDS
 from sweep.config.reading.examples import examples
+from sweep.plain_text import plain
 from sweep.ranking.requirement_table import MEASURES
 
 ABOUT = "Which printed infill absorbs the most energy per gram?"
@@ -554,7 +555,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _refuse(verb: str, why: Exception) -> int:
-    print(f"crumple {verb}: {why}", file=sys.stderr)
+    print(f"crumple {verb}: {plain(why)}", file=sys.stderr)
     return 2
 
 

@@ -10,6 +10,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from sweep.numbers import NOTHING, text_in
+from sweep.plain_text import plain
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -144,19 +145,25 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
     console.width = limit or WIDE
     for sheet in sheets:
         say("")
-        shown = fitted(sheet, limit or WIDE, limit or USUAL)
+        shown = fitted(_plain(sheet), limit or WIDE, limit or USUAL)
         with console.capture() as text:
             if sheet.title:
-                console.print(sheet.title, style="bold", markup=False, highlight=False)
-        say(text.get(), end="")
+                console.print(plain(sheet.title), style="bold", markup=False, highlight=False)
+        sys.stdout.write(text.get())
         if sheet.heads:
             console.width = max(limit or 0, WIDE)  # rich would cut numbers off
             with console.capture() as text:
                 console.print(_terminal_table(shown))
             console.width = limit or WIDE
-            say(text.get(), end="")
+            sys.stdout.write(text.get())
         say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
     say("")
+
+
+def _plain(sheet: Sheet) -> Sheet:
+    """A table without characters that steer a terminal."""
+    heads, *rows = [[plain(text) for text in texts] for texts in [sheet.heads, *sheet.rows]]
+    return sheet._replace(heads=heads, rows=rows)
 
 
 class Fitted(NamedTuple):
@@ -247,22 +254,23 @@ def _terminal_table(table: Fitted) -> Table:
     """A table of rich without title and notes."""
     from rich import box
     from rich.table import Table
+    from rich.text import Text
 
     sheet, padding = table.sheet, (0, table.gap - 1, 0, 0)
     made = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=padding)
     for head, texts, width in zip(table.heads, sheet.columns, table.widths, strict=True):
         side: Literal["left", "right"] = "right" if _is_number(texts) else "left"
-        made.add_column(head, justify=side, width=width, overflow="fold")
+        made.add_column(Text(head), justify=side, width=width, overflow="fold")
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:
             made.add_section()
-        made.add_row(*row)
+        made.add_row(*map(Text, row))
     return made
 
 
 def say(text: object, end: str = "\n") -> None:
     """Print a line."""
-    sys.stdout.write(f"{text}{end}")
+    sys.stdout.write(f"{plain(text)}{end}")
 
 
 def say_all(lines: Iterable[object]) -> None:
@@ -274,4 +282,4 @@ def say_all(lines: Iterable[object]) -> None:
 def hint(lines: Iterable[str]) -> None:
     """Print lines on stderr, after what is on stdout."""
     sys.stdout.flush()
-    sys.stderr.writelines(f"{line}\n" for line in lines)
+    sys.stderr.writelines(f"{plain(line)}\n" for line in lines)

@@ -20,6 +20,7 @@ from sweep.cli.terminal import (
     warnings,
 )
 from sweep.numbers import text_in
+from sweep.plain_text import without_formulas
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -123,7 +124,7 @@ def rank(arguments: Namespace) -> int:
         if not arguments.markdown:
             hint(line for scene in ranking.scenes for line in narrow_note(ranking.narrow[scene]))
         if arguments.csv:
-            say(ranking.with_unfinished.to_csv(index=False), end="")
+            say(without_formulas(ranking.with_unfinished).to_csv(index=False), end="")
         elif arguments.json:
             say(ranking.with_unfinished.to_json(orient="records", indent=2, double_precision=15))
         else:

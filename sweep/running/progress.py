@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
+from sweep.plain_text import plain
 from sweep.result import Result, Status
 
 PERIOD = 5.0  # seconds between plain lines
@@ -24,7 +25,7 @@ SENTENCES = 5  # different failures that are reported while the sweep runs
 
 def announce(line: str) -> None:
     """Print one line on stderr before the progress starts."""
-    Console(stderr=True).print(line, markup=False, highlight=False, soft_wrap=True)
+    Console(stderr=True).print(plain(line), markup=False, highlight=False, soft_wrap=True)
 
 
 class NotebookLine:
@@ -139,4 +140,4 @@ class Progress:
             self._say(line)
 
     def _say(self, line: str) -> None:
-        self.console.print(line, markup=False, highlight=False, soft_wrap=True)
+        self.console.print(plain(line), markup=False, highlight=False, soft_wrap=True)

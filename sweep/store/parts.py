@@ -35,7 +35,15 @@ class Part(NamedTuple):
 
 def parts_folder(path: Path) -> Path:
     """Folder of the parts of a results file."""
+    path = target(path)
     return path.parent / f"{path.stem}.parts"
+
+
+def target(path: Path) -> Path:
+    """The file that a name stands for: links are followed, so that it has one lock and one folder
+    of parts under all of its names.
+    """
+    return path.resolve() if path.is_symlink() else path
 
 
 def new_part(path: Path, first: int, last: int) -> Part:

@@ -22,6 +22,7 @@ from sweep.store.parts import (
     new_part,
     parts_to_merge,
     remove_folder,
+    target,
     too_many,
 )
 from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_sealed
@@ -48,7 +49,7 @@ class Writer:
         axes: Axes | None = None,
         attributes: Mapping[str, Any] | None = None,
     ) -> None:
-        self.path = Path(path)
+        self.path = target(Path(path))
         self._about = About(axes or {}, attributes or {})
         self._parts: list[Part] = []
         self._sealed: list[Part] = []

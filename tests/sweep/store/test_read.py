@@ -323,3 +323,19 @@ def test_readers_never_meet_a_half_written_file(path, monkeypatch):
     assert len(counts) > 3
     assert counts == sorted(counts)
     assert len(read_summary(path)) == 19
+
+
+def test_a_link_is_another_name_of_a_results_file(tmp_path):
+    """It stays one, and both names have one lock and one folder of parts."""
+    path, link = tmp_path / "armor.h5", tmp_path / "elsewhere" / "link.h5"
+    link.parent.mkdir()
+    link.symlink_to(path)
+    write(link, cases(2))
+    assert parts_of(path)
+    assert finished_ids(link) == finished_ids(path) == {case.case_id for case in cases(2)}
+    with Writer(path), pytest.raises(StoreError, match="Another run"), Writer(link):
+        pass
+    write(link, cases(3), fold=True)
+    assert link.is_symlink()
+    assert len(read_summary(path)) == len(read_summary(link)) == 3
+    assert [*link.parent.iterdir()] == [link]
