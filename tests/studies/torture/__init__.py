@@ -1,0 +1,1 @@
+"""Damaged files and killed runs: nothing is silently wrong or lost (`make torture`)."""

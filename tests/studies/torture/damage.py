@@ -1,0 +1,127 @@
+"""Damages a results file in many ways, and looks what its readers make of it.
+
+Each damaged copy is read as a whole in a process of its own, which is given up after `PATIENCE`.
+"""
+
+from collections import Counter
+from contextlib import AbstractContextManager
+from hashlib import sha256
+from multiprocessing import TimeoutError as Late
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+from sweep.report.tables.sheet import Sheet
+from sweep.store.read import StoreError, read_attributes, read_case, read_runs, read_summary
+
+PATIENCE = 10.0  # seconds
+ZEROS = 16  # bytes
+TOLD, HARMLESS, SILENT, RAISED, SILENCE = OUTCOMES = (
+    "told", "harmless", "silently other", "traceback", "no answer",
+)  # fmt: skip
+ALLOWED = {TOLD, HARMLESS}
+
+
+def flip(content: bytearray, at: int, rng: np.random.Generator) -> None:
+    """Flip one bit."""
+    content[at] ^= 1 << int(rng.integers(8))
+
+
+def overwrite(content: bytearray, at: int, rng: np.random.Generator) -> None:
+    """Write other bytes over a few."""
+    content[at : at + ZEROS] = rng.bytes(min(ZEROS, len(content) - at))
+
+
+def erase(content: bytearray, at: int, _: np.random.Generator) -> None:
+    """Write zeros over a few bytes."""
+    content[at : at + ZEROS] = bytes(min(ZEROS, len(content) - at))
+
+
+def truncate(content: bytearray, at: int, _: np.random.Generator) -> None:
+    """Cut the end off."""
+    del content[at:]
+
+
+KINDS = {
+    "a bit flipped": flip,
+    "16 bytes random": overwrite,
+    "16 bytes zero": erase,
+    "end cut off": truncate,
+}
+
+
+def everything(path: Path) -> str:
+    """Digest of all that can be read of a results file."""
+    summary, digest = read_summary(path), sha256()
+    ids = list(summary["case_id"])
+    digest.update(summary.to_csv().encode() + repr(sorted(read_attributes(path).items())).encode())
+    for run in read_runs(path, ids):
+        digest.update(
+            run.history.to_numpy().tobytes() + read_case(path, run.case_id).to_json().encode()
+        )
+        for name, array in sorted(run.frames.items()):
+            digest.update(name.encode() + array.tobytes())
+    return digest.hexdigest()
+
+
+def outcome(path: Path, whole: str) -> str:
+    """What a reader makes of a file whose digest was `whole`."""
+    try:
+        return HARMLESS if everything(path) == whole else SILENT
+    except StoreError:
+        return TOLD
+    except Exception:  # noqa: BLE001  (that is what the study looks for)
+        return RAISED
+
+
+class Reader(AbstractContextManager):
+    """A process that reads one file after another; where one gives no answer, the next begins."""
+
+    def __enter__(self) -> "Reader":
+        self._pool = get_context("spawn").Pool(1)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._pool.terminate()
+
+    def outcome(self, path: Path, whole: str) -> str:
+        """`outcome`, or `SILENCE`."""
+        try:
+            return self._pool.apply_async(outcome, (path, whole)).get(PATIENCE)
+        except Late:
+            self._pool.terminate()
+            self._pool = get_context("spawn").Pool(1)
+            return SILENCE
+
+
+def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
+    """How often each kind of damage, `count` times each, had which outcome.
+
+    Half of the damages are in the first sixth of the file, where HDF5 keeps most of its own.
+    """
+    content, whole, copy = path.read_bytes(), everything(path), path.with_name("damaged.h5")
+    rng, counts = np.random.default_rng(seed), {}
+    with Reader() as reader:
+        for name, hurt in KINDS.items():
+            counts[name] = Counter()
+            for number in range(count):
+                hurtable = bytearray(content)
+                hurt(hurtable, int(rng.integers(len(content) // (6 if number % 2 else 1))), rng)
+                copy.write_bytes(hurtable)
+                counts[name][reader.outcome(copy, whole)] += 1
+    copy.unlink()
+    return counts
+
+
+def sheet(counts: dict[str, Counter[str]]) -> Sheet:
+    """The table of `damage`."""
+    rows = [
+        [name, *(str(found[outcome]) for outcome in OUTCOMES)] for name, found in counts.items()
+    ]
+    return Sheet("Damaged copies of a results file", ["damage", *OUTCOMES], rows)
+
+
+def is_sound(counts: dict[str, Counter[str]]) -> bool:
+    """Whether every damage was told, or changed nothing that is read."""
+    return all(found.keys() <= ALLOWED for found in counts.values())
