@@ -33,8 +33,8 @@ class Least(NamedTuple):
     stroke is used up.
 
     column: the least value is the best. unit: in charts. axis, chart: label of an axis, title of a
-    chart. quantity: of the axis of the page. merit: words for a value.
-    order: what is best, in words. head: of its column in tables.
+    chart. quantity: on the axis of the page. merit: words for a value. order: what is best, in
+    words. head: of its column on the page.
     """
 
     column: str
