@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sweep.columns import COLUMNS, TIED_SIDES, absorbed_energy_column, cycle_columns
+from sweep.modes import MODES
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -24,11 +25,7 @@ if TYPE_CHECKING:
 MODEL_VERSION = 10
 """Version of the model: raised by every change of the numbers that a case gives."""
 
-LOADED = (
-    *("force_N", "stroke_m"),
-    *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
-    "target_mass_g",
-)
+LOADED = [name for name in COLUMNS if any(name in mode.columns for mode in MODES.values())]
 """Columns of which each loading has its own."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"

@@ -9,6 +9,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.modes import MODES
 from sweep.numbers import text_in
 from sweep.ranking.question import Question, in_si
 
@@ -99,7 +100,7 @@ def _of_start(question: Question, arguments: Namespace, start: Sequence[Case]) -
     if arguments.allowed_force is not None:
         raise OptimizeError("--max-force with --allowed-force; allowed: one of them")
     in_si(arguments.max_force, "N")
-    if mode in ("displacement", ""):
+    if not mode or MODES[mode].driven:
         return question._replace(allowed_force=arguments.max_force)
     check_modes(["max_force"], [mode])
     required = {**(question.require or {}), "max_force": arguments.max_force}

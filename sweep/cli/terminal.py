@@ -110,15 +110,17 @@ def _counted(count: int, noun: str) -> str:
 def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
+    from sweep.modes import MODES, has
     from sweep.report.tables.requirement_notes import of_which
 
     by = ranking.by
     usual = {ranking.energy: "most energy", ranking.per_gram: "most energy per gram"}
-    if {row["loading_mode"].item() for row in ranking.lightest.values()} == {"impact"}:
-        usual["peak_force_N"] = "least force on the support"
+    modes = {row["loading_mode"].item() for row in ranking.lightest.values()}
+    if len(modes) == 1 and (least := MODES[modes.pop()].least):
+        usual[least.column] = least.order
     order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
     lines = [f"Best first: {order}."]
-    crushed = ranking.table.empty or (ranking.table["loading_mode"] == "displacement").any()
+    crushed = ranking.table.empty or has(ranking.table, "driven").any()
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
     elif force:

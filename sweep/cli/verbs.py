@@ -100,6 +100,7 @@ def verify(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
+    from sweep.modes import has
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
@@ -113,7 +114,7 @@ def rank(arguments: Namespace) -> int:
         from sweep.report.publish import publish_ranking
 
         folder, ranking = Path(arguments.out), answer(summary, question)
-        if (ranking.table["loading_mode"] == "displacement").any():
+        if has(ranking.table, "driven").any():
             heights = heights or stored_heights(arguments.file)
         with writing(folder):
             files = publish_ranking(arguments.file, summary, question, folder, heights)

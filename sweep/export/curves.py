@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from sweep.modes import MODES
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -33,5 +35,5 @@ def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
 
 def _takes_time(history: DataFrame, row: Mapping[str, Any]) -> bool:
     """Whether time means something: not in a slow crush of walls that do not relax."""
-    slow = row["loading_mode"] == "displacement" and not history["kinetic_J"].any()
+    slow = MODES[row["loading_mode"]].driven and not history["kinetic_J"].any()
     return not slow or "relaxes" in row["material_memory"]

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.modes import MODES, Mode
 from sweep.ranking.richardson import Floats, limit, rms
 from sweep.result import Status
 from sweep.store.read import read_history
@@ -235,7 +236,7 @@ def front(settings: DataFrame, error: str) -> Series:
 def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, Floats]]:
     """Every measure of every row; paths are interpolated at the same places."""
     curves = {i: read_history(file, row["case_id"]) for i, row in rows.iterrows()}
-    paths = {i: path(rows.loc[i, "loading_mode"], curve) for i, curve in curves.items()}
+    paths = {i: path(MODES[rows.loc[i, "loading_mode"]], curve) for i, curve in curves.items()}
     coarsest = min((place for place, _ in paths.values()), key=len)
     end = min(place[-1] for place, _ in paths.values())
     at = coarsest[coarsest <= end * (1 + 1e-6)]
@@ -251,30 +252,30 @@ def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, F
 
 def energy(row: Series, history: DataFrame) -> float:
     """Energy absorbed (J); of a custom structure, the energy it has at the end."""
-    if row["loading_mode"] == "custom":
+    if MODES[row["loading_mode"]].probed:
         return float(history[list(STORED)].iloc[-1].sum())
     return float(row["absorbed_energy_J"])
 
 
 def peak(row: Series, history: DataFrame) -> float:
     """Greatest force (N); of a custom structure, the greatest reaction at a probe."""
-    if row["loading_mode"] != "custom":
+    if not MODES[row["loading_mode"]].probed:
         return float(row["peak_force_N"])
     across, along = (history.filter(regex=f"_reaction_{way}_N$").to_numpy() for way in "xy")
     return float(np.hypot(across, along).max()) if across.size else np.nan
 
 
-def path(mode: str, history: DataFrame) -> tuple[Floats, list[Floats]]:
+def path(mode: Mode, history: DataFrame) -> tuple[Floats, list[Floats]]:
     """The abscissa of a path, (rows,), and the curves that are compared over it, (rows,) each.
 
     Force over the travel of a driven platen; strain over time under a dead load or a striker; moves
     of the probes of a custom structure over time.
     """
-    if mode == "displacement":
+    if mode.driven:
         travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
         return travel.to_numpy(), [history["reaction_top_N"].to_numpy()]
     time = history["time_s"].to_numpy()
-    if mode == "custom":
+    if mode.probed:
         places = history.filter(regex=r"^probe_\d+_[xy]_m$").to_numpy().T
         return time, [place - place[0] for place in places if np.ptp(place) > 0.0]
     return time, [history["strain"].to_numpy()]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sweep.modes import has
 from sweep.ranking.merit import AT_ALLOWED, panel_in
 from sweep.ranking.question import in_si
 from sweep.simulation.until import absorbed_until
@@ -44,7 +45,7 @@ def with_allowed(
     if force is None or (of_panel and panel is None):
         return summary
     limit = in_si(force, "N")
-    crushes = summary["loading_mode"] == "displacement"
+    crushes = has(summary, "driven")
     rows = summary[crushes]
     count = np.ones(len(rows))
     if of_panel and panel is not None:

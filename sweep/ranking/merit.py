@@ -2,7 +2,7 @@
 
 Energy is counted until densification, or until the force exceeds the allowed force. A
 packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
-infill. Where the loading sets the energy, the columns of `LEAST` are compared instead.
+infill. Where the loading sets the energy, `Mode.least` is compared instead.
 
 A panel consists of n whole specimens, as `sweep.design.panel` counts them; its mass, energy and
 force are n times those of a specimen.
@@ -23,6 +23,7 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
+from sweep.modes import greatest_share, has
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import RankError, in_si
 from sweep.result import sides_of
@@ -32,21 +33,6 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
     from sweep.ranking.question import Quantity, Question
-
-LEAST = {"force": "peak_strain", "impact": "peak_force_N"}
-"""Columns that are compared instead of energy, by `loading_mode`; the least value is the best.
-
-Under a dead load, the design that deforms most absorbs most energy. Every design absorbs all the
-energy of a striker; designs differ in the force on the support, which is large if the stroke is
-used up.
-"""
-
-COARSE = {"force": 0.3, "impact": 0.05}
-"""Greatest `integrator_share` of a result that is not marked, by `loading_mode`.
-
-Above it, errors of the compared column are common that exceed the differences of similar designs
-(`sweep.simulation.time_resolution`). A crush may lose what snaps to the integrator.
-"""
 
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
 AT_DENSIFICATION = (
@@ -97,7 +83,7 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "ends_early": _ends_early(finished, energy, force, limited),
         "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
-        "coarse": finished["integrator_share"] > finished["loading_mode"].map(COARSE),
+        "coarse": finished["integrator_share"] > greatest_share(finished),
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     for k, end in enumerate([] if limited else _ends(finished, energy)):
@@ -151,7 +137,7 @@ def _ends(finished: DataFrame, energy: str) -> tuple[Series, ...]:
 
 def _of_crush(finished: DataFrame, counted: Series, whole: Series) -> Series:
     """Of a crush the value until energy is counted, else that of the whole loading."""
-    return counted.where(finished["loading_mode"] == "displacement", whole)
+    return counted.where(has(finished, "driven"), whole)
 
 
 def doubtful(ranked: DataFrame) -> Series:
@@ -161,7 +147,7 @@ def doubtful(ranked: DataFrame) -> Series:
 
 def through_solid(finished: DataFrame) -> Series:
     """True for lattices compressed to less than their solid height, or to less than none."""
-    sunk = (finished["loading_mode"] == "force") & (finished["peak_strain"] >= 1.0)
+    sunk = has(finished, "dead") & (finished["peak_strain"] >= 1.0)
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
@@ -236,7 +222,7 @@ def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
     NaN in a crush up to an allowed force, unless `curves` has added it.
     """
     whole = finished["peak_strain"] * finished["height_m"]
-    crushed = finished["loading_mode"] == "displacement"
+    crushed = has(finished, "driven")
     if limited:
         return finished.get("stroke_at_allowed_m", whole * float("nan")).where(crushed, whole)
     if energy == AT_DENSIFICATION[0]:
@@ -250,7 +236,7 @@ def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) 
     """True for crushes that absorb more than the counted energy if they are longer: they ended
     before the allowed force was exceeded, or before densification.
     """
-    crushed = finished["loading_mode"] == "displacement"
+    crushed = has(finished, "driven")
     if limited:
         return crushed & (finished["peak_force_N"] <= force)
     unpacked = finished["densification_strain"].isna() & finished["peak_strain"].notna()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.modes import has
+
 if TYPE_CHECKING:
     from pandas import DataFrame
 
@@ -19,5 +21,5 @@ def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
     across = rows[(rows["direction"] == "in_plane") & (rows["sides"] == "free")]
     if across["lattice_kind"].nunique() < 2:
         return ()
-    few = across[(across["cells_x"] < WIDE) & (across["loading_mode"] != "custom")]
+    few = across[(across["cells_x"] < WIDE) & ~has(across, "probed")]
     return tuple(few["lattice_kind"].drop_duplicates())

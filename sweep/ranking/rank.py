@@ -17,10 +17,11 @@ import pandas as pd
 from pandas import DataFrame
 
 from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
+from sweep.modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import LEAST, Compared, doubtful, merits
+from sweep.ranking.merit import Compared, doubtful, merits
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
@@ -88,7 +89,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         behind the other; `sweep.design.panel` has the rule.
     by : column to sort by, the better values first (`Column.better`); a column without better
         values is refused. Default: under a dead load the least strain, under a striker the least
-        force on the support (`merit.LEAST`). Otherwise the greatest energy absorbed until
+        force on the support (`Mode.least`). Otherwise the greatest energy absorbed until
         densification if a budget or a panel is given, else the greatest energy per gram. With
         `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with
         `absorbed_energy_at_densification_J` or the same per gram to the greatest efficiency.
@@ -115,8 +116,8 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         that `top` cuts off.
     passed_over : number of designs that have a better value but come later, as they are doubtful.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
-        and is as light, of those to be trusted that meet all requirements; where `LEAST` is
-        compared, the same with that column.
+        and is as light, of those to be trusted that meet all requirements; where `Mode.least`
+        is compared, the same with that column.
     ranked_by : the sorting column.
     counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
     panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, and the true
@@ -192,7 +193,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         unfinished=pd.concat(stopped, ignore_index=True),
         **names._asdict(),
         limited=allowed_force is not None,
-        by=next((o for _, o in scenes if by or o not in LEAST.values()), scenes[0][1]),
+        by=next((o for rows, o in scenes if by or not _least(rows)), scenes[0][1]),
         cases=len(summary),
         failed=len(summary) - len(finished),
         unloaded=int(unloaded(finished).sum()),
@@ -235,8 +236,8 @@ def _order(rows: DataFrame, by: str | None, usual: str) -> str:
 
 
 def _least(rows: DataFrame) -> str | None:
-    """The column of `LEAST` for the rows of one scene."""
-    return None if rows.empty else LEAST.get(rows["loading_mode"].iloc[0])
+    """The column that is compared instead of energy in the rows of one scene, if there are any."""
+    return None if rows.empty else compared(rows)
 
 
 def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:

@@ -6,9 +6,7 @@ Rankings, sentences, options of the command line and the page take them from her
 
 from typing import Any, NamedTuple
 
-MODES = ("displacement", "impact", "force", "custom")
-NEEDED = {"displacement": "a crush", "impact": "an impact", "force": "a dead load"}
-"""Loadings that a requirement may need, in words."""
+from sweep.modes import asked_of
 
 
 class Measure(NamedTuple):
@@ -52,7 +50,7 @@ MEASURES = {
     "max_force": Measure(
         *("N", "N", "FORCE"),
         shared=True,
-        asked_of=("displacement", "impact"),
+        asked_of=asked_of("max_force"),
         noun="force",
         none="None transmits less than {}; the least is {}",
         example="60 N",
@@ -61,7 +59,7 @@ MEASURES = {
     "max_deceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
         shared=False,
-        asked_of=("impact",),
+        asked_of=asked_of("max_deceleration"),
         noun="deceleration",
         none="None stops the striker with less than {}; the least is {}",
         example="80 g0",
@@ -71,7 +69,7 @@ MEASURES = {
     "max_base_pressure": Measure(
         *("Pa", "kPa", "PRESSURE"),
         shared=False,
-        asked_of=("impact",),
+        asked_of=asked_of("max_base_pressure"),
         noun="base pressure",
         none="None presses on the base with less than {}; the least is {}",
         example="200 kPa",
@@ -81,7 +79,7 @@ MEASURES = {
     "max_target_acceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
         shared=False,
-        asked_of=("impact",),
+        asked_of=asked_of("max_target_acceleration"),
         noun="acceleration of the target",
         none="None accelerates the target by less than {}; the least is {}",
         example="40 g0",
@@ -91,7 +89,7 @@ MEASURES = {
     "max_mass": Measure(
         *("kg", "g", "MASS"),
         shared=True,
-        asked_of=MODES,
+        asked_of=asked_of("max_mass"),
         noun="mass",
         none="None weighs less than {}; the lightest weighs {}",
         example="2 g",
@@ -99,7 +97,7 @@ MEASURES = {
     "min_absorbed": Measure(
         *("J", "J", "ENERGY"),
         shared=True,
-        asked_of=("displacement",),
+        asked_of=asked_of("min_absorbed"),
         noun="absorbed energy",
         none="None absorbs as much as {}; the most is {}",
         example="1.5 J",
@@ -108,7 +106,7 @@ MEASURES = {
     "max_stroke": Measure(
         *("m", "mm", "LENGTH"),
         shared=False,
-        asked_of=("displacement", "impact", "force"),
+        asked_of=asked_of("max_stroke"),
         noun="stroke",
         none="None needs less stroke than {}; the least is {}",
         example="8 mm",

@@ -21,11 +21,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
+from sweep.modes import MODES, has, mode_of
 from sweep.numbers import to_si
 from sweep.ranking.budget import ROUND_OFF, greatest_mass
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import RankError, in_si
-from sweep.ranking.requirement_table import MEASURES, NEEDED
+from sweep.ranking.requirement_table import MEASURES
 
 if TYPE_CHECKING:
     from pandas import Series
@@ -99,7 +100,7 @@ def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
     for name in required:
         asked_of = MEASURES[name].asked_of
         if kinds and not kinds.intersection(asked_of):
-            needed = " or ".join(NEEDED[mode] for mode in asked_of)
+            needed = " or ".join(MODES[mode].noun for mode in asked_of)
             raise RankError(f"{name} needs {needed}, and there is none")
 
 
@@ -201,7 +202,7 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     The energy of a crush is the counted one, and its force the greatest until then; an impact or a
     dead load counts as a whole. The deceleration is filtered.
     """
-    crushed = rows["loading_mode"] == "displacement"
+    crushed = has(rows, "driven")
     together = rows.get("panel_specimens", 1.0)
     of_specimen = {
         "max_force": rows["passed_on_N"].where(crushed, rows["peak_force_N"]),
@@ -282,10 +283,10 @@ def _rectangle(
 
     The energy is that of the striker relative to the base; in a crush, the least that is asked for.
     """
-    mode, force = rows["loading_mode"].iloc[0], required.get("max_force", np.nan)
-    if mode == "displacement":
+    mode, force = mode_of(rows), required.get("max_force", np.nan)
+    if mode.driven:
         return required.get("min_absorbed", np.nan), float(np.fmin(force, allowed))
-    if mode != "impact":
+    if not mode.struck:
         return np.nan, np.nan
     together = rows["panel_specimens"] if per == "panel" else 1.0
     return float((relative_energy(rows) * together).min()), force

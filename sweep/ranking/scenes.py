@@ -5,11 +5,12 @@ from __future__ import annotations
 from pandas import DataFrame, Series
 
 from sweep.columns import describe_column
-from sweep.numbers import NOTHING, energy_text, short, text_in, with_unit
+from sweep.modes import MODES, mode_of
+from sweep.numbers import NOTHING, text_in, with_unit
 
 SCENE = [
-    *("loading_mode", "platen", "striker", "base", "force_N"),
-    *("striker_mass_g", "striker_speed_m_per_s", "gravity", "target_mass_g"),
+    *("loading_mode", "platen", "striker", "base"),
+    *(column for mode in MODES.values() for column in mode.scene),
 ]
 HELD_BY_SCENE = tuple(
     f"loading.{key}"
@@ -72,23 +73,12 @@ def scene_label(rows: DataFrame) -> str:
         return ""
     first = rows.iloc[0]
     shown = set(SCENE)
-    if first["loading_mode"] == "force":
-        words = [f"dead load of {first['force_N']:g} N"]
-    elif first["loading_mode"] == "custom":
-        words = ["loaded as in its file"]
-    elif first["loading_mode"] == "impact":
-        struck = short(float(first["striker_mass_g"])), short(float(first["striker_speed_m_per_s"]))
-        energy = energy_text(float(first["impact_energy_J"]))
-        falls = " under gravity" if first["gravity"] == 1.0 else ""
-        mass = float(first["target_mass_g"])
-        target = f" on a target of {short(mass)} g" if mass > 0.0 else ""
-        words = [f"struck by {struck[0]} g at {struck[1]} m/s ({energy}){falls}{target}"]
-    elif len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
-        words = [f"crushed to {text_in(strains[0], '%', 6)}"]
+    mode = mode_of(rows)
+    words = [mode.title(first)]
+    if mode.driven and len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
+        words[0] += f" to {text_in(strains[0], '%', 6)}"
         shown |= {"loading.strain", "loading.stroke"}
-    else:
-        words = ["crushed"]
-    if first["loading_mode"] != "custom":
+    if not mode.probed:
         words += _standing(first)
     others = {
         key: with_unit(first[key], describe_column(key).units)

@@ -23,6 +23,7 @@ import numpy as np
 from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
+from sweep.modes import has
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si
@@ -139,7 +140,7 @@ def _further(rows: DataFrame, by: str, names: Compared, question: Question) -> S
         most = most / (rows[names.mass] / (count if names.mass == "panel_mass_g" else 1.0))
     else:
         most = most * (count if by == "panel_energy_J" else 1.0)
-    return most.where(rows["loading_mode"] == "displacement", np.inf)
+    return most.where(has(rows, "driven"), np.inf)
 
 
 def stroke_left(rows: DataFrame) -> Series:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pandas import concat
 
+from sweep.modes import MODES, has
 from sweep.numbers import in_unit
 from sweep.plain_text import without_formulas
 from sweep.ranking.accuracy import studies
@@ -56,7 +57,7 @@ def publish_ranking(
     drop_heights : m, of the cushion curves.
     """
     shown, ranking = _shown_and_all(summary, question)
-    if drop_heights and not (ranking.table["loading_mode"] == "displacement").any():
+    if drop_heights and not has(ranking.table, "driven").any():
         raise RankError(f"{file} has no crush with a place: cushion curves need one; allowed: no "
                         "drop height")  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
@@ -122,8 +123,8 @@ def _sweep_figures(
 
 
 def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequence[float]) -> Named:
-    pictures = {"absorption": "displacement", "sink": "force", "passed_on": "impact"}
-    drawn = {name: _some_scenes(ranking, mode) for name, mode in pictures.items()}
+    pictures = [(mode.picture, name) for name, mode in sorted(MODES.items()) if mode.picture]
+    drawn = {picture: _some_scenes(ranking, mode) for picture, mode in pictures}
     for name, part in drawn.items():
         if not part.table.empty:
             figure = case_plots.blank(*_size(part.table))
@@ -162,7 +163,7 @@ def _cushion_figures(
     figure = case_plots.blank(*_size(best))
     cushion_plots.absorption_diagram(figure, best, crushes)
     yield "energy_absorption", figure
-    falls = drops(every[every["loading_mode"] == "impact"])
+    falls = drops(every[has(every, "struck")])
     for height in drop_heights:
         figure = case_plots.blank(*_size(best))
         cushion_plots.cushion_diagram(figure, best, crushes, height, falls)
@@ -192,7 +193,7 @@ def _size(designs: DataFrame) -> tuple[float, float]:
 
 def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[str, Any]]:
     """Frames of the best crushed or struck designs, by a title with budget, scene and design."""
-    first = shown[shown["loading_mode"] != "force"].drop_duplicates(["budget_g", "scene"])
+    first = shown[~has(shown, "dead")].drop_duplicates(["budget_g", "scene"])
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, designs), strict=True):
@@ -205,9 +206,10 @@ def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[
 def case_figures(file: str, row: Series) -> Named:
     """Figures of the curves and shapes of a case, if it has any."""
     history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
+    mode = MODES[row["loading_mode"]]
     if len(history) > 1:
         figure = case_plots.blank(8.0, 4.4)
-        if row["loading_mode"] == "custom":
+        if mode.probed:
             probe_reactions(figure.subplots(), history, row)
         else:
             case_plots.force_displacement(figure.subplots(), history, row)
@@ -220,8 +222,7 @@ def case_figures(file: str, row: Series) -> Named:
             base_pressure(figure.subplots(), history, row)
             yield "base_pressure", figure
     if frames:
-        dead = row["loading_mode"] == "force"
-        release = history["time_s"][last_loaded(history, row)] if dead else None
+        release = history["time_s"][last_loaded(history, row)] if mode.dead else None
         drawn = ", ".join(design_and_scene(row)), frames, release
         figure = case_plots.blank(*case_plots.shapes_size(*drawn))
         case_plots.deformed_shapes(figure, *drawn)

@@ -23,7 +23,7 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
-    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text",
+    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.modes",
     "sweep.design", "sweep.config", "sweep.columns", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
     "sweep.export", "sweep.running", "sweep.cli", "sweep.__main__",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.modes import MODES
 from sweep.numbers import in_unit
 from sweep.report.figures import case_plots
 from sweep.report.figures.probe_plots import probe_reactions
@@ -65,7 +66,7 @@ def moment(
     figure.suptitle(headline(row), x=0.01, ha="left", fontsize="medium")
     case_plots.one_shape(left, frames, k)
     last = _last_row(history, frames, k)
-    if row["loading_mode"] == "custom":
+    if MODES[row["loading_mode"]].probed:
         _reactions(right, row, history, last)
     else:
         _force(right, history, last)

@@ -22,6 +22,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
+from sweep.modes import MODES
 from sweep.numbers import energy_text, in_unit, percent, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
@@ -84,11 +85,10 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     turn = released = last_loaded(history, row)
     ended = len(history) - 1
-    if row["loading_mode"] == "displacement":
+    if MODES[row["loading_mode"]].driven:
         turn, released, ended = crushes(history)[0]
     down, pause, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
-    dead = row["loading_mode"] == "force"
-    absorbed = row["absorbed_energy_J"]
+    dead, absorbed = MODES[row["loading_mode"]].dead, row["absorbed_energy_J"]
     returned = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
     words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{returned}")
     style: Any = "steps-pre" if dead else "default"
@@ -124,7 +124,7 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
     If the efficiency still rises at full stroke, there is no densification.
     """
     strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
-    if row["loading_mode"] != "displacement" or not strain > 0.0:
+    if not (MODES[row["loading_mode"]].driven and strain > 0.0):
         return
     mean, end = energy / (strain * row["height_m"]), in_unit(strain, "%")
     densified = np.isfinite(row["densification_strain"])
@@ -156,8 +156,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     colors = [COLORS[name] for name in parts]
     values = [in_unit(history[name], "mJ") for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
-    total = "brought by the striker" if row["loading_mode"] == "impact" else "work done"
-    ax.plot(place, work, color="black", lw=1.4, label=total)
+    ax.plot(place, work, color="black", lw=1.4, label=MODES[row["loading_mode"]].total)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sweep.modes import mode_of
 from sweep.numbers import in_unit
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-LEAST_SHOWN = {"force": "greatest strain, %", "impact": "greatest force on the support, N"}
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
 VARIANT = [
@@ -60,7 +60,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
     look = looks(designs)
     for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)
-        least = LEAST_SHOWN.get(rows["loading_mode"].iloc[0])
+        least = mode_of(rows).least
         by_style = rows[::-1].groupby(["pareto", "lattice_kind", "material"])
         for _, points in by_style:  # the best are drawn last, on top
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
@@ -79,8 +79,8 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
             words.append(_in_lines(sentence))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {noun}, g")
-        least = least and f"{least}{', of a specimen' if noun == 'panel' else ''}"
-        ax.set_ylabel(least or f"energy absorbed by the {noun}{until(ranking)}, J")
+        own = least and f"{least.axis}{', of a specimen' if noun == 'panel' else ''}"
+        ax.set_ylabel(own or f"energy absorbed by the {noun}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     legend(fig, look.legend(barred=bool(merit_errors(designs, energy).notna().any())))

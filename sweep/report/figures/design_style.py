@@ -16,9 +16,10 @@ from pandas import concat
 
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
+from sweep.modes import mode_of
 from sweep.numbers import energy_text, in_unit, tenths, text_in, three_digits
 from sweep.ranking.budget import greatest_mass
-from sweep.ranking.merit import LEAST, doubtful
+from sweep.ranking.merit import doubtful
 from sweep.ranking.places import places_by
 from sweep.report.tables.design_text import WAYS, design_labels
 
@@ -34,7 +35,6 @@ OF_FAMILY |= {"kagome": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
 AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
 THIN = 0.2  # points of a line / diameter of the sign of a design
-CHARTED = {"peak_strain": "%", "peak_force_N": "N"}  # units of compared columns; else J
 LINE = {"ls": "-", "marker": ""}
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
@@ -164,8 +164,8 @@ def errors_of(rows: DataFrame, name: str) -> Series:
 
 def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
     """The compared column of the designs of one scene, and its unit in charts."""
-    least = LEAST.get(rows["loading_mode"].iloc[0])
-    return least or energy, CHARTED.get(least or energy, "J")
+    least = mode_of(rows).least
+    return (least.column, least.unit) if least else (energy, "J")
 
 
 def until(ranking: Ranking) -> str:
@@ -206,11 +206,9 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
     """
     (design,), energy = design_labels(won, ranking.table), ranking.energy
     merit, value = merits(won, energy).item(), three_digits(won[name].item())
-    words_by_mode = {
-        "force": f"compressed by {three_digits(merit)} %",
-        "impact": f"{three_digits(merit)} N on the support{_of_panel(won)}",
-    }
-    words = words_by_mode.get(won["loading_mode"].item(), energy_text(merit))
+    mode = mode_of(won)
+    words = mode.least.merit.format(three_digits(merit)) if mode.least else energy_text(merit)
+    words += _of_panel(won) if mode.struck else ""
     if name == ranking.per_gram:
         words += f", {value} J/g"
     elif name != _compared(won, energy)[0]:

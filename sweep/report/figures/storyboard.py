@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import DataFrame
 
+from sweep.modes import MODES
 from sweep.numbers import in_unit, percent, text_in
 from sweep.ranking.scenes import scene_label
 
@@ -57,9 +58,10 @@ def design_and_scene(row: Mapping[str, Any]) -> tuple[str, str]:
 
 def last_loaded(history: DataFrame, row: Mapping[str, Any]) -> int:
     """Number of the last row of a history before the platen turns or the dead load is removed."""
-    if row["loading_mode"] == "force":
+    mode = MODES[row["loading_mode"]]
+    if mode.dead:
         return int(np.flatnonzero(history["reaction_top_N"]).max(initial=0))
-    if row["loading_mode"] == "custom":
+    if mode.probed:
         return len(history) - 1
     return _turn(history["strain"].to_numpy())
 
@@ -69,12 +71,12 @@ def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
     turns, and the next cycle begins; a dead load is removed; a striker stops.
     """
     turn, last = last_loaded(history, row), len(history) - 1
-    if row["loading_mode"] != "displacement":
-        word = "load removed" if row["loading_mode"] == "force" else "standstill"
-        return {turn: word} if turn < last else {}
+    mode = MODES[row["loading_mode"]]
+    if not mode.driven:
+        return {turn: mode.turn} if turn < last else {}
     marks = dict[int, str]()
     for number, (_, released, ended) in enumerate(crushes(history), 2):
-        marks |= {released: "reversal", ended: f"cycle {number}"}
+        marks |= {released: mode.turn, ended: f"cycle {number}"}
     return {at: words for at, words in marks.items() if at < last}
 
 
@@ -99,7 +101,7 @@ def parts_of(history: DataFrame) -> dict[str, str]:
 
 def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
     """Abscissa of the energies of a case, and its label: path of a driven platen, or time."""
-    if row["loading_mode"] == "displacement":
+    if MODES[row["loading_mode"]].driven:
         travel = history["top_displacement_m"].diff().abs().cumsum().fillna(0.0)
         return in_unit(travel, "mm"), "platen travel, down and up, mm"
     return in_unit(history["time_s"], "ms"), "time, ms"

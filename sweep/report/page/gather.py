@@ -11,10 +11,11 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, TIED_SIDES, correction_column, end_columns, error_column
 from sweep.design.panel import BEHIND, BESIDE
+from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import LEAST, SEVEN_DIGITS, Compared, doubtful, merits, through_solid
+from sweep.ranking.merit import SEVEN_DIGITS, Compared, doubtful, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
@@ -87,7 +88,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         row = by_id.loc[case.case_id]
         design = cases.get(case.case_id) or unfinished[case.case_id]
         design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
-        if len(case.history) and row["loading_mode"] == "displacement":
+        if len(case.history) and MODES[row["loading_mode"]].driven:
             design["strokes"] += _exact(reached(case.history, force)[1] for force in forces)
     return {
         "file": Path(file).name,
@@ -144,7 +145,7 @@ def _cases(
     for number, part in enumerate(scenes):
         if part.empty:
             continue
-        least = LEAST.get(part["loading_mode"].iloc[0])
+        least = compared(part)
         tied = part["sides"].str.startswith(TIED_SIDES)  # a period fills no panel
         width = part["outer_width_m"].where(~tied)
         energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
@@ -203,20 +204,22 @@ def _with_bars(rows: DataFrame, name: str) -> list[tuple[float | None, ...]]:
 
 def _measures(rows: DataFrame) -> dict[str, Series]:
     """Columns of text that do not depend on the question."""
-    mode = rows["loading_mode"].iloc[0]
-    if mode == "impact":
+    mode = mode_of(rows)
+    if mode.struck:
         struck = impact_text(rows)
         del struck["force N"]
         return struck
-    return crush_text(rows) if mode == "displacement" else {}
+    return crush_text(rows) if mode.driven else {}
 
 
 def _scene(rows: DataFrame) -> dict[str, Any]:
-    mode = rows["loading_mode"].iloc[0]
-    least = LEAST.get(mode)
+    mode, least = mode_of(rows), compared(rows)
     return {
         "label": scene_label(rows),
-        "mode": mode,
+        "mode": rows["loading_mode"].iloc[0],
+        **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead", "total")},
+        "axes": [axis.label for axis in mode.curve],
+        "shown": mode.least and mode.least._asdict(),
         "least": least,
         "bar": least is not None and error_column(least) in rows,
         "heads": list(_measures(rows)),
@@ -250,7 +253,7 @@ def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
     for panel in (None,) if tied else (None, (1.0, 1.0)):
         rows, names = merits(finished, Question(panel=panel, allowed_force=counted.force))
         for scene in by_scene(rows) if len(rows) else []:
-            least = LEAST.get(scene["loading_mode"].iloc[0])
+            least = compared(scene)
             sound = scene[~doubtful(scene)]
             merit = sound[names.energy] if least is None else -sound[least]
             yield from sound["case_id"][pareto(sound[names.mass], merit)]
@@ -275,7 +278,7 @@ class _Stored:
         if len(history) > 1:
             more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
             more |= self._base(history, row)
-            if row["loading_mode"] == "displacement":
+            if MODES[row["loading_mode"]].driven:
                 more["stairs"] = self._stairs(history, row)
         if frames:
             more["drawing"] = self._drawing(frames)
@@ -284,7 +287,7 @@ class _Stored:
 
     def so_far(self, case: StoredRun, row: Series) -> dict[str, Any]:
         """What ranks a case that stopped: its curve until then."""
-        if len(case.history) < 2 or row["loading_mode"] != "displacement":
+        if len(case.history) < 2 or not MODES[row["loading_mode"]].driven:
             return {}
         curve, stairs = self._curve(case.history, row), self._stairs(case.history, row)
         return {"curve": curve, "stairs": stairs}
@@ -359,12 +362,8 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:
     """Force (N) over strain (%); strain over time (ms) of a dead load, whose force is constant."""
-    mode, strain = row["loading_mode"], in_unit(history["strain"], "%")
-    if mode == "force":
-        return in_unit(history["time_s"], "ms"), strain
-    if mode == "custom":
-        return in_unit(history["time_s"], "ms"), history["reaction_bottom_N"]
-    return strain, history["reaction_bottom_N" if mode == "impact" else "reaction_top_N"]
+    x, y = (in_unit(history[axis.column], axis.unit) for axis in MODES[row["loading_mode"]].curve)
+    return x, y
 
 
 def _forces(

@@ -20,7 +20,7 @@ function scene() {
 }
 
 function crushed() {
-  return scene().mode === "displacement";
+  return scene().driven;
 }
 
 // ---- what is asked ----
@@ -250,9 +250,8 @@ function share(row) {
 }
 
 function valueText(row) {
-  const mode = scene().mode;
-  if (mode === "impact") return `${digits(row.value)} N on the support`;
-  if (mode === "force") return `compressed by ${digits(inUnits(row.value, "%"))} %`;
+  const { shown } = scene();
+  if (shown) return shown.merit.replace("{}", digits(inUnits(row.value, shown.unit)));
   const least = row.early ? "at least " : "";
   const whole = asked.panel || asked.budget !== null; // energy is ranked, not energy per gram
   return least + (whole ? energyText(row.energy) : `${digits(row.perGram)} J/g`);
@@ -370,7 +369,7 @@ function requiredOptions() {
 // ---- the table ----
 
 function columns() {
-  const mode = scene().mode;
+  const { shown } = scene();
   const number = (head, text, key = null) => ({ head, text, key: key ?? ((row) => parseFloat(text(row).replace(/^[>~ ]+/, ""))), right: true });
   const found = [number("#", (row) => placeText(row), (row) => row.rank)];
   data.heads.forEach((head, i) => {
@@ -382,8 +381,7 @@ function columns() {
     found.push(number("panel mm", panelText, (row) => row.panel.lengths[0]));
     found.push(number("panel g", (row) => digits(row.mass)));
   }
-  if (mode === "impact") found.push(number("force N", (row) => digits(row.value), (row) => row.value));
-  else if (mode === "force") found.push(number("strain %", (row) => digits(inUnits(row.value, "%")), (row) => row.value));
+  if (shown) found.push(number(shown.head, (row) => digits(inUnits(row.value, shown.unit)), (row) => row.value));
   else {
     const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
     const unit = energyUnit(most);
@@ -487,7 +485,7 @@ function notes() {
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
   lines.push(...scene().narrow);
-  if (asked.panel && scene().mode === "impact") lines.push(data.struck_panel);
+  if (asked.panel && scene().struck) lines.push(data.struck_panel);
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
     lines.push(
@@ -523,12 +521,11 @@ function merit(row) {
 }
 
 function showMap() {
-  const mode = scene().mode;
+  const { shown: least } = scene();
   const noun = asked.panel ? "panel" : "part";
-  const names = { impact: ["Force over mass", "force on the support", "N"], force: ["Strain over mass", "greatest strain", "%"] };
   const rows = now.rows.filter((row) => merit(row) > 0);
   const energy = ["Energy over mass", `energy of a ${noun}`, energyUnit(Math.max(...rows.map(merit)))];
-  const [title, quantity, unit] = names[mode] ?? energy;
+  const [title, quantity, unit] = least ? [least.chart, least.quantity, least.unit] : energy;
   $("map-title").textContent = title;
   if (!rows.length) return $("map").replaceChildren("Nothing to draw.");
   const masses = rows.map((row) => row.mass);
@@ -627,10 +624,7 @@ function lookAt(id) {
 }
 
 function curveLabels() {
-  const mode = scene().mode;
-  if (mode === "force") return ["time, ms", "strain, %"];
-  if (mode === "custom") return ["time, ms", "force, N"];
-  return ["strain, %", mode === "impact" ? "force on the support, N" : "force, N"];
+  return scene().axes;
 }
 
 function showCurves() {
@@ -710,7 +704,7 @@ function showFrame(k) {
   player.show(k);
   $("frame").value = k;
   const strain = moving.strain[k] === null ? `${moving.time[k]} ms` : `strain ${moving.strain[k].toFixed(moving.strain[k] < 10 ? 1 : 0)} %`;
-  const force = moving.force[k] === null || scene().mode === "force" ? "" : `, ${digits(moving.force[k])} N`;
+  const force = moving.force[k] === null || scene().dead ? "" : `, ${digits(moving.force[k])} N`;
   $("caption").textContent = strain + force;
   view.mark?.(moving.strain[k], moving.time[k], moving.force[k]);
 }
@@ -748,7 +742,7 @@ function showBook(design) {
     line(plot, [...place, ...[...place].reverse()], [...sum, ...back], { style: `fill: var(--p${partColor(book.parts[i])})` });
   });
   line(plot, place, work, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
-  const total = scene().mode === "impact" ? "brought by the striker" : "work done";
+  const { total } = scene();
   $("parts").replaceChildren(
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
     element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),

@@ -63,7 +63,7 @@ function askedOf(data, question) {
 // The value (SI) of a row for each requirement, of a specimen or of the panel.
 function required(data, row, question) {
   const { design } = row;
-  const crushed = data.scenes[question.scene].mode === "displacement";
+  const crushed = data.scenes[question.scene].driven;
   const count = row.panel ? row.panel.specimens : 1;
   const of = {
     max_force: crushed ? row.passed : design.peak,
@@ -97,11 +97,11 @@ function missesOf(data, row, question) {
 // The energy (J) that must be absorbed, of a striker or as required, the force (N) that is allowed
 // meanwhile, the least stroke (m) for both, and the greatest height; null if one is not known.
 function rectangle(data, rows, question) {
-  const { mode } = data.scenes[question.scene];
+  const { driven, struck: hit } = data.scenes[question.scene];
   const limits = askedOf(data, question);
   const together = (row) => (ofPanel(question) ? row.panel.specimens : 1);
   const struck = () => Math.min(...rows.map((row) => together(row) * row.design.struck));
-  const energy = mode === "impact" ? struck() : mode === "displacement" ? limits.min_absorbed : undefined;
+  const energy = hit ? struck() : driven ? limits.min_absorbed : undefined;
   const force = Math.min(limits.max_force ?? Infinity, question.force ?? Infinity);
   if (!(energy > 0) || force === Infinity) return null;
   return { energy, force, stroke: energy / force, height: Math.max(...rows.map((row) => row.design.height)) };
@@ -137,7 +137,7 @@ function measured(data, design, question) {
     beyond: design.solid || exceeds(energy, times(design.within, 1 + slack)),
   };
   row.stroke = countedStroke(data, design, question, force);
-  row.early = scene.mode === "displacement" && force !== null && design.peak !== null && design.peak <= row.passed;
+  row.early = scene.driven && force !== null && design.peak !== null && design.peak <= row.passed;
   row.open = force === null ? design.open : row.early;
   let bars;
   if (scene.least) bars = design.least;
@@ -201,7 +201,7 @@ function markPlaces(rows) {
 // What the rest of a crush adds at most to the energy up to an allowed force, in units of the value.
 function further(data, row, question) {
   const { design } = row;
-  if (question.force === null || data.scenes[question.scene].mode !== "displacement") return Infinity;
+  if (question.force === null || !data.scenes[question.scene].driven) return Infinity;
   const force = question.force / (ofPanel(question) ? row.panel.specimens : 1);
   if (exceeds(design.peak, force)) return 0;
   if (design.rest === null) return Infinity;

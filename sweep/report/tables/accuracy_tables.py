@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.columns import describe_column
+from sweep.modes import mode_of
 from sweep.numbers import (
     NOTHING,
     energy_text,
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 
 WIDTH = 100  # of a line below a table
 LEAST_SHOWN = 1e-5  # relative error; smaller ones are shown as "<" this value
-PATHS = {"displacement": "force along the way", "custom": "motion of the probes"}
 MARKS = """\
 *: on the front: no setting as cheap has a smaller greatest error. peak: of the stored rows. path:
 rms over the history / its range. elements: per wall. <: below the uncertainty of the reference."""
@@ -190,11 +190,11 @@ def _size(key: str, value: float, bare: bool = False) -> str:
 
 def measure_noun(study: Study, name: str) -> str:
     """A measure in words."""
-    mode = study.settings["loading_mode"].iloc[0]
+    mode = mode_of(study.settings)
     if name == "path":
-        return PATHS.get(mode, "strain over time")
+        return mode.path
     if name == "energy":
-        return "energy left" if mode == "custom" else "absorbed energy"
+        return mode.energy
     return "peak force"
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.columns import TIED_SIDES
+from sweep.modes import MODES, Mode, has
 from sweep.numbers import percent
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
 CRUSHED = "peak: greatest force of {of}. Peak and energy are counted {until}."
-DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
 SECOND = (
@@ -38,10 +38,6 @@ still stored in walls that relax."""
 MIXED = """\
 behaviour: of the walls. The rest is lost to friction, damping, snap-through or time integration; in
 walls that are not elastic also in the material, or is still stored as they relax."""
-LOADED = "strain: greatest strain under the load, including overshoot."
-STRUCK = """\
-force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
-closed. rebound: energy of the striker, relative to the base, at rebound / at first contact."""
 SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""
@@ -80,7 +76,6 @@ OTHER_BOW = """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 ONE_PERIOD = """\
 Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel."""
-HEADS = ("displacement", "force", "impact")
 CROSSED = """\
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others."""
@@ -94,17 +89,17 @@ too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     table, of = ranking.table, of_one(ranking.table)
-    heads = {mode: meanings(table, mode) for mode in dict.fromkeys(table["loading_mode"])}
-    if "displacement" in heads:
-        whole = [] if ranking.limited else heads["displacement"]
-        heads["displacement"] = [CRUSHED.format(until=ranking.until, of=of), *whole]
-    lines = [line for mode in HEADS if mode in heads for line in heads[mode]]
+    lines = []
+    for mode in (MODES[name] for name in sorted(table["loading_mode"].unique())):
+        counted = [CRUSHED.format(until=ranking.until, of=of)] if mode.driven else []
+        whole = mode.notes and not (mode.driven and ranking.limited)
+        lines += [*counted, *(meanings(table, mode) if whole else [])]
     lines += panel_note(table) + column_notes(ranking)
     bars = [TIED] if "ranked_error" in table else []
     return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *bars]))
 
 
-def meanings(rows: DataFrame, mode: str) -> list[str]:
+def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
     period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
     shaped = [SHAPED] if _is_shaped(rows) else []
@@ -116,18 +111,16 @@ def _is_shaped(rows: DataFrame) -> bool:
     return bool((~rows["striker"].isin(("flat", "none"))).any())
 
 
-def _meanings(rows: DataFrame, mode: str) -> list[str]:
-    if mode == "displacement":
+def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
+    if mode.driven:
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        return [DENSIFIED, *_not_densified(rows), RETURNED, *second, _losses(rows)]
-    if mode == "impact":
-        return [STRUCK, _losses(rows)]
-    return [LOADED] if mode == "force" else []
+        return [*mode.notes, *_not_densified(rows), RETURNED, *second, _losses(rows)]
+    return [*mode.notes, *([_losses(rows)] if mode.struck else [])]
 
 
 def _not_densified(rows: DataFrame) -> list[str]:
     """What stands in place of the strain where a crush ends too early; nothing if none does."""
-    crushed = rows[rows["loading_mode"] == "displacement"]
+    crushed = rows[has(rows, "driven")]
     ends = crushed["peak_strain"][crushed["densification_strain"].isna()].dropna()
     return [] if ends.empty else [NOT_DENSIFIED.format(percent(ends.iloc[0]))]
 

@@ -8,6 +8,7 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING
 
+from sweep.modes import MODES, has, mode_of
 from sweep.numbers import energy_text, in_unit, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
 from sweep.ranking.requirement_table import MEASURES
@@ -25,12 +26,6 @@ PANEL = (
     "of 0.4 mm press on one another."
 )
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
-NOT_APPLIED = {
-    "displacement": "Not applied to a crush, which has no striker: {}.",
-    "impact": "Not applied to an impact, whose striker sets the energy: {}.",
-    "force": "Not applied to a dead load, which sets force and energy itself: {}.",
-    "custom": "Not applied to a custom structure: {}.",
-}
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
     "base kPa": "base: greatest pressure on a patch of the base (loading.base_patch).",
@@ -94,7 +89,7 @@ def requirement_notes(
         yield from _of_budgets(outcomes, ranking, named)
     alike = [label for label, others in ranking.outcomes.items() if others[0].mode == first.mode]
     if first.left_out and scene == alike[0]:
-        yield NOT_APPLIED[first.mode].format(", ".join(first.left_out))
+        yield f"Not applied to {MODES[first.mode].without}: {', '.join(first.left_out)}."
 
 
 def _of_budgets(
@@ -208,8 +203,7 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     for head, (name, column) in FELT.items():
         if struck and (name in ranking.required or column in {*rows["ranked_by"]}):
             columns[head] = numerals(in_unit(rows[column], MEASURES[name].shown))
-    crushed = rows["loading_mode"].iloc[0] == "displacement"
-    limited = crushed and (ranking.limited or "max_force" in ranking.required)
+    limited = mode_of(rows).driven and (ranking.limited or "max_force" in ranking.required)
     shown = limited or required_of(ranking, rows, "max_stroke")
     if shown and rows["counted_stroke_m"].notna().any():
         columns["stroke mm"] = numerals(in_unit(rows["counted_stroke_m"], "mm"))
@@ -245,10 +239,10 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
 
 def panel_note(rows: DataFrame) -> list[str]:
     """How many specimens a panel has, and what strikes them; none without a panel."""
-    if "panel_specimens" not in rows or (rows["loading_mode"] == "force").all():
+    if "panel_specimens" not in rows or has(rows, "dead").all():
         return []
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    struck = [STRUCK_PANEL] if (rows["loading_mode"] == "impact").any() else []
+    struck = [STRUCK_PANEL] if has(rows, "struck").any() else []
     return [PANEL.format(least if least == most else f"{least} to {most}", size), *struck]

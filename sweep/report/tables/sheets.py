@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.columns import end_columns
+from sweep.modes import compared, mode_of
 from sweep.numbers import in_unit, numerals, percent, tenths
 from sweep.ranking.budget import greatest_mass
-from sweep.ranking.merit import LEAST
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import (
@@ -221,10 +221,9 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     if "panel_mass_g" in rows:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     shown = {"printed_mass_g", "counted_mass_g"}
-    mode = rows["loading_mode"].iloc[0]
-    if mode in LEAST:
-        columns |= _under_load(rows) if mode == "force" else impact_text(rows)
-        shown |= {LEAST[mode]}
+    if least := compared(rows):
+        columns |= impact_text(rows) if mode_of(rows).struck else _under_load(rows)
+        shown |= {least}
     else:
         columns |= _crushed(rows, ranking) | panel_column(rows)
         shown |= {ranking.energy, ranking.per_gram}

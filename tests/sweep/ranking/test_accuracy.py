@@ -8,6 +8,7 @@ import pytest
 
 from sweep.config.grid import expand
 from sweep.config.load import load_config
+from sweep.modes import MODES
 from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
 from sweep.report.tables.accuracy_tables import accuracy_sheets, setting
 from sweep.running.sweep import run_sweep
@@ -77,7 +78,7 @@ def test_a_structure_is_measured_by_its_probes():
         probe_0_reaction_x_N=[0.0, -3.0, 1.0], probe_0_reaction_y_N=[0.0, 4.0, 1.0],
     )  # fmt: skip
     row = pd.Series({"loading_mode": "custom"})
-    _, (moves,) = path("custom", history)
+    _, (moves,) = path(MODES["custom"], history)
     np.testing.assert_allclose(moves, [0.0, 0.1, 0.3])
     assert peak(row, history) == 5.0
     left = history[["kinetic_J", "bend_J"]].iloc[-1].sum()

@@ -3,9 +3,10 @@
 import pandas as pd
 import pytest
 
+from sweep.modes import LOADED
 from sweep.ranking.question import Question, RankError
 from sweep.report.publish import publish_case, publish_ranking
-from sweep.report.tables.legend import LOADED, MARKS
+from sweep.report.tables.legend import MARKS
 from tests.support.results.specimens import designs, summary, write
 
 DESIGN_MAP = "sweep.report.figures.design_map.design_map"

@@ -1,0 +1,210 @@
+"""The modes of loading: what rankings, tables, pictures, the page and exports know of each.
+
+A results table names the mode of a row in `loading_mode`. A new mode is a row of `MODES`; its kind
+in `sweep/config/kinds` has the keys. No heavy imports, as every command reads this.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from sweep.numbers import energy_text, short
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+Row = Mapping[str, Any]
+
+
+class Axis(NamedTuple):
+    """A column of the history on an axis: its unit there, and its label."""
+
+    column: str
+    unit: str
+    label: str
+
+
+class Least(NamedTuple):
+    """A measure that is compared instead of energy, where the loading sets the energy.
+
+    Under a dead load, the design that deforms most absorbs most energy. Every design absorbs all
+    the energy of a striker; designs differ in the force on the support, which is large if the
+    stroke is used up.
+
+    column: the least value is the best. unit: in charts. axis, chart: label of an axis, title of a
+    chart. quantity: on the axis of the page. merit: words for a value. order: what is best, in
+    words. head: of its column on the page.
+    """
+
+    column: str
+    unit: str
+    axis: str
+    chart: str
+    quantity: str
+    merit: str
+    order: str
+    head: str
+
+
+class Mode(NamedTuple):
+    """What is known of one mode of loading.
+
+    noun: the loading in words; without: why a requirement does not apply to it. requires: the
+    requirements whose values the design sets, not the loading. title: the loading of a row in
+    words. curve: abscissa and ordinate of its curve. columns: its own columns of results; scene:
+    columns of which every value makes a scene.
+
+    driven: a platen moves by a stroke, so that energy counts until densification and force over
+    travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the
+    energy. probed: curves of probes, without platens and strain.
+
+    least: what is compared instead of energy. coarse: greatest `integrator_share` of a result that
+    is not marked; above it, errors of the compared column are common that exceed the differences
+    of similar designs (`sweep.simulation.time_resolution`); a crush may lose what snaps to the
+    integrator.
+
+    In words: turn, the end of its loading; total, the sum of all energies; energy and path, what
+    accuracy is measured of. notes: what columns of tables mean. picture: name of the chart of merit
+    over mass; empty if there is none.
+    """
+
+    noun: str
+    without: str
+    requires: tuple[str, ...]
+    title: Callable[[Row], str]
+    curve: tuple[Axis, Axis]
+    columns: tuple[str, ...] = ()
+    scene: tuple[str, ...] = ()
+    driven: bool = False
+    dead: bool = False
+    struck: bool = False
+    probed: bool = False
+    least: Least | None = None
+    coarse: float = float("inf")
+    turn: str = "standstill"
+    total: str = "work done"
+    energy: str = "absorbed energy"
+    path: str = "strain over time"
+    notes: tuple[str, ...] = ()
+    picture: str = ""
+
+
+STRAIN = Axis("strain", "%", "strain, %")
+TIME = Axis("time_s", "ms", "time, ms")
+LOADED = "strain: greatest strain under the load, including overshoot."
+STRUCK = """\
+force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
+closed. rebound: energy of the striker, relative to the base, at rebound / at first contact."""
+DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
+
+
+def _struck(row: Row) -> str:
+    """The striker of a row and its target, in words."""
+    mass, speed = short(float(row["striker_mass_g"])), short(float(row["striker_speed_m_per_s"]))
+    energy = energy_text(float(row["impact_energy_J"]))
+    falls = " under gravity" if row["gravity"] == 1.0 else ""
+    target = float(row["target_mass_g"])
+    free = f" on a target of {short(target)} g" if target > 0.0 else ""
+    return f"struck by {mass} g at {speed} m/s ({energy}){falls}{free}"
+
+
+MODES: Mapping[str, Mode] = {
+    "displacement": Mode(
+        noun="a crush",
+        without="a crush, which has no striker",
+        requires=("max_force", "max_mass", "min_absorbed", "max_stroke"),
+        title=lambda row: "crushed",
+        curve=(STRAIN, Axis("reaction_top_N", "N", "force, N")),
+        columns=("stroke_m",),
+        driven=True,
+        turn="reversal",
+        path="force along the way",
+        notes=(DENSIFIED,),
+        picture="absorption",
+    ),
+    "impact": Mode(
+        noun="an impact",
+        without="an impact, whose striker sets the energy",
+        requires=(
+            *("max_force", "max_deceleration", "max_base_pressure", "max_target_acceleration"),
+            *("max_mass", "max_stroke"),
+        ),
+        title=_struck,
+        curve=(STRAIN, Axis("reaction_bottom_N", "N", "force on the support, N")),
+        columns=(
+            *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
+            "target_mass_g",
+        ),
+        scene=("striker_mass_g", "striker_speed_m_per_s", "gravity", "target_mass_g"),
+        struck=True,
+        least=Least(
+            *("peak_force_N", "N", "greatest force on the support, N", "Force over mass"),
+            quantity="force on the support",
+            merit="{} N on the support",
+            order="least force on the support",
+            head="force N",
+        ),
+        coarse=0.05,
+        total="brought by the striker",
+        notes=(STRUCK,),
+        picture="passed_on",
+    ),
+    "force": Mode(
+        noun="a dead load",
+        without="a dead load, which sets force and energy itself",
+        requires=("max_mass", "max_stroke"),
+        title=lambda row: f"dead load of {row['force_N']:g} N",
+        curve=(TIME, STRAIN),
+        columns=("force_N",),
+        scene=("force_N",),
+        dead=True,
+        least=Least(
+            *("peak_strain", "%", "greatest strain, %", "Strain over mass"),
+            quantity="greatest strain",
+            merit="compressed by {} %",
+            order="least peak strain",
+            head="strain %",
+        ),
+        coarse=0.3,
+        turn="load removed",
+        notes=(LOADED,),
+        picture="sink",
+    ),
+    "custom": Mode(
+        noun="a custom structure",
+        without="a custom structure",
+        requires=("max_mass",),
+        title=lambda row: "loaded as in its file",
+        curve=(TIME, Axis("reaction_bottom_N", "N", "force, N")),
+        probed=True,
+        energy="energy left",
+        path="motion of the probes",
+    ),
+}
+"""By `loading_mode`."""
+
+
+def mode_of(rows: DataFrame) -> Mode:
+    """The mode of the rows of one scene, which has one."""
+    return MODES[rows["loading_mode"].iloc[0]]
+
+
+def compared(rows: DataFrame) -> str | None:
+    """The column that is compared instead of energy in one scene; None: energy is."""
+    return least.column if (least := mode_of(rows).least) else None
+
+
+def has(rows: DataFrame, trait: Literal["driven", "dead", "struck", "probed"]) -> Series:
+    """Row by row, whether its mode has a trait."""
+    return rows["loading_mode"].isin([name for name, mode in MODES.items() if getattr(mode, trait)])
+
+
+def greatest_share(rows: DataFrame) -> Series:
+    """`Mode.coarse`, row by row."""
+    return rows["loading_mode"].map({name: mode.coarse for name, mode in MODES.items()})
+
+
+def asked_of(requirement: str) -> tuple[str, ...]:
+    """The modes of which something can be required."""
+    return tuple(name for name, mode in MODES.items() if requirement in mode.requires)

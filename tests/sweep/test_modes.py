@@ -1,0 +1,67 @@
+"""The table of modes: complete, and its words of columns and requirements are those in use."""
+
+from typing import get_args
+
+import pytest
+from pandas import DataFrame
+
+from sweep.columns import COLUMNS, HISTORY_COLUMNS
+from sweep.config.case import Case
+from sweep.config.kinds.loading import Loading, mode_word
+from sweep.modes import MODES, asked_of, compared, greatest_share, has, mode_of
+from sweep.numbers import FACTORS
+from sweep.ranking.requirement_table import MEASURES
+from sweep.result import LOADED
+
+KINDS = {mode_word(kind): kind for kind in get_args(get_args(Loading)[0])}
+ROWS = DataFrame({"loading_mode": ["displacement", "impact", "force", "custom"]})
+
+
+def test_every_kind_of_loading_has_its_mode():
+    assert set(KINDS) == set(MODES)
+
+
+@pytest.mark.parametrize("name", MODES)
+def test_a_mode_names_columns_and_requirements_that_are_there(name):
+    mode = MODES[name]
+    assert {*mode.requires} <= {*MEASURES}
+    assert {*mode.columns, *mode.scene} <= {*COLUMNS}
+    assert {axis.column for axis in mode.curve} <= {*HISTORY_COLUMNS}
+    assert {axis.unit for axis in mode.curve} <= {*FACTORS}
+
+
+@pytest.mark.parametrize("name", [name for name, mode in MODES.items() if mode.least])
+def test_what_is_compared_is_a_column_of_which_less_is_better(name):
+    least = MODES[name].least
+    assert COLUMNS[least.column].better == "less"
+    assert least.unit in FACTORS
+    assert least.merit.format("7").count("7") == 1
+    assert not MODES[name].driven
+
+
+def test_columns_of_a_loading_are_those_of_its_kind():
+    for name in {*MODES} - {"custom"}:
+        assert {*MODES[name].scene} <= {*MODES[name].columns}
+        assert {*Case.of(loading={"mode": name}).loading.columns} == {*MODES[name].columns}
+    assert {*KINDS["custom"].columns} == {*MODES["custom"].columns}
+    assert {column for mode in MODES.values() for column in mode.columns} == {*LOADED}
+
+
+def test_each_trait_row_by_row():
+    expected = {"driven": 0, "struck": 1, "dead": 2, "probed": 3}
+    for trait, row in expected.items():
+        assert list(has(ROWS, trait)) == [k == row for k in range(4)]
+    assert has(ROWS[:0], "driven").dtype == bool
+    assert list(greatest_share(ROWS)) == [float("inf"), 0.05, 0.3, float("inf")]
+
+
+def test_the_mode_of_a_scene_is_the_one_of_its_rows():
+    assert mode_of(ROWS[1:2]) is MODES["impact"]
+    columns = [compared(ROWS[k : k + 1]) for k in range(4)]
+    assert columns == [None, "peak_force_N", "peak_strain", None]
+
+
+def test_modes_of_a_requirement():
+    assert asked_of("min_absorbed") == ("displacement",)
+    assert asked_of("max_stroke")[:3] == ("displacement", "impact", "force")
+    assert asked_of("max_mass") == tuple(MODES)
