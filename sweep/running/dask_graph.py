@@ -8,10 +8,8 @@ limited.
 import time
 from asyncio import wait_for
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
-from multiprocessing import get_context
 from queue import Empty, SimpleQueue
 from threading import Lock
 from typing import TYPE_CHECKING, Any
@@ -20,6 +18,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
+from sweep.running.alone import run_alone
 from sweep.running.batches import Plan
 
 if TYPE_CHECKING:
@@ -248,21 +247,10 @@ class _BatchesOnCluster:
         """Halve a batch that lost its worker; a single case runs in a process of its own."""
         half = len(batch) // 2
         if half == 0:
-            return _run_alone(self.simulate, batch, self.stop)
+            result = run_alone(self.simulate, batch[0], lambda: self.stop.flag)
+            return [result] if result else []
         self.suspects += [batch[:half], batch[half:]]
         return []
-
-
-def _run_alone(simulate: Simulate, suspect: list[Case], stop: Stop) -> list[Result]:
-    """Run a case in a process of its own: if the process dies, the case is the cause."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-        try:
-            results, _ = process.submit(run_batch, simulate, suspect).result()
-        except BrokenProcessPool:
-            message = "its worker process died, even with no other case; try a smaller model"
-            died = failed_result(suspect[0], Status.WORKER_DIED, message)
-            return [] if stop.flag else [died]
-    return results
 
 
 def _one_line(error: Exception) -> str:

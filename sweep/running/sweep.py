@@ -8,9 +8,12 @@ from threading import current_thread, main_thread
 
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand, sweep_of
+from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Status
+from sweep.running.alone import run_alone
 from sweep.running.batches import Plan, cost
 from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
+from sweep.running.journal import Journal
 from sweep.running.period_note import sentences_on_periods
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
@@ -26,6 +29,7 @@ from sweep.store.read import (
 )
 from sweep.store.write import WriteError, Writer
 
+SUSPECTED = "ran when the last run died: now first, each in a process of its own"
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
 
 
@@ -80,13 +84,21 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 with writer_thread() as thread:
                     thread.submit(writer.fold).result()
             else:
+                journal = stack.enter_context(Journal(out))
+                suspects = [waiting.pop(i) for i in journal.suspects if i in waiting]
+                if suspects:
+                    announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
                 plan = Plan(waiting.values(), workers)
-                costs = {case_id: cost(case) for case_id, case in waiting.items()}
+                costs = {case.case_id: cost(case) for case in asked}
                 with (
                     Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
-                    run_plan(plan, chosen, sink, stop, scheduler)
+                    for case in suspects:
+                        if result := run_alone(chosen, case, lambda: stop.flag):
+                            sink([result])
+                    watched = journal.watched(chosen) if scheduler is None else chosen
+                    run_plan(plan, watched, sink, stop, scheduler)
     kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"

@@ -1,0 +1,42 @@
+"""A case in a process of its own."""
+
+import os
+import sys
+import threading
+import time
+
+from sweep.result import Status
+from sweep.running.alone import run_alone
+from tests.support.results.standin import cases, number_of, simulate
+
+
+def poisonous(case, control):
+    """Case 1 takes its process with it, case 2 takes long."""
+    if number_of(case) == 1:
+        os._exit(1)
+    if number_of(case) == 2:
+        time.sleep(60.0)
+    sys.stdout.write("noise")
+    return simulate(case)
+
+
+def test_the_result_is_that_of_the_function_whatever_it_prints():
+    (case,) = cases(1)
+    result = run_alone(poisonous, case, lambda: False)
+    assert result.case == case
+    assert repr(result.summary) == repr(simulate(case).summary)
+
+
+def test_a_case_that_kills_its_process_is_a_row():
+    case = cases(2)[1]
+    result = run_alone(poisonous, case, lambda: False)
+    assert (result.case_id, result.status) == (case.case_id, Status.WORKER_DIED)
+    assert "even with no other case" in result.message
+
+
+def test_a_stop_ends_it():
+    stopped = threading.Event()
+    threading.Timer(0.5, stopped.set).start()
+    started = time.monotonic()
+    assert run_alone(poisonous, cases(3)[2], stopped.is_set) is None
+    assert time.monotonic() - started < 30.0
