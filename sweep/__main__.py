@@ -165,6 +165,7 @@ MATERIALS_EXAMPLES = """examples:
 """
 
 AREA = "area to fill with specimens"
+THREADS = "threads (default: one per core, up to 8)"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 
 
@@ -237,7 +238,7 @@ def _add_run(verbs: Any) -> None:
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
     where = run.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=_count, metavar="N", help="threads, 2 by default")
+    where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
     where.add_argument(
         "--scheduler",
         metavar="ADDRESS",
@@ -285,7 +286,7 @@ def _add_optimize(verbs: Any) -> None:
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
     where = optimize.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+    where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
 
 
@@ -302,7 +303,7 @@ def _add_accuracy(verbs: Any) -> None:
         default="results/accuracy",
         help="results, tables and figure (default: results/accuracy)",
     )
-    accuracy.add_argument("--workers", type=_count, default=2, metavar="N", help="default: 2")
+    accuracy.add_argument("--workers", type=_count, metavar="N", help=THREADS)
 
 
 def _add_status(verbs: Any) -> None:

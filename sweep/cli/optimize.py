@@ -32,6 +32,7 @@ class OptimizeError(ValueError):
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
     from sweep.ranking.assessment import check_searched
+    from sweep.running.dask_graph import usual_workers
     from sweep.running.searching.design_space import DesignSpace
     from sweep.running.searching.search import Search, Settings
 
@@ -40,7 +41,8 @@ def optimize(config: Config, arguments: Namespace) -> int:
         needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
     check_searched(config.recipe.search)
-    how = Settings(arguments.evaluations, arguments.seed, arguments.workers, arguments.scheduler)
+    workers = arguments.workers or usual_workers()
+    how = Settings(arguments.evaluations, arguments.seed, workers, arguments.scheduler)
     question = _question(config, arguments)
     limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
     space = DesignSpace(config, *limits)

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from sweep.config.grid import Config
     from sweep.ranking.question import Question
 
-WORKERS = 2
 SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
 NO_COLUMNS = (
     "--screen estimates crushes along equal cells without an outline by one cell each, and no case "
@@ -31,12 +30,13 @@ def run(config: Config, arguments: Namespace) -> int:
 
     With --error-bars, a design without an error bar counts as a failure.
     """
+    from sweep.running.dask_graph import usual_workers
     from sweep.running.run import check_question
     from sweep.store.read import Rerun, read_summary
 
     check_question(config)
     out = arguments.out or f"results/{config.name}.h5"
-    workers = arguments.workers or WORKERS
+    workers = arguments.workers or usual_workers()
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
     if arguments.dry_run:
         from sweep.running.estimate import dry_run

@@ -52,12 +52,13 @@ def accuracy(arguments: Namespace) -> int:
     from sweep.config.grid import expand
     from sweep.ranking.accuracy import check_axes
     from sweep.report.publish import publish_accuracy
+    from sweep.running.dask_graph import usual_workers
     from sweep.running.sweep import run_sweep
 
     config, folder = _config(arguments.config), Path(arguments.out)
     cases, out = expand(config), folder / f"{config.name}.h5"
     check_axes([case.axes for case in cases])
-    failed = run_sweep(config, out, arguments.workers)
+    failed = run_sweep(config, out, arguments.workers or usual_workers())
     with writing(folder):
         sheets, files = publish_accuracy(out, [case.case_id for case in cases])
     print_sheets(sheets)

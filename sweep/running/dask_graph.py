@@ -24,6 +24,7 @@ from sweep.running.batches import Plan
 if TYPE_CHECKING:
     from distributed import Client, Future
 
+MOST_THREADS = 8  # Python's lock is held 2 ms of a short case
 WINDOW = 8  # batches in flight per thread of a cluster
 ANSWER = 10  # seconds in which a scheduler must answer
 PATIENCE = 60  # seconds in which the first worker of a cluster must join
@@ -31,6 +32,13 @@ MOMENT = 0.2  # seconds between two checks for a stop
 
 Simulate = Callable[[Case, np.ndarray], Result]
 Sink = Callable[[list[Result]], None]
+
+
+def usual_workers() -> int:
+    """Threads of a run: one for each core that this process may use, as far as more pay."""
+    from dask.system import cpu_count
+
+    return min(cpu_count(), MOST_THREADS)
 
 
 class GraphError(Exception):

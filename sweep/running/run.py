@@ -8,6 +8,7 @@ from sweep.config.load import load_config
 from sweep.ranking.merit import check_panel
 from sweep.report.results import Results
 from sweep.running.applicable import check_required
+from sweep.running.dask_graph import usual_workers
 from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun
 
@@ -15,18 +16,19 @@ from sweep.store.read import ONLY_MISSING, Rerun
 def run(
     config: Config | str | os.PathLike[str],
     out: str | os.PathLike[str] | None = None,
-    workers: int = 2,
+    workers: int | None = None,
     rerun: Rerun = ONLY_MISSING,
 ) -> Results:
     """Run the cases of a config that its results file does not hold; return the results of all.
 
     config : from `load_config`, or the path of a TOML file, or the name of an example. out : the
-    results file, by default results/NAME.h5. Progress is shown, in a notebook as one line.
+    results file, by default results/NAME.h5. workers: threads, by default one per core up to 8.
+    Progress is shown, in a notebook as one line.
     """
     config = config if isinstance(config, Config) else load_config(config)
     check_question(config)
     path = Path(out or f"results/{config.name}.h5")
-    run_sweep(config, path, workers, rerun=rerun)
+    run_sweep(config, path, workers or usual_workers(), rerun=rerun)
     ids = [case.case_id for case in config.cases]
     question = {
         "budget": list(config.rank.budgets) or None,

@@ -9,7 +9,7 @@ import pytest
 
 from sweep.result import Status
 from sweep.running.batches import Plan
-from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run_plan
+from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run_plan, usual_workers
 from tests.support.results.standin import cases, number_of, simulate
 
 
@@ -238,3 +238,9 @@ def test_stop_while_a_cluster_has_no_worker():
         kept = Kept()
         run_plan(Plan(cases(3), 2), simulate, kept, stop, cluster.scheduler_address)
     assert kept == []
+
+
+@pytest.mark.parametrize(("cores", "threads"), [(1, 1), (6, 6), (64, 8)])
+def test_a_run_has_as_many_threads_as_pay(monkeypatch, cores, threads):
+    monkeypatch.setattr("dask.system.cpu_count", lambda: cores)
+    assert usual_workers() == threads
