@@ -164,6 +164,9 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
 """
 
+MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
+as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
+
 AREA = "area to fill with specimens"
 THREADS = "threads (default: one per core, up to 8)"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
@@ -218,6 +221,7 @@ def parser() -> Parser:
     )
     _add_status(verbs)
     _add_verify(verbs)
+    _add_merge(verbs)
     _add_rank(verbs)
     _add_show(verbs)
     _add_export(verbs)
@@ -258,6 +262,12 @@ def _add_run(verbs: Any) -> None:
         type=_count,
         metavar="N",
         help="along the cells: crush one cell of each, then the N best of each infill",
+    )
+    run.add_argument(
+        "--part",
+        type=_part,
+        metavar="K/N",
+        help="run the Kth of N parts, into a file of its own (crumple merge)",
     )
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
@@ -326,6 +336,13 @@ def _add_verify(verbs: Any) -> None:
         metavar="N",
         help="cases drawn at random that are simulated again (default: 3)",
     )
+
+
+def _add_merge(verbs: Any) -> None:
+    """Add the verb that brings results files together."""
+    merge = verbs.add_parser("merge", help="bring results files together", description=MERGE)
+    merge.add_argument("out", type=_results, metavar="OUT.h5", help="is made, or gets more rows")
+    offer(merge.add_argument("files", type=_path, nargs="+", metavar="F.h5"), results)
 
 
 def _add_rank(verbs: Any) -> None:
@@ -481,6 +498,14 @@ def _count(text: str) -> int:
     if text.isdecimal() and int(text) > 0:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 1 or more")
+
+
+def _part(text: str) -> tuple[int, int]:
+    """A part of a sweep: "2/8" is the second of eight."""
+    number, _, count = text.partition("/")
+    if number.isdecimal() and count.isdecimal() and 0 < int(number) <= int(count):
+        return int(number), int(count)
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: K/N, such as 2/8 for the second of eight")
 
 
 def _number(text: str) -> int:

@@ -22,6 +22,8 @@ NO_COLUMNS = (
     "--screen estimates crushes along equal cells without an outline by one cell each, and no case "
     'of this config is one; allowed: cases with loading.direction = "out_of_plane"'
 )
+MERGED = "when all {0} parts are done: crumple merge OUT.h5 and the {0} results files"
+BESIDE = ("error_bars", "spread", "screen")
 UNKNOWN_BEST = "--spread runs more cases, of designs that are known only after the sweep"
 
 
@@ -35,7 +37,10 @@ def run(config: Config, arguments: Namespace) -> int:
     from sweep.store.read import Rerun, read_summary
 
     check_question(config)
-    out = arguments.out or f"results/{config.name}.h5"
+    name, part = config.name, arguments.part
+    if part:
+        config, name = _part(config, arguments), f"{name}.{part[0]}-of-{part[1]}"
+    out = arguments.out or f"results/{name}.h5"
     workers = arguments.workers or usual_workers()
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
     if arguments.dry_run:
@@ -62,8 +67,26 @@ def run(config: Config, arguments: Namespace) -> int:
 
         print_sheets(screen_sheets(estimates, read_summary(out), question))
     failed += _spread(config, out, how, question) if arguments.spread else 0
-    hint(next_commands(out, ranking))
+    hint([MERGED.format(part[1])] if part else next_commands(out, ranking))
     return failed
+
+
+def _part(config: Config, arguments: Namespace) -> Config:
+    """Every Nth case of a sweep, from the Kth on, so that the parts take about as long."""
+    from sweep.config.grid import expand
+
+    number, count = arguments.part
+    if beside := [name for name in BESIDE if getattr(arguments, name)]:
+        option = beside[0].replace("_", "-")
+        raise ArgumentError(
+            f"--{option} is of a whole sweep: run it on the merged file, without --part"
+        )
+    cases = tuple(expand(config)[number - 1 :: count])
+    if not cases:
+        raise ArgumentError(
+            f"--part {number}/{count}: the sweep has only {len(config.cases)} cases"
+        )
+    return replace(config, cases=cases)
 
 
 def _screen(

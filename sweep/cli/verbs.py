@@ -99,6 +99,14 @@ def verify(arguments: Namespace) -> int:
     return DONE if is_sound(arguments.file, arguments.again) else SOME_FAILED
 
 
+def merge(arguments: Namespace) -> int:
+    """Bring the results of several runs into one file."""
+    from sweep.cli.merge import merge as bring_together
+
+    bring_together(arguments.out, arguments.files)
+    return DONE
+
+
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
     from sweep.modes import has
@@ -231,7 +239,7 @@ def completion(arguments: Namespace) -> int:
 
 
 ALL = (
-    *(run, optimize, accuracy, warm, status, verify, rank, show, export, report),
+    *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
     *(materials, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}

@@ -1,7 +1,7 @@
 """The writer of a results file: seals batches as parts, merges parts, folds them into the file."""
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 
 from sweep.result import Result
-from sweep.store.batch import Block, block_of
+from sweep.store.batch import Block, block_of, newest_rows
 from sweep.store.hdf5 import About, Growing, seal_blocks
 from sweep.store.lock import LockedError, exclusive
 from sweep.store.parts import (
@@ -25,7 +25,14 @@ from sweep.store.parts import (
     target,
     too_many,
 )
-from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_sealed
+from sweep.store.read import (
+    StoreError,
+    exists,
+    folded_batches,
+    is_labelled,
+    open_sealed,
+    open_whole,
+)
 from sweep.store.tables import Axes
 
 
@@ -103,6 +110,23 @@ class Writer:
                     growing.seal(self._about)
             discard(parts)
             remove_folder(self.path)
+        self._parts, self._sealed = [], []
+
+    def absorb(self, files: Iterable[str | os.PathLike[str]]) -> None:
+        """Take over the rows of other results files; of two rows of a case, that of the later file.
+
+        Rows of such cases that this file holds are replaced.
+        """
+        parts = [*self._parts, *self._sealed]
+        with _writing(self.path), ExitStack() as stack:
+            blocks = [block for file in files for block in open_whole(Path(file), stack)]
+            growing, self._growing = self._grown(), None
+            for block, rows in zip(blocks, newest_rows(blocks), strict=True):
+                growing.add(block, rows)
+            growing.add_older(self._older(stack))
+            growing.seal(self._about)
+        discard(parts)
+        remove_folder(self.path)
         self._parts, self._sealed = [], []
 
     def _block(self, results: Sequence[Result]) -> Block:

@@ -1,0 +1,29 @@
+"""The verb `merge`: the results of several runs of one sweep, as of a job array, in one file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from sweep.cli.refusals import ArgumentError
+from sweep.cli.terminal import hint, say
+from sweep.numbers import counted
+
+OWN = ("format", "folded", "asked_cases", "other_cases", "checksum")  # of each file
+
+
+def merge(out: str, files: list[str]) -> None:
+    """Bring the rows of ``files`` into the results file ``out``, which may exist."""
+    from sweep.store.read import exists, read_attributes, read_summary
+    from sweep.store.write import Writer
+
+    if missing := [file for file in files if not exists(file)]:
+        raise ArgumentError(f"{missing[0]} does not exist")
+    if any(Path(file).resolve() == Path(out).resolve() for file in files):
+        raise ArgumentError(f"{out} is to be written, and cannot be one of the files that are read")
+    about = read_attributes(files[0])
+    if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
+        hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
+    with Writer(out, attributes={k: v for k, v in about.items() if k not in OWN}) as writer:
+        writer.absorb(files)
+    say(f"{out}: {counted(len(read_summary(out)), 'case')}")
+    hint([f"next: crumple rank {out}", "      crumple run CONFIG --out runs what is missing"])
