@@ -1,6 +1,6 @@
-"""A case in a process of its own: what kills the process is the case.
+"""A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-The process runs this module; function and case reach it by its standard input.
+The process of a single case runs this module; function and case reach it by its standard input.
 """
 
 import os
@@ -17,26 +17,41 @@ from sweep.result import Result, Status, failed_result
 MOMENT = 0.2  # seconds between two checks for a stop
 DIED = "its process died, even with no other case in it; try a smaller model"
 
+Simulate = Callable[[Case, np.ndarray], Result]
 
-def run_alone(
-    simulate: Callable[[Case, np.ndarray], Result], case: Case, is_stopped: Callable[[], bool]
-) -> Result | None:
-    """Result of a case, with the status `worker_died` if its process dies; None after a stop.
+
+def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
+    """Result of a case; an exception is one too."""
+    try:
+        return simulate(case, control)
+    except MemoryError:
+        message = "needs more memory than there is; try fewer cells, nodes or steps"
+        return failed_result(case, Status.STOPPED, message)
+    except Exception as error:  # noqa: BLE001 a defect in one case must not end the sweep
+        message = f"unexpected {one_line(error)}; please report it"
+        return failed_result(case, Status.STOPPED, message)
+
+
+def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) -> Result | None:
+    """Result of a case in a process of its own, with the status `worker_died` if that dies; None
+    after a stop.
 
     simulate: a function of a module, by its name.
     """
     words, pipe = [sys.executable, "-m", __name__], subprocess.PIPE
-    places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, ["", *sys.path]))}
+    places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     task: bytes | None = pickle.dumps((simulate, case))
-    with subprocess.Popen(words, stdin=pipe, stdout=pipe, env=places) as process:
+    with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
+        words, stdin=pipe, stdout=pipe, env=places, start_new_session=True
+    ) as process:
         while not is_stopped():
             try:
-                answer, _ = process.communicate(task, timeout=MOMENT)
+                told, _ = process.communicate(task, timeout=MOMENT)
             except subprocess.TimeoutExpired:
                 task = None
                 continue
             if process.returncode == 0:
-                result: Result = pickle.loads(answer)
+                result: Result = pickle.loads(told)
                 return result
             return failed_result(case, Status.WORKER_DIED, DIED)
         process.kill()
@@ -47,8 +62,13 @@ def answer() -> None:
     """Run the case on standard input; write its result to standard output, and nothing else."""
     simulate, case = pickle.load(sys.stdin.buffer)
     channel, sys.stdout = sys.stdout.buffer, sys.stderr
-    channel.write(pickle.dumps(simulate(case, np.zeros(2, np.int64))))
+    channel.write(pickle.dumps(attempt(simulate, case, np.zeros(2, np.int64))))
     channel.flush()
+
+
+def one_line(error: Exception) -> str:
+    """An exception in words."""
+    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
 if __name__ == "__main__":

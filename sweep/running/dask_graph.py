@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sweep.config.case import Case
-from sweep.result import Result, Status, failed_result
-from sweep.running.alone import run_alone
+from sweep.result import Result, Status
+from sweep.running.alone import Simulate, attempt, one_line, run_alone
 from sweep.running.batches import Plan
 
 if TYPE_CHECKING:
@@ -30,7 +30,6 @@ ANSWER = 10  # seconds in which a scheduler must answer
 PATIENCE = 60  # seconds in which the first worker of a cluster must join
 MOMENT = 0.2  # seconds between two checks for a stop
 
-Simulate = Callable[[Case, np.ndarray], Result]
 Sink = Callable[[list[Result]], None]
 
 
@@ -118,21 +117,10 @@ def run_batch(
         if stop.flag:
             break
         with stop.control() as control:
-            result = _attempt(simulate, case, control)
+            result = attempt(simulate, case, control)
         if not (stop.flag and result.status is Status.STOPPED):
             results.append(result)
     return results, time.perf_counter() - started
-
-
-def _attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
-    try:
-        return simulate(case, control)
-    except MemoryError:
-        message = "needs more memory than there is; try fewer cells, nodes or steps"
-        return failed_result(case, Status.STOPPED, message)
-    except Exception as error:  # noqa: BLE001 a defect in one case must not end the sweep
-        message = f"unexpected {_one_line(error)}; please report it"
-        return failed_result(case, Status.STOPPED, message)
 
 
 def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
@@ -178,7 +166,7 @@ def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
     try:
         client = Client(scheduler, set_as_default=False, timeout=ANSWER)
     except ImportError as error:
-        raise GraphError(f"the Dask scheduler at {scheduler}: {_one_line(error)}") from error
+        raise GraphError(f"the Dask scheduler at {scheduler}: {one_line(error)}") from error
     with client:
         limit = time.monotonic() + PATIENCE
         while not (client.nthreads() or stop.flag):
@@ -247,7 +235,7 @@ class _BatchesOnCluster:
         except KilledWorker:
             return self._halve(batch)
         except Exception as error:
-            raise GraphError(f"the Dask workers cannot run a batch: {_one_line(error)}") from error
+            raise GraphError(f"the Dask workers cannot run a batch: {one_line(error)}") from error
         self.plan.learn(batch, seconds)
         return list(results)
 
@@ -259,7 +247,3 @@ class _BatchesOnCluster:
             return [result] if result else []
         self.suspects += [batch[:half], batch[half:]]
         return []
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")

@@ -22,10 +22,11 @@ from sweep.config.kinds.specimen import Laid
 from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted, text_in
 from sweep.result import Result, Status
+from sweep.running.alone import Simulate
 from sweep.running.batches import Plan, cost
 from sweep.running.beside.error_bars import companions_beside
 from sweep.running.beside.run_beside import file_beside
-from sweep.running.dask_graph import Simulate, Stop, run_plan
+from sweep.running.dask_graph import Stop, run_plan
 from sweep.running.sweep import Interrupted, interruptible, real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result
-from sweep.running.dask_graph import Simulate
+from sweep.running.alone import Simulate
 
 BEGUN, ENDED = "+", "-"
 

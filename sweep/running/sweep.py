@@ -10,9 +10,9 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, expand, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Status
-from sweep.running.alone import run_alone
+from sweep.running.alone import Simulate, run_alone
 from sweep.running.batches import Plan, cost
-from sweep.running.dask_graph import Simulate, Stop, check_scheduler, run_plan
+from sweep.running.dask_graph import Stop, check_scheduler, run_plan
 from sweep.running.journal import Journal
 from sweep.running.period_note import sentences_on_periods
 from sweep.running.progress import Progress, announce
@@ -84,7 +84,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 with writer_thread() as thread:
                     thread.submit(writer.fold).result()
             else:
-                journal = stack.enter_context(Journal(out))
+                journal = stack.enter_context(Journal(writer.path))
                 suspects = [waiting.pop(i) for i in journal.suspects if i in waiting]
                 if suspects:
                     announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")

@@ -28,9 +28,9 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.ranking.unfinished import loaded
+from sweep.running.alone import Simulate
 from sweep.running.beside.refinement import pieces, refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
-from sweep.running.dask_graph import Simulate
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from sweep.config.case import Case
-from sweep.running.dask_graph import Simulate
+from sweep.running.alone import Simulate
 from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids

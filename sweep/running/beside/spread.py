@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
+from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
-from sweep.running.dask_graph import Simulate
 from sweep.store.read import ONLY_MISSING, Rerun, read_case
 
 FRICTION = (

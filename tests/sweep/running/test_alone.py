@@ -11,7 +11,9 @@ from tests.support.results.standin import cases, number_of, simulate
 
 
 def poisonous(case, control):
-    """Case 1 takes its process with it, case 2 takes long."""
+    """Case 1 takes its process with it, case 2 takes long, case 3 has a defect."""
+    if number_of(case) == 3:
+        raise ZeroDivisionError("of something")
     if number_of(case) == 1:
         os._exit(1)
     if number_of(case) == 2:
@@ -40,3 +42,21 @@ def test_a_stop_ends_it():
     started = time.monotonic()
     assert run_alone(poisonous, cases(3)[2], stopped.is_set) is None
     assert time.monotonic() - started < 30.0
+
+
+def test_a_defect_is_no_death():
+    result = run_alone(poisonous, cases(4)[3], lambda: False)
+    assert result.status is Status.STOPPED
+    assert "unexpected ZeroDivisionError: of something" in result.message
+
+
+def test_a_stop_from_the_keyboard_does_not_reach_it():
+    """Its group of processes is another: it would die, and the case would be blamed."""
+    result = run_alone(interrupted, cases(1)[0], lambda: False)
+    assert result.status is Status.CONVERGED
+
+
+def interrupted(case, control):
+    """The terminal interrupts the process that asks, and all of its group."""
+    assert os.getpgid(0) == os.getpid()
+    return simulate(case)
