@@ -7,6 +7,8 @@ import os
 import pickle
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -38,7 +40,7 @@ def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) ->
 
     simulate: a function of a module, by its name.
     """
-    words, pipe = [sys.executable, "-m", __name__], subprocess.PIPE
+    words, pipe = [sys.executable, "-P", "-m", __name__], subprocess.PIPE
     places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     task: bytes | None = pickle.dumps((simulate, case))
     with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
@@ -60,10 +62,18 @@ def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) ->
 
 def answer() -> None:
     """Run the case on standard input; write its result to standard output, and nothing else."""
+    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
     simulate, case = pickle.load(sys.stdin.buffer)
     channel, sys.stdout = sys.stdout.buffer, sys.stderr
     channel.write(pickle.dumps(attempt(simulate, case, np.zeros(2, np.int64))))
     channel.flush()
+
+
+def _end_with(parent: int) -> None:
+    """End this process when the one that asks has died."""
+    while os.getppid() == parent:
+        time.sleep(MOMENT)
+    os._exit(1)
 
 
 def one_line(error: Exception) -> str:

@@ -1,6 +1,7 @@
 """Which cases run at the moment, written down: a process that dies has left its suspects."""
 
 import os
+from contextlib import suppress
 from pathlib import Path
 from threading import Lock
 from typing import Self
@@ -10,14 +11,19 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.result import Result
 from sweep.running.alone import Simulate
+from sweep.store.read import ID
 
 BEGUN, ENDED = "+", "-"
+LARGEST = 1 << 28  # bytes that are read
+HOW = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_NONBLOCK  # waits for no pipe
 
 
 class Journal:
-    """A file beside the results file while a run writes to it; it goes when the run ends.
+    """A file beside the results file while a run writes to it; it goes when the run ends, unless
+    suspects still wait.
 
-    suspects: ids of the cases that were running when the last run died, if it did.
+    suspects: ids of the cases that were running when the last run died, if it did. A journal that
+    cannot be written, as the disk is full, costs its purpose, and never a result.
     """
 
     def __init__(self, out: str | os.PathLike[str]) -> None:
@@ -27,31 +33,41 @@ class Journal:
         self.suspects: list[str] = []
 
     def __enter__(self) -> Self:
-        self._file = os.open(self._path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
-        self.suspects = _running(self._path.read_text("utf-8", "replace"))
+        self._file = os.open(self._path, HOW, 0o644)
+        self.suspects = _running(self._text())
         os.truncate(self._file, 0)
+        for case_id in self.suspects:
+            self._write(BEGUN, case_id)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._path.unlink(missing_ok=True)
+        if not _running(self._text()):
+            self._path.unlink(missing_ok=True)
         os.close(self._file)
+
+    def end(self, case_id: str) -> None:
+        """Note that a suspect has ended, or is none."""
+        self._write(ENDED, case_id)
 
     def watched(self, simulate: Simulate) -> Simulate:
         """The function `simulate`, whose cases are written down while they run."""
 
         def run(case: Case, control: np.ndarray) -> Result:
-            self._write(BEGUN, case)
+            self._write(BEGUN, case.case_id)
             try:
                 return simulate(case, control)
             finally:
-                self._write(ENDED, case)
+                self._write(ENDED, case.case_id)
 
         return run
 
-    def _write(self, mark: str, case: Case) -> None:
+    def _write(self, mark: str, case_id: str) -> None:
         """A line reaches the file before the case runs, and survives the death of the process."""
-        with self._lock:
-            os.write(self._file, f"{mark}{case.case_id}\n".encode())
+        with self._lock, suppress(OSError):
+            os.write(self._file, f"{mark}{case_id}\n".encode())
+
+    def _text(self) -> str:
+        return os.pread(self._file, LARGEST, 0).decode("ascii", "replace")
 
 
 def _running(text: str) -> list[str]:
@@ -62,4 +78,4 @@ def _running(text: str) -> list[str]:
             begun[line[1:]] = None
         elif line.startswith(ENDED):
             begun.pop(line[1:], None)
-    return list(begun)
+    return [case_id for case_id in begun if ID.fullmatch(case_id)]

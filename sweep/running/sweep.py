@@ -86,6 +86,8 @@ def run_sweep(  # noqa: PLR0913  what, where, how
             else:
                 journal = stack.enter_context(Journal(writer.path))
                 suspects = [waiting.pop(i) for i in journal.suspects if i in waiting]
+                for case_id in {*journal.suspects} - {case.case_id for case in suspects}:
+                    journal.end(case_id)
                 if suspects:
                     announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
                 plan = Plan(waiting.values(), workers)
@@ -97,6 +99,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     for case in suspects:
                         if result := run_alone(chosen, case, lambda: stop.flag):
                             sink([result])
+                            journal.end(case.case_id)
                     watched = journal.watched(chosen) if scheduler is None else chosen
                     run_plan(plan, watched, sink, stop, scheduler)
     kept = len(cases.keys() & finished_ids(out, rerun))

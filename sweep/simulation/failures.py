@@ -91,11 +91,11 @@ def missed(where: str) -> Failure:
     return Status.STOPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
 
 
-def slipped_off(share: float) -> Failure:
-    """The lattice has slipped away from a striker, or between ribs, before full stroke."""
-    why = f"at full stroke the striker bears {percent(share)} % of its greatest force"
+def slipped_off() -> Failure:
+    """The striker of a crush misses the lattice, or that slips away from it or between ribs."""
+    why = "the striker has lost the lattice: it misses it or slips off, or ribs let it through"
     advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
-    return Status.STOPPED, f"{why}: the lattice has slipped away; {advice}"
+    return Status.STOPPED, f"{why}; {advice}"
 
 
 def still_pushed_back(where: str) -> Failure:

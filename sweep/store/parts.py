@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 MERGE_AT = 64  # parts of one size that are merged; so there are never more than a few hundred
 
-_NAME = re.compile(r"(\d+)-(\d+)\.h5")
+_NAME = re.compile(r"(\d{1,18})-(\d{1,18})\.h5")
 _TEMPORARY = ".tmp"
 
 
@@ -43,7 +43,7 @@ def target(path: Path) -> Path:
     """The file that a name stands for: links are followed, so that it has one lock and one folder
     of parts under all of its names.
     """
-    return path.resolve() if path.is_symlink() else path
+    return Path(os.path.realpath(path)) if path.is_symlink() else path
 
 
 def new_part(path: Path, first: int, last: int) -> Part:
@@ -136,8 +136,9 @@ def discard(parts: list[Part]) -> None:
 def clear_leftovers(path: Path, folded: int) -> None:
     """Delete the remains of a killed writer: temporary files, and parts stored elsewhere."""
     path.with_name(path.name + _TEMPORARY).unlink(missing_ok=True)
-    for temporary in parts_folder(path).glob("*" + _TEMPORARY):
-        temporary.unlink()
+    for temporary in parts_folder(path).glob("*.h5" + _TEMPORARY):
+        if _NAME.fullmatch(temporary.name.removesuffix(_TEMPORARY)):
+            temporary.unlink()
     needed = {part for part in list_parts(path) if part.last > folded}
     discard([part for part in _found(path) if part not in needed])
 

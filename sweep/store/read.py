@@ -51,6 +51,7 @@ ELSEWHERE = (
 )
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
+DEPTH = 2  # of groups in a file
 FILES_REMEMBERED = 4096
 _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 """Damaged rows of files that this process has checked: a sealed file never changes."""
@@ -266,6 +267,8 @@ def open_whole(path: Path, stack: ExitStack) -> list[Block]:
 def open_sealed(path: Path, stack: ExitStack) -> Block:
     """A sealed file as a block, open until `stack` closes."""
     with _undamaged(path):
+        if not (path.is_file() or path.is_dir()) and path.exists():
+            raise StoreError(f"{path} cannot be read: it is no regular file.")
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = stack.enter_context(h5py.File(path, "r", locking=False))
         if (written := _attribute(file, "format")) != FORMAT:
@@ -274,9 +277,11 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         attributes = {name: _attribute(file, name) for name in file.attrs}
         if attribute_checksum(attributes) != attributes[CHECKSUM]:
             raise ValueError("attributes other than those written")
+        if (content := _identity(file)) not in _DAMAGED:
+            _refuse_other_files(file)
         ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
         columns = _Columns(path, file["summary"])
-        if (content := _identity(file)) not in _DAMAGED:
+        if content not in _DAMAGED:
             while len(_DAMAGED) >= FILES_REMEMBERED:
                 _DAMAGED.pop(next(iter(_DAMAGED)), None)
             _DAMAGED[content] = _changed_rows(columns, ragged, _numbers(file["checksums"]))
@@ -294,6 +299,19 @@ def _refuse_heaps(dtype: np.dtype) -> None:
     """Nothing of variable length is read: HDF5 can loop for ever in a heap that is damaged."""
     if dtype.kind == "O":
         raise ValueError("values of variable length, which Crumple does not write")
+
+
+def _refuse_other_files(group: h5py.Group, depth: int = 0) -> None:
+    """A results file is complete: no part of it stands in another file, or twice in this one."""
+    for name in group:
+        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+            raise ValueError("a link")
+        if isinstance(inner := group[name], h5py.Group):
+            if depth == DEPTH:
+                raise ValueError("a group where an array should be")
+            _refuse_other_files(inner, depth + 1)
+        elif inner.is_virtual:
+            raise ValueError("an array of another file")
 
 
 def _numbers(data: h5py.Dataset) -> np.ndarray:
@@ -314,6 +332,8 @@ def _changed_rows(
     ids become names of files.
     """
     ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
+    if any(column.shape != written.shape for column in checked_columns(columns, ranges).values()):
+        raise ValueError("columns of other lengths")
     same = row_checksums(checked_columns(columns, ranges)) == written
     same &= [bool(ID.fullmatch(case_id)) for case_id in columns["case_id"]]
     if not all(group.is_whole(same) for group in ragged.values()):

@@ -96,7 +96,7 @@ def forge(path, name, change):
     with h5py.File(path, "r+") as file:
         change(file[name])
     with ExitStack() as stack, patch("sweep.store.batch.Ragged.is_whole", lambda *_: True):
-        block = open_sealed(path, stack)
+        block = open_sealed(Path(path), stack)
         ranges = {name: (group.start, group.rows) for name, group in block.ragged.items()}
         sums = row_checksums(checked_columns(block.summary, ranges))
     with h5py.File(path, "r+") as file:

@@ -60,3 +60,11 @@ def interrupted(case, control):
     """The terminal interrupts the process that asks, and all of its group."""
     assert os.getpgid(0) == os.getpid()
     return simulate(case)
+
+
+def test_files_of_the_folder_are_no_modules(tmp_path, monkeypatch):
+    """A user's random.py would end the process, and the case would be blamed."""
+    (tmp_path / "random.py").write_text("raise SystemExit(3)")
+    monkeypatch.setattr(sys, "path", [os.getcwd(), *filter(None, sys.path)])
+    monkeypatch.chdir(tmp_path)
+    assert run_alone(interrupted, cases(1)[0], lambda: False).status is Status.CONVERGED

@@ -80,4 +80,34 @@ def test_a_case_that_raises_has_ended(tmp_path):
 def test_a_journal_of_something_else_has_no_suspects(tmp_path):
     (tmp_path / ".armor.h5.running").write_bytes(b"\xff\x00 nonsense\n+\n")
     with Journal(tmp_path / "armor.h5") as journal:
-        assert set(journal.suspects) <= {""}
+        assert journal.suspects == []
+
+
+def test_suspects_stay_suspects_until_they_have_ended(tmp_path):
+    left = tmp_path / ".armor.h5.running"
+    left.write_text("+aa\n+bb\n-aa\n+cc\n")
+    with Journal(tmp_path / "armor.h5") as journal:
+        assert journal.suspects == ["bb", "cc"]
+        journal.end("bb")
+    with Journal(tmp_path / "armor.h5") as journal:
+        assert journal.suspects == ["cc"]
+        journal.end("cc")
+    assert not left.exists()
+
+
+def test_a_full_disk_costs_no_result(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    with Journal(tmp_path / "armor.h5") as journal:
+        monkeypatch.setattr(os, "write", full)
+        result = journal.watched(simulate)(cases(1)[0], np.zeros(2, np.int64))
+    assert result.status == "converged"
+
+
+def test_a_link_is_not_followed(tmp_path):
+    (tmp_path / "letter.txt").write_text("dear")
+    (tmp_path / ".armor.h5.running").symlink_to(tmp_path / "letter.txt")
+    with pytest.raises(OSError, match="symbolic"), Journal(tmp_path / "armor.h5"):
+        pass
+    assert (tmp_path / "letter.txt").read_text() == "dear"

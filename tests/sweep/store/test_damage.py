@@ -1,5 +1,6 @@
 """A results file or a part that is not what it was: one line that names it and says what to do."""
 
+import os
 import subprocess
 import sys
 
@@ -180,4 +181,41 @@ def test_values_in_a_heap_are_refused_unread(path, name):
     assert path.read_bytes().count(b"GCOL") == 1
     flipped(path, path.read_bytes().find(b"GCOL") + 16, 0)  # and with it the heap has no end
     with pytest.raises(StoreError, match="is damaged: move it away"):
+        read_summary(path)
+
+
+def elsewhere(file, other):
+    file["summary/mass_g"] = h5py.ExternalLink(other, "/summary/mass_g")
+
+
+def virtual(file, other):
+    layout = h5py.VirtualLayout((2,), "f8")
+    layout[:] = h5py.VirtualSource(other, "summary/mass_g", (2,))
+    file.create_virtual_dataset("summary/mass_g", layout)
+
+
+def a_loop(file, _):
+    file["summary/mass_g"] = file["summary"]
+
+
+def one_for_all(file, _):
+    file["summary/mass_g"] = [1.0]
+
+
+@pytest.mark.parametrize("change", [elsewhere, virtual, a_loop, one_for_all])
+def test_columns_of_other_files_and_lengths_are_damage(path, change):
+    write(path, cases(2), fold=True)
+    other = path.with_name("other.h5")
+    other.write_bytes(path.read_bytes())
+    with h5py.File(path, "r+") as file:
+        del file["summary/mass_g"]
+        change(file, "other.h5")
+    with pytest.raises(StoreError, match="is damaged: move it away"):
+        read_summary(path)
+
+
+def test_a_pipe_is_no_results_file(path):
+    path.parent.mkdir()
+    os.mkfifo(path)
+    with pytest.raises(StoreError, match="no regular file"):
         read_summary(path)
