@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
+from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
 
@@ -39,6 +40,7 @@ from sweep.report.outlines import outlines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import SubFigure
     from pandas import DataFrame
 
@@ -52,13 +54,24 @@ PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap betw
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
 LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
 FITS = 0.97  # of the planned scale of shapes: what the layout leaves them
+POWER = "$\\mathdefault{10^{"  # in labels of log axes
 TICKS = 3  # least number of labels of a log axis
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
 
 
+class Literal(Figure):
+    """A figure that shows names as they are written: in them, a dollar sign begins no formula."""
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw it."""
+        for text in self.findobj(Text):
+            text.set_parse_math(POWER in text.get_text())
+        super().draw(renderer)
+
+
 def blank(width: float, height: float) -> Figure:
     """An empty figure (inches) with a layout that adapts to its labels."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return Literal(figsize=(width, height), layout="constrained")
 
 
 def save(figure: Figure, path: Path) -> Path:

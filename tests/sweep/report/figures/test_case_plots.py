@@ -208,3 +208,16 @@ def test_winners_are_drawn_to_one_scale():
         left, right = strip.axes[0].bbox, strip.axes[1].bbox
         assert left.x1 <= right.x0
         assert left.y1 < strip.bbox.y1
+
+
+def test_names_are_no_formulas(tmp_path):
+    figure = case_plots.blank(4.0, 3.0)
+    axes = figure.subplots()
+    axes.loglog([1.0, 1e6], [1.0, 1e6], label="$x^{2$ is no formula")
+    axes.set_title("tpu $5 and $6")
+    axes.legend()
+    case_plots.save(figure, tmp_path / "a.png")
+    powers = [label for label in axes.get_xticklabels() if "10^" in label.get_text()]
+    assert powers
+    assert all(label.get_parse_math() for label in powers)
+    assert not axes.title.get_parse_math()
