@@ -12,8 +12,11 @@ if TYPE_CHECKING:
 
     from pandas import DataFrame
 
+    from sweep.result import Result
+
 SEED = 0  # of the choice of cases that run again
 SAME = 1e-6  # relative: of numbers that are equal
+ROUNDED = 1e-6  # relative: of curves and shapes, which are stored with seven digits
 SHOWN = 10  # of what is wrong
 VARYING = ("cpu_s", "git_revision")  # not compared
 
@@ -61,7 +64,8 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
     simulate = real_simulate(cases)
     for case in cases:
         case_id, row = case.case_id, rows.loc[case.case_id]
-        new = simulate(case, np.zeros(2, np.int64)).summary
+        result = simulate(case, np.zeros(2, np.int64))
+        new = result.summary
         others = [
             name
             for name in new.keys() & set(row.index)
@@ -72,6 +76,29 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
             more = f" and {len(others) - 1} more columns" if len(others) > 1 else ""
             stored = f"stored {row[first]} by model version {row['model_version']}"
             yield f"case {case_id}: {first} is {new[first]}, {stored}{more}"
+        elif name := _other_array(file, result):
+            yield f"case {case_id}: the stored {name} is not what comes out"
+
+
+def _other_array(file: str, result: Result) -> str:
+    """The first curve or array of shapes that is not the stored one; empty if all are."""
+    import numpy as np
+
+    from sweep.store.read import read_frames, read_history
+
+    try:
+        curves = read_history(file, result.case_id)
+        stored = {name: curves[name].to_numpy() for name in curves}
+        stored |= read_frames(file, result.case_id)
+    except (ValueError, LookupError):  # other types, other numbers of rows
+        return "curves"
+    for name, array in (*result.history.items(), *result.frames.items()):
+        new, old = np.asarray(array, float), np.asarray(stored.get(name, np.nan), float)
+        size = np.nanmax(np.abs(new), initial=0.0)
+        near = {"rtol": ROUNDED, "atol": ROUNDED * size, "equal_nan": True}
+        if new.shape != old.shape or not np.allclose(new, old, **near):
+            return name
+    return ""
 
 
 def _equal(one: Any, other: Any) -> bool:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from sweep.report.tables.sheet import Sheet
+
+TAG = re.compile(r"<(?=[A-Za-z/!])")
 
 
 def markdown(sheets: Iterable[Sheet]) -> str:
@@ -19,7 +22,8 @@ def _markdown(sheet: Sheet) -> str:
     heading = [f"### {sheet.title}", ""] if sheet.title else []
     if not sheet.heads:
         return "\n".join([*heading, *sheet.notes, ""])
-    texts = [[head, *texts] for head, texts in zip(sheet.heads, sheet.columns, strict=True)]
+    columns = zip(sheet.heads, sheet.columns, strict=True)
+    texts = [[_cell(text) for text in (head, *texts)] for head, texts in columns]
     widths = [max(len(text) for text in column) for column in texts]
     lines = [
         "| " + " | ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)) + " |"
@@ -28,3 +32,8 @@ def _markdown(sheet: Sheet) -> str:
     rule = "| " + " | ".join("-" * width for width in widths) + " |"
     notes = [line for note in sheet.notes for line in ("", note)]
     return "\n".join([*heading, lines[0], rule, *lines[1:], *notes, ""])
+
+
+def _cell(text: str) -> str:
+    """A text that ends no cell and begins no tag."""
+    return TAG.sub("&lt;", text.replace("\n", " ").replace("|", "\\|"))

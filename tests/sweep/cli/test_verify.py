@@ -3,6 +3,8 @@
 import re
 
 import h5py
+import numpy as np
+import pytest
 
 from sweep.store.read import read_summary
 from tests.support.command import crumple
@@ -36,3 +38,46 @@ def test_what_cannot_be_read_is_named_and_nothing_is_simulated(capsys, tmp_path)
     assert (status, len(lines), last) == (1, 3, f"{path}: 0 of 3 cases whole")
     ids = [re.match(r"case (\w{16}): .* is damaged", line)[1] for line in lines]
     assert sorted(ids) == sorted(case.case_id for case in cases(3))
+
+
+CRUSH = """
+name = "trial"
+[lattice]
+cells = 1
+[loading]
+strain = 0.1
+[solver]
+load_steps = 5
+"""
+
+
+def swapped(file):
+    one, other = (file[f"histories/values/{name}"] for name in ("work_in_J", "strain"))
+    one[:], other[:] = other[:], one[:]
+
+
+def moved(file):
+    file["points/values/position_m"][-1] += 1e-4
+
+
+def text(file):
+    del file["histories/values/work_in_J"]
+    rows = len(file["histories/values/strain"])
+    file["histories/values/work_in_J"] = np.full(rows, b"a")
+
+
+@pytest.mark.parametrize(
+    ("change", "named"), [(swapped, "work_in_J"), (moved, "position_m"), (text, "curves")]
+)
+def test_curves_and_shapes_that_a_tool_has_changed_are_named(
+    capsys, tmp_path, monkeypatch, change, named
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "trial.toml").write_text(CRUSH)
+    assert crumple(capsys, "run", "trial.toml", "--out", "trial.h5")[0] == 0
+    assert crumple(capsys, "verify", "trial.h5")[0] == 0
+    with h5py.File("trial.h5", "r+") as file:
+        change(file)
+    status, said, _ = crumple(capsys, "verify", "trial.h5")
+    assert status == 1
+    assert f"the stored {named} is not what comes out" in said

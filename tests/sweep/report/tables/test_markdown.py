@@ -1,5 +1,7 @@
 """Sheets as text in Markdown: columns of equal width, notes below."""
 
+import re
+
 from sweep.ranking.rank import ranked
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
@@ -34,3 +36,12 @@ def test_sheets_follow_one_another():
         *("### one", "", "| a  | bcd |", "| -- | --- |", "| 10 | 2   |"),
         *("", "| e |", "| - |", "| f |", "", "g"),
     ]
+
+
+def test_names_end_no_cell_and_begin_no_tag():
+    text = markdown([Sheet("", ["a|b", "c"], [["<img src=x>", "< 1 %"], ["two\nlines", "d"]])])
+    rows = [line for line in text.splitlines() if line]
+    assert len(rows) == 4
+    assert all(len(re.split(r"(?<!\\)\|", row)) == 4 for row in rows)
+    assert "<img" not in text
+    assert "< 1 %" in text
