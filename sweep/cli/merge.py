@@ -26,4 +26,5 @@ def merge(out: str, files: list[str]) -> None:
     with Writer(out, attributes={k: v for k, v in about.items() if k not in OWN}) as writer:
         writer.absorb(files)
     say(f"{out}: {counted(len(read_summary(out)), 'case')}")
-    hint([f"next: crumple rank {out}", "      crumple run CONFIG --out runs what is missing"])
+    run = f"      crumple run CONFIG --out {out}: what is missing, if anything"
+    hint([f"next: crumple rank {out}", run])
