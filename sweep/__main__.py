@@ -29,12 +29,14 @@ EXAMPLES = """examples:
   crumple run armor --dry-run                   how many cases, how long, how much disk
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
+  crumple run armor --part 2/16                 the second of sixteen parts, as of a job array
   crumple run armor --spread                    also show what uncertain numbers change
   crumple run which_way --screen 1              crush one cell of each, then the best of each
   crumple optimize search --budget "1.2 g"      seek the best design within a budget
   crumple warm                                  compile the kernels before the first run
   crumple status results/armor.h5               what is done, what failed and why
   crumple verify results/armor.h5               is the file whole, do its numbers come out again?
+  crumple merge all.h5 results/armor.1-of-2.h5 results/armor.2-of-2.h5    parts of a sweep
   crumple rank results/armor.h5 --budget "20 g" "2 oz" --panel "100 mm" "50 mm"
   crumple show results/armor.h5                 the ids of all cases
   crumple show results/armor.h5 1               pictures of the best design
