@@ -8,8 +8,6 @@ from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, say
 from sweep.numbers import counted
 
-OWN = ("format", "folded", "asked_cases", "other_cases", "checksum")  # of each file
-
 
 def merge(out: str, files: list[str]) -> None:
     """Bring the rows of ``files`` into the results file ``out``, which may exist."""
@@ -23,8 +21,8 @@ def merge(out: str, files: list[str]) -> None:
     about = read_attributes(files[0])
     if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
         hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
-    with Writer(out, attributes={k: v for k, v in about.items() if k not in OWN}) as writer:
-        writer.absorb(files)
+    with Writer(out, attributes=about) as writer:
+        writer.fold(files=files)
     say(f"{out}: {counted(len(read_summary(out)), 'case')}")
     run = f"      crumple run CONFIG --out {out}: what is missing, if anything"
     hint([f"next: crumple rank {out}", run])

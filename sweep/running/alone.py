@@ -48,12 +48,12 @@ def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) ->
     ) as process:
         while not is_stopped():
             try:
-                told, _ = process.communicate(task, timeout=MOMENT)
+                output, _ = process.communicate(task, timeout=MOMENT)
             except subprocess.TimeoutExpired:
                 task = None
                 continue
             if process.returncode == 0:
-                result: Result = pickle.loads(told)
+                result: Result = pickle.loads(output)
                 return result
             return failed_result(case, Status.WORKER_DIED, DIED)
         process.kill()

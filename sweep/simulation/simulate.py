@@ -71,7 +71,7 @@ CURABLE = {  # other steps or another imperfection may help
 }
 EXPIRED = 2  # what `stop[0]` is after the time limit
 LOST, REGAINED = 0.1, 0.25  # of the greatest force: a lattice that slips away from a striker
-NOTHING = 1e-6  # of the typical force: a striker that touches nothing
+UNTOUCHED = 1e-6  # of the typical force: a striker that touches nothing
 CREATED = 0.1  # of the work done: energy that an integrator may create
 
 
@@ -104,15 +104,15 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         else strains_of(shapes, scene.terms)
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles)
-    kept = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
+    bears = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
-    if status == Status.CONVERGED and not kept:
+    if status == Status.CONVERGED and not bears:
         status, message = slipped_off()
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
     unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
-    counts = run.is_loaded() and not unresolved and kept
+    counts = run.is_loaded() and not unresolved and bears
     if status != Status.CONVERGED:
         summary |= dict.fromkeys(OF_THE_WHOLE_RUN, np.nan)
     summary |= {
@@ -152,14 +152,14 @@ def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typi
     """Whether a striker that is not flat, or a base of ribs, bears force until full stroke.
 
     Else the lattice slips away: the force falls below `LOST` of its greatest value, and does not
-    rise to `REGAINED` again. It is below `NOTHING` of a ``typical`` one (N) if they never touch.
+    rise to `REGAINED` again. It is below `UNTOUCHED` of a ``typical`` one (N) if they never touch.
     """
     if not isinstance(case.loading, Crush) or not case.loading.is_shaped:
         return True
     force = curves["reaction_top_N"][: cycles[0].loaded + 1]
     after = force[force.argmax() :]
     lost = after.min() < LOST * force.max() and after[-1] < REGAINED * force.max()
-    return bool(force.max() > NOTHING * typical and not lost)
+    return bool(force.max() > UNTOUCHED * typical and not lost)
 
 
 def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:

@@ -51,7 +51,6 @@ ELSEWHERE = (
 )
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
-DEPTH = 2  # of groups in a file
 FILES_REMEMBERED = 4096
 _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 """Damaged rows of files that this process has checked: a sealed file never changes."""
@@ -277,46 +276,41 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         attributes = {name: _attribute(file, name) for name in file.attrs}
         if attribute_checksum(attributes) != attributes[CHECKSUM]:
             raise ValueError("attributes other than those written")
+        ragged = {name: _open_ragged(path, _inside(file, name, h5py.Group)) for name in GROUPS}
+        columns = _Members(path, _inside(file, "summary", h5py.Group), _column)
         if (content := _identity(file)) not in _DAMAGED:
-            _refuse_other_files(file)
-        ragged = {name: _open_ragged(path, file[name]) for name in GROUPS}
-        columns = _Columns(path, file["summary"])
-        if content not in _DAMAGED:
             while len(_DAMAGED) >= FILES_REMEMBERED:
                 _DAMAGED.pop(next(iter(_DAMAGED)), None)
-            _DAMAGED[content] = _changed_rows(columns, ragged, _numbers(file["checksums"]))
+            _DAMAGED[content] = _changed_rows(columns, ragged, _numbers(file, "checksums"))
         return Block(columns, ragged, attributes, _DAMAGED[content])
 
 
 def _attribute(file: h5py.File, name: str) -> Any:
     """A text, or a whole number."""
-    _refuse_heaps(file.attrs.get_id(name).dtype)
+    if file.attrs.get_id(name).dtype.kind == "O":
+        raise ValueError("a text in a heap, as in `_inside`")
     value = file.attrs[name]
     return value.decode() if isinstance(value, bytes) else int(value)
 
 
-def _refuse_heaps(dtype: np.dtype) -> None:
-    """Nothing of variable length is read: HDF5 can loop for ever in a heap that is damaged."""
-    if dtype.kind == "O":
-        raise ValueError("values of variable length, which Crumple does not write")
+def _inside(group: h5py.Group, name: str, kind: type) -> Any:
+    """The group or dataset (``kind``) of this name, as Crumple writes it.
+
+    A results file is complete, so no link to another file is followed. Nothing of variable length
+    is read: HDF5 can loop for ever in a heap that is damaged.
+    """
+    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+        raise ValueError("a link")
+    inner = group[name]
+    if not isinstance(inner, kind):
+        raise TypeError("a group for a dataset, or a dataset for a group")
+    if isinstance(inner, h5py.Dataset) and (inner.dtype.kind == "O" or inner.is_virtual):
+        raise ValueError("values of variable length, or of another file")
+    return inner
 
 
-def _refuse_other_files(group: h5py.Group, depth: int = 0) -> None:
-    """A results file is complete: no part of it stands in another file, or twice in this one."""
-    for name in group:
-        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-            raise ValueError("a link")
-        if isinstance(inner := group[name], h5py.Group):
-            if depth == DEPTH:
-                raise ValueError("a group where an array should be")
-            _refuse_other_files(inner, depth + 1)
-        elif inner.is_virtual:
-            raise ValueError("an array of another file")
-
-
-def _numbers(data: h5py.Dataset) -> np.ndarray:
-    _refuse_heaps(data.dtype)
-    return data[:]
+def _numbers(group: h5py.Group, name: str) -> np.ndarray:
+    return _inside(group, name, h5py.Dataset)[:]
 
 
 def _identity(file: h5py.File) -> tuple[int, ...]:
@@ -379,15 +373,15 @@ def _undamaged(path: Path) -> Iterator[None]:
 
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
-    start, rows = _numbers(group["start"]), _numbers(group["rows"])
-    return Ragged(start, rows, _Arrays(path, group["values"]))
+    values = _inside(group, "values", h5py.Group)
+    arrays = _Members(path, values, partial(_Array, path))
+    return Ragged(_numbers(group, "start"), _numbers(group, "rows"), arrays)
 
 
 class _Array:
     """An array of a sealed file, which is read when it is indexed."""
 
     def __init__(self, path: Path, data: h5py.Dataset) -> None:
-        _refuse_heaps(data.dtype)
         self._path, self._data = path, data
         self.dtype, self.shape = data.dtype, data.shape
 
@@ -396,47 +390,28 @@ class _Array:
             return self._data[rows]
 
 
-class _Arrays(Mapping[str, _Array]):
-    """Arrays of a group of a sealed file, each opened when it is indexed."""
+class _Members(Mapping[str, Any]):
+    """The datasets of a group of a sealed file, each opened or read when it is first indexed."""
 
-    def __init__(self, path: Path, group: h5py.Group) -> None:
-        self._path, self._data = path, group
-        self._opened: dict[str, _Array] = {}
+    def __init__(self, path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> None:
+        self._path, self._group, self._take = path, group, take
+        self._taken: dict[str, Any] = {}
 
-    def __getitem__(self, name: str) -> _Array:
-        if name not in self._opened:
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._taken:
             with _undamaged(self._path):
-                self._opened[name] = _Array(self._path, self._data[name])
-        return self._opened[name]
+                self._taken[name] = self._take(_inside(self._group, name, h5py.Dataset))
+        return self._taken[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
+        return iter(self._group)
 
     def __len__(self) -> int:
-        return len(self._data)
+        return len(self._group)
 
 
-class _Columns(Mapping[str, np.ndarray]):
-    """Columns of a sealed file, each read when it is first indexed."""
-
-    def __init__(self, path: Path, group: h5py.Group) -> None:
-        self._path, self._data = path, group
-        self._read: dict[str, np.ndarray] = {}
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        if name not in self._read:
-            with _undamaged(self._path):
-                data = self._data[name]
-                _refuse_heaps(data.dtype)
-                text = h5py.check_string_dtype(data.dtype)
-                self._read[name] = data.asstr()[:] if text else data[:]
-        return self._read[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
-
-    def __len__(self) -> int:
-        return len(self._data)
+def _column(data: h5py.Dataset) -> np.ndarray:
+    return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
 
 
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:

@@ -94,39 +94,26 @@ class Writer:
             self._grown().add(block, np.arange(len(results)))
             self._merge()
 
-    def fold(self, last: Sequence[Result] = ()) -> None:
+    def fold(
+        self, last: Sequence[Result] = (), files: Iterable[str | os.PathLike[str]] = ()
+    ) -> None:
         """Bring all parts into the results file, and its rows into the order of `axes`.
 
-        last: results that go into the file directly, without a part of their own.
-        """
-        parts = [*self._parts, *self._sealed]
-        with _writing(self.path):
-            if last:
-                self._grown().add(self._block(last), np.arange(len(last)))
-            if parts or last or not self._is_labelled():
-                growing, self._growing = self._grown(), None  # cannot be used again after a failure
-                with ExitStack() as stack:
-                    growing.add_older(self._older(stack))
-                    growing.seal(self._about)
-            discard(parts)
-            remove_folder(self.path)
-        self._parts, self._sealed = [], []
-
-    def absorb(self, files: Iterable[str | os.PathLike[str]]) -> None:
-        """Take over the rows of other results files; of two rows of a case, that of the later file.
-
-        Rows of such cases that this file holds are replaced.
+        last: results that go into the file directly, without a part of their own. files: other
+        results files whose rows it takes over; of two rows of a case, that of the later file stays.
         """
         parts = [*self._parts, *self._sealed]
         with _writing(self.path), ExitStack() as stack:
-            blocks = [block for file in files for block in open_whole(Path(file), stack)]
-            growing, self._growing = self._grown(), None
-            for block, rows in zip(blocks, newest_rows(blocks), strict=True):
-                growing.add(block, rows)
-            growing.add_older(self._older(stack))
-            growing.seal(self._about)
-        discard(parts)
-        remove_folder(self.path)
+            added = [block for file in files for block in open_whole(Path(file), stack)]
+            added += [self._block(last)] if last else []
+            if parts or added or not self._is_labelled():
+                growing, self._growing = self._grown(), None  # cannot be used again after a failure
+                for block, rows in zip(added, newest_rows(added), strict=True):
+                    growing.add(block, rows)
+                growing.add_older(self._older(stack))
+                growing.seal(self._about)
+            discard(parts)
+            remove_folder(self.path)
         self._parts, self._sealed = [], []
 
     def _block(self, results: Sequence[Result]) -> Block:
