@@ -28,7 +28,7 @@ TIED_SIDES = "tied"
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
-    "status": Column("", "converged, stopped, timed_out, unresolved or worker_died"),
+    "status": Column("", "converged, stopped, slipped, timed_out, unresolved or worker_died"),
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),

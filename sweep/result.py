@@ -32,10 +32,14 @@ HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 
 
 class Status(StrEnum):
-    """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it."""
+    """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it.
+
+    `slipped` is an answer too: the striker has lost the lattice, so that the design has no place.
+    """
 
     CONVERGED = "converged"
     STOPPED = "stopped"
+    SLIPPED = "slipped"
     TIMED_OUT = "timed_out"
     UNRESOLVED = "unresolved"
     WORKER_DIED = "worker_died"

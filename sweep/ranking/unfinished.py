@@ -63,7 +63,12 @@ def loaded(summary: DataFrame) -> DataFrame:
 
 def ended_early(rows: DataFrame, by: str) -> Series:
     """True for cases that stopped before they had a value to sort by that can be relied on."""
-    return (rows["status"] != Status.CONVERGED) & ((rows["loaded"] != 1) | rows[by].isna())
+    return (rows["status"] != Status.CONVERGED) & (interrupted(rows) | rows[by].isna())
+
+
+def interrupted(rows: DataFrame) -> Series:
+    """True for cases whose loading was not completed, but for those that lost their lattice."""
+    return (rows["loaded"] != 1) & (rows["status"] != Status.SLIPPED)
 
 
 def unloaded(rows: DataFrame) -> Series:

@@ -88,14 +88,14 @@ def still_moving_down(where: str) -> Failure:
 def missed(where: str) -> Failure:
     """The striker of a case that has finished is below the base."""
     why = "the striker has passed the lattice: it misses it, slips off, or both fall off the base"
-    return Status.STOPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
+    return Status.SLIPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
 
 
 def slipped_off() -> Failure:
     """The striker of a crush misses the lattice, or that slips away from it or between ribs."""
     why = "the striker has lost the lattice: it misses it or slips off, or ribs let it through"
     advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
-    return Status.STOPPED, f"{why}; {advice}"
+    return Status.SLIPPED, f"{why}; {advice}"
 
 
 def still_pushed_back(where: str) -> Failure:

@@ -43,7 +43,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
     spent, tried = float(best.summary["cpu_s"]), list[str]()
     for words, changed in _changes(best) if best.curable and case.solver.retry else ():
         left = due - time.monotonic()
-        if stop[0] or left <= 0.0 or best.status is Status.CONVERGED:
+        if stop[0] or left <= 0.0 or _reach(best)[0]:
             break
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
@@ -64,8 +64,9 @@ def _is_coarse(case: Case) -> bool:
 
 
 def _reach(result: Result) -> tuple[bool, bool]:
-    """How far a run came: to its end, or to the end of its loading."""
-    return result.status is Status.CONVERGED, result.summary["loaded"] == 1
+    """How far a run came: to its end, and to the end of a loading that counts."""
+    ended = result.status in (Status.CONVERGED, Status.SLIPPED)
+    return ended, result.summary["loaded"] == 1
 
 
 def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:

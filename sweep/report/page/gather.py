@@ -23,7 +23,7 @@ from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import loaded, same_scene, stroke_left, unloaded
+from sweep.ranking.unfinished import interrupted, loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.thinning import (
@@ -80,7 +80,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     scenes = by_scene(loaded(compared)) if len(finished) else []
     cases = _cases(counted, scenes, summary)
     alike = [same_scene(rows, compared) for rows in scenes]
-    unfinished = _cases(counted, [rows[rows["loaded"] != 1] for rows in alike], summary)
+    unfinished = _cases(counted, [rows[interrupted(rows)] for rows in alike], summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
     stored, by_id = _Stored(len(cases)), summary.set_index("case_id", drop=False)

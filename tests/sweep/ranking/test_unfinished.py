@@ -47,6 +47,11 @@ def test_energy_so_far_is_the_least_that_a_case_absorbs(energy, least):
     assert (ids(ranking.table), named(ranking)) == ([2, 1, 0], [(3, 1, least)])
 
 
+def test_a_case_that_lost_its_lattice_has_no_place_and_could_have_none():
+    ranking = ranked(crushes({"status": "slipped", "loaded": 0, "absorbed_energy_J": 0.9}))
+    assert (ids(ranking.table), named(ranking), ranking.failed) == ([2, 1, 0], [], 1)
+
+
 @pytest.mark.parametrize(("force", "best"), [(10.0, 1), (20.5, 2), (50.0, None)])
 def test_a_force_that_only_rises_gives_the_best_place(force, best):
     struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "mass_g": 1.0}
