@@ -63,7 +63,7 @@ def loaded(summary: DataFrame) -> DataFrame:
 
 def ended_early(rows: DataFrame, by: str) -> Series:
     """True for cases that stopped before they had a value to sort by that can be relied on."""
-    return (rows["status"] != Status.CONVERGED) & (interrupted(rows) | rows[by].isna())
+    return interrupted(rows) | (unloaded(rows) & rows[by].isna())
 
 
 def interrupted(rows: DataFrame) -> Series:
