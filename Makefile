@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh pictures rammed \
+.PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh steps pictures rammed \
         bars spread effort search sides wide memory stability torture plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
@@ -71,6 +71,9 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 
 mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4 min)
 	@$(PYTHON) -m tests.studies.mesh results/mesh
+
+steps: setup  ## measure how long load steps may be; kept in results/steps/ (10 min)
+	@$(PYTHON) -m tests.studies.mesh.steps results/steps
 
 rammed: setup  ## ram a panel with three fronts; the table of README.md and its picture (10 min)
 	@$(PYTHON) -m sweep run configs/rammed.toml | tee results/rammed.txt

@@ -26,8 +26,7 @@ def lag(problem, y):
 @jit_exact
 def slip_of(problem, step):
     """Return eps of the step, the slip up to which friction is smoothed, m."""
-    slip = problem.scene.friction.slip
-    return slip * step.h if step.dynamic else slip
+    return problem.scene.friction.slip * (step.h if step.dynamic else step.rows)
 
 
 @jit_exact

@@ -43,7 +43,8 @@ ROW = np.dtype(
 
 
 class Output(NamedTuple):
-    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none.
+    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none;
+    a later step overwrites the slot.
 
     bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
     probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k). standing

@@ -1,19 +1,20 @@
 """Load and time stepping: steps through a stage with adaptive shares, and keeps the energy book.
 
-Every row of the history is one step of the stage. Where a step fails or is inaccurate, it is taken
-in shares: halves, quarters and so on, and longer ones again where those are easy. A large lattice
-that snaps takes many iterations in however short a static step: each failure of a share doubles the
-iterations that the next one may take.
+A stage is divided into equal rows, and a step is a share of a row. Where a step fails or is
+inaccurate, its share is halved, and doubled again where it is easy. Static steps of a stated
+accuracy (`load_step_error`) grow beyond one row: the rows in between are left out of the history. A
+large lattice that snaps takes many iterations in however short a static step: each failure of a
+share doubles the iterations that the next one may take.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import copy, zero
+from kernels.arrays import add, copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
-from kernels.solve import energy_book, integrators, resolution
+from kernels.solve import energy_book, integrators, load_step_error, resolution
 from kernels.solve.energy_book import energy_gain, enter_step, impose_speed, kinetic, unbalanced
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import DESCENT, minimise
@@ -35,6 +36,10 @@ SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
 MOST_DOUBLINGS = 4  # of the iterations of a static share
+LONGEST = 4  # rows that a static step may span
+SHORTEST = 0.125  # of a row: first step where steps may span rows, as it has no friction yet
+REJECTED_ERROR = 4.0  # of the allowed error: a step that spans rows is accepted below it
+SPANNING_ERROR = 0.2  # the same as `DOUBLING_ERROR`, of shares of a row and more
 MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 LARGEST_ERROR = 5e-2  # the same of the trapezoidal rule of other steps, whose loss has either sign
@@ -45,9 +50,9 @@ PROGRESS = np.dtype(
     (
         np.record,  # for attributes in plain Python too
         [
-            ("row", np.int64),  # next row of the history
-            ("done", np.float64),  # completed share of the step of the row
-            ("share", np.float64),  # share of the step of the row that is attempted
+            ("row", np.int64),  # completed rows
+            ("done", np.float64),  # completed share of the next row
+            ("share", np.float64),  # attempted step, in rows
             ("failed", np.int64),  # failed attempts since the last accepted share
             ("patience", np.int64),  # shares to accept after a failure before one is doubled
             ("wait", np.int64),  # shares still to accept before one is doubled
@@ -57,6 +62,8 @@ PROGRESS = np.dtype(
             ("minimum_iterations", np.int64),  # Newton iterations for the present minimum
             ("corrections", np.int64),  # of the lagged forces in the share
             ("h", np.float64),  # of the last attempted share, s
+            ("move", np.float64),  # of the driven coordinate in the last share, m; 0: none yet
+            ("slope", np.float64),  # of its reaction in the last share, N/m
         ],
     )
 )
@@ -65,9 +72,10 @@ PROGRESS = np.dtype(
 class Stage(NamedTuple):
     """Linear ramps of the load factor and of the driven coordinate (m) from ``*0`` to ``*1``.
 
-    steps: number. duration: of one step in s; static steps have one too, for rate-dependent
+    steps: number of rows. duration: of one row in s; static ones have one too, for rate-dependent
     materials. dynamic: whether there is inertia. scheme: time integrator. error: allowed local
-    error of a step, m.
+    error of a step, m. accuracy: allowed error of the work in a static step, as a share of that
+    work; where it is infinite, no step spans rows.
     """
 
     steps: int
@@ -79,6 +87,7 @@ class Stage(NamedTuple):
     driven1: float
     scheme: int = BACKWARD_EULER
     error: float = np.inf
+    accuracy: float = np.inf
 
 
 @jit_exact
@@ -108,6 +117,7 @@ def _step(stage, workspace, progress):
         stage.dynamic,
         factor,
         theta,
+        max(progress.share, 1.0),
     )
 
 
@@ -146,8 +156,27 @@ def _first_guess(problem, stage, state, workspace, duration, h, remaining):
 
 
 @jit_exact
+def _foresee(problem, stage, x, work):
+    """Fill ``work.trial`` with the positions at which forces are lagged in a step from ``x`` (n,);
+    return 0, or a move (m) that the neighbour lists do not cover.
+
+    In a static step they are the extrapolated ones if that move is admissible as a whole: normal
+    forces at the start of a step err by the first order of its length.
+    """
+    copy(x, work.trial)
+    if stage.dynamic:
+        return 0.0
+    far = problem.travel(work.dx)
+    if not problem.covers(x, far):
+        return far
+    if problem.step_limit(x, work.dx, far) == 1.0:
+        add(work.dx, work.trial)
+    return 0.0
+
+
+@jit_exact
 def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
-    """Begin the next share of a step."""
+    """Begin the next share of a step; return whether the neighbour lists cover its first guess."""
     work, driven, last = workspace.work, problem.scene.coordinates.driven, state.totals[0].last
     begins = stage.scheme != BACKWARD_EULER and last == 0.0
     if begins:
@@ -169,10 +198,14 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
     problem.begin(_step(stage, workspace, progress), rates, work.trial)
-    if problem.lag(state.x):  # the Hessian of friction changes
+    descent.travel_bound = _foresee(problem, stage, state.x, work)
+    if descent.travel_bound > 0.0:
+        return False
+    if problem.lag(work.trial):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
     progress.corrections = 0
+    return True
 
 
 @jit_exact
@@ -221,10 +254,13 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
 
     load: `resolution.largest_load` of the step.
     """
-    found, work, ratio = workspace.found, workspace.work, 0.0
+    found, work, ratio, share = workspace.found, workspace.work, 0.0, progress.share
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
-    accurate, share = ratio <= 1.0, progress.share
+    accurate = ratio <= 1.0
+    if stage.accuracy < np.inf and share >= 1.0:
+        ratio = load_step_error.ratio(problem, state, found, work, progress) / stage.accuracy
+        accurate = ratio <= REJECTED_ERROR or share <= 1.0
     if accurate and share > UNCHECKED_SHARE:
         accurate = not _gains_energy(problem, stage, state, step, found, share, tolerance.noise)
     if not accurate:
@@ -238,8 +274,22 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
 
 
 @jit_exact
-def _reject(outcome, problem, step, state, workspace, descent, progress):
-    """Reject a share: restore the state at its start, and shorten it."""
+def _spanning(share, ratio):
+    """Return a share that spans rows, halved until its error, quadratic in it, is admissible.
+
+    ratio: of its error to the allowed one.
+    """
+    while share > 1.0 and ratio > 1.0:
+        share, ratio = 0.5 * share, 0.25 * ratio
+    return share
+
+
+@jit_exact
+def _reject(outcome, ratio, problem, step, state, workspace, descent, progress):
+    """Reject a share: restore the state at its start, and shorten it.
+
+    ratio: of its error to the allowed one.
+    """
     copy(workspace.x0, state.x)
     problem.roll_back(step)
     zero(workspace.found.u)
@@ -250,11 +300,12 @@ def _reject(outcome, problem, step, state, workspace, descent, progress):
         progress.failed += 1
         progress.patience = min(2 * progress.patience + 1, MOST_PATIENCE)
         progress.wait = progress.patience
-    progress.share *= 0.5 ** max(progress.failed, 1)  # repeated failures shorten it faster
+    shorter = progress.share * 0.5 ** max(progress.failed, 1)  # faster by repeated failures
+    progress.share = min(shorter, _spanning(progress.share, ratio))
 
 
 @jit_exact
-def _accept(problem, stage, step, state, workspace, load, descent):
+def _accept(problem, stage, step, state, workspace, load, descent, progress):
     """Accept a share: update rates, commit the material, enter the energy book, project.
 
     load: `resolution.largest_load` of the step.
@@ -267,8 +318,10 @@ def _accept(problem, stage, step, state, workspace, load, descent):
         integrators.update(stage.scheme, state, step, problem, found.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
+    before = totals.reaction
     problem.commit(state.x, step, found)
     enter_step(problem, step, state, found, work)
+    load_step_error.keep(problem, found, totals.reaction - before, progress)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
     if energy_book.project(problem, step, state, found, work.trial):
         descent.since_factor = np.inf
@@ -276,14 +329,28 @@ def _accept(problem, stage, step, state, workspace, load, descent):
 
 
 @jit_exact
-def _next_share(ratio, iterations, descent, progress):
-    """Complete a share; double the next one if this one was easy and the double fits the grid.
+def _fits(stage, progress, share):
+    """Return whether a share is one of a row, or may span rows and ends before the stage does.
 
-    Shares stay multiples of their own length from the start of the step, so that they end with it.
+    Shares start at multiples of their own length, so that those of a row end with it.
+    """
+    at = progress.row + progress.done
+    if at % share != 0.0:
+        return False
+    return share <= 1.0 or (
+        stage.accuracy < np.inf and share <= LONGEST and at + share <= stage.steps
+    )
+
+
+@jit_exact
+def _next_share(ratio, iterations, stage, descent, progress):
+    """Complete a share; double the next one if this one was easy and the double fits.
+
     A failed attempt costs more than a double share saves: after every failure more shares have to
     be accepted before a double one is tried.
     """
-    easy = progress.share_iterations <= iterations and ratio < DOUBLING_ERROR
+    most = DOUBLING_ERROR if stage.dynamic else SPANNING_ERROR
+    easy = progress.share_iterations <= iterations and ratio < most
     progress.done, progress.failed = progress.done + progress.share, 0
     progress.corrections = NOT_STARTED
     if progress.share < 1.0:
@@ -292,9 +359,12 @@ def _next_share(ratio, iterations, descent, progress):
         progress.cause = CONVERGED
     if progress.wait > 0:
         progress.wait -= 1
-    elif easy and progress.done % (2.0 * progress.share) == 0.0:
+    elif easy and _fits(stage, progress, 2.0 * progress.share):
         progress.share *= 2.0
         progress.patience //= 2
+    progress.share = _spanning(progress.share, ratio)
+    while not _fits(stage, progress, progress.share):
+        progress.share *= 0.5
 
 
 @jit_exact
@@ -307,27 +377,28 @@ def _reported(outcome, progress):
 
 @jit_exact
 def _end_row(problem, stage, state, out, control, found, progress):
-    """Write the row whose step is complete, and go on to the next one."""
-    totals = state.totals[0]
+    """Write the last of the rows that are complete, and go on to the next one."""
+    totals, rows = state.totals[0], int(progress.done)
     totals.iterations += progress.row_iterations
-    totals.time += stage.duration
-    problem.write(out, progress.row, state, found)
-    control[1] += 1
-    progress.row, progress.done, progress.row_iterations = progress.row + 1, 0.0, 0
+    totals.time += rows * stage.duration
+    progress.row, progress.done, progress.row_iterations = progress.row + rows, 0.0, 0
+    problem.write(out, progress.row - 1, state, found)
+    control[1] += rows
 
 
 @jit_exact
 def _run(problem, tolerance, stage, state, out, control, workspace, descent, progress):
     """Continue the stage at ``progress`` to its end, or until the neighbours must be renewed.
 
-    Return (outcome, rows written).
+    Return (outcome, rows completed).
     """
     while progress.row < stage.steps:
         if progress.corrections == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
                 return OUTGROWN, progress.row
-            _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
+            if not _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
+                return OUTGROWN, progress.row
         step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
@@ -347,15 +418,15 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         elif resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
             outcome = UNRESOLVED
         if outcome == CONVERGED:
-            _accept(problem, stage, step, state, workspace, load, descent)
-            _next_share(ratio, tolerance.iterations, descent, progress)
-            if progress.done == 1.0:
+            _accept(problem, stage, step, state, workspace, load, descent, progress)
+            _next_share(ratio, tolerance.iterations, stage, descent, progress)
+            if progress.done >= 1.0:
                 _end_row(problem, stage, state, out, control, workspace.found, progress)
             continue
         coarse = outcome == UNRESOLVED or outcome == UNBALANCED
         coarse = coarse and resolution.is_coarse(fitting, step, problem, load)
         outcome = UNRESOLVED if coarse else outcome
-        _reject(outcome, problem, step, state, workspace, descent, progress)
+        _reject(outcome, ratio, problem, step, state, workspace, descent, progress)
         if outcome == INTERRUPTED or progress.share < SMALLEST_SHARE or coarse:
             return _reported(outcome, progress), progress.row
     return CONVERGED, progress.row
@@ -365,13 +436,15 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
 def march(scene, tolerance, stage, state, out, control):
     """March through ``stage`` from ``state`` (changed in place); fill ``out``.
 
-    Return (outcome, rows written). scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1]
-    counts completed steps.
+    Return (outcome, rows completed). scene: `problem.Scene`. control (2,): [0] != 0 interrupts, [1]
+    counts completed rows.
     """
     progress, descent = np.zeros(1, PROGRESS), np.zeros(1, DESCENT)
     progress[0].share, progress[0].corrections, descent[0].since_factor = 1.0, NOT_STARTED, np.inf
     last = state.totals[0].last
-    if stage.error < np.inf and last > 0.0:
+    if stage.accuracy < np.inf:
+        progress[0].share = SHORTEST
+    elif stage.error < np.inf and last > 0.0:
         progress[0].share = last / stage.duration
     buffers = scene.make_buffers(state.memory)
     neighbours = scene.find_neighbours(state.x)

@@ -47,7 +47,8 @@ class Step(NamedTuple):
     y (n,): (x - y) / h is the velocity, h in s. x_pred (n,): x~, positions that inertia alone would
     lead to (`integrators`). duration: of the step, s, static steps included. dynamic: whether the
     step has inertia. factor: load factor at the end of the step. theta: weight of the forces at the
-    end of the step in the energy book.
+    end of the step in the energy book. rows: of the history that the step spans, 1 for a part of
+    a row.
     """
 
     x0: np.ndarray
@@ -58,6 +59,7 @@ class Step(NamedTuple):
     dynamic: bool
     factor: float
     theta: float
+    rows: float
 
 
 SUMS = np.dtype(

@@ -4,10 +4,11 @@
     f = delta^2/eps - |delta|^3/(3 eps^2) + eps/3 for |delta| < eps, else |delta|
 
 delta is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair (Li et
-al. 2020, eq. 16) at the point where it was last lagged: the start of the step or, in the second
-minimisation of integrators of second order, the end that the first one has found. Walls have a
-thickness, so that two walls that rotate together do not slip: with the tangent T, the distance d,
-the moves dp of the node and dc of the closest point, and the rotation omega of the segment,
+al. 2020, eq. 16) at the point where it was last lagged: the start of the step, in statics its
+extrapolated end, or, in the second minimisation of integrators of second order, the end that the
+first one has found. Walls have a thickness, so that two walls that rotate together do not slip:
+with the tangent T, the distance d, the moves dp of the node and dc of the closest point, and the
+rotation omega of the segment,
 
     delta = T . (dp - dc) - d omega,   linear in the moves of p, a, b, with the slopes of
                                        `LaggedContacts`.
@@ -46,8 +47,8 @@ DUAL_TOLERANCE = 0.1  # largest |w - f'| at which the factor may be reused: its 
 
 
 class Friction(NamedTuple):
-    """mu: coefficient, 0 without friction. slip: eps in a static step, m; eps / h in a dynamic
-    one, m/s.
+    """mu: coefficient, 0 without friction. slip: eps in a static step of one row, m; eps / h in a
+    dynamic one, m/s.
     """
 
     mu: float

@@ -12,7 +12,7 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
-from sweep.config.kinds.solver import InTime, Solver
+from sweep.config.kinds.solver import InTime, Solver, Static
 from sweep.config.kinds.steps import hold_steps
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
@@ -70,12 +70,21 @@ def cycle_rows(phases: list[Phase]) -> list[CycleRows]:
 
 def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     """The stages of a case: linear ramps of loading and unloading, with the chosen integrator."""
-    chosen, timed = SCHEMES[case.solver.integrator], case.solver
-    error = timed.step_error if isinstance(timed, InTime) and timed.step_error else np.inf
-    return [
-        phase._replace(stage=phase.stage._replace(scheme=chosen, error=error))
-        for phase in _stages(case, scene)
-    ]
+    return [phase._replace(stage=_controlled(phase, case.solver)) for phase in _stages(case, scene)]
+
+
+def _controlled(phase: Phase, solver: Solver) -> march.Stage:
+    """The stage of a phase with its integrator, and with the error that is allowed in a step.
+
+    Nothing moves in a pause, by which an error could be judged.
+    """
+    stage = phase.stage._replace(scheme=SCHEMES[solver.integrator])
+    match solver:
+        case InTime(step_error=float(error)):
+            return stage._replace(error=error)
+        case Static(accuracy=float(share)) if phase.role != "hold":
+            return stage._replace(accuracy=share)
+    return stage
 
 
 def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:

@@ -32,7 +32,7 @@ from sweep.scene.coordinates import BetweenPlatens, Numbering
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
-STATIC_SLIP = 1e-3  # of the wall thickness
+STATIC_SLIP = 0.2  # of the wall thickness, in all steps of a loading together
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
@@ -249,9 +249,9 @@ def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) 
 
 def friction_of(case: Case) -> friction.Friction:
     """Friction coefficient and smoothing: a slip speed in m/s, or a slip length in m in statics."""
-    slip = STATIC_SLIP * case.lattice.wall_thickness
-    if case.contact.slip_speed is not None:
-        slip = case.contact.slip_speed
+    slip = case.contact.slip_speed
+    if slip is None:
+        slip = STATIC_SLIP * case.lattice.wall_thickness / (case.solver.load_steps or 1)
     return friction.Friction(case.contact.friction, slip)
 
 

@@ -96,8 +96,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     if run.blind and isinstance(scene, Scene):
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
-    frames = run.frames()
-    shapes = run.positions[: len(frames["time_s"])]
+    frames, (_, shapes) = run.frames(), run.shapes()
     strains: tuple[Floats, ...] = (
         plate_strains(shapes, scene)
         if isinstance(scene, PlateScene)
@@ -238,10 +237,14 @@ class _Run:
         self.struck = isinstance(case.loading, Impact)
         early = self.struck or isinstance(case.solver, Arcs)
         count = EARLY_FRAMES if early else FRAMES * case.loading.cycles
-        self.frame_of, kept = _frames(total + 1, count)
+        self.slot_of, kept = _frames(total + 1, count)
+        self.slots = np.full(total + 1, -1)  # of the rows that are kept
+        self.slots[0] = 0
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
-        self.done, self.noise, self.expired, self.curable = 1, 0.0, False, False
+        self.done = self.reached = 1  # rows that are kept, and those before any were dropped
+        self.planned = 1  # rows of the stages so far, with those that steps leave out
+        self.noise, self.expired, self.curable = 0.0, False, False
 
     def _begin(self) -> None:
         """Fill the first row: initial kinetic energy and the energy of springs count as work done.
@@ -261,8 +264,8 @@ class _Run:
     def complete(self, seconds: float) -> tuple[Status, str]:
         """March through all stages within ``seconds``; return the status and its sentence."""
         with WATCH.limit(seconds, self._expire):
-            for phase in self.stages:
-                outcome = self._through(phase.stage)
+            for number, phase in enumerate(self.stages):
+                outcome = self._through(number)
                 if outcome != outcomes.INTERRUPTED and self._creates_energy(self.done):
                     self.curable = True
                     return energy_gained(self.case)
@@ -329,11 +332,16 @@ class _Run:
         self.expired = True
         self.control[0] = self.control[0] or EXPIRED
 
-    def _through(self, stage: march.Stage) -> int:
-        span = slice(self.done, self.done + stage.steps)
+    def _through(self, number: int) -> int:
+        """March through a stage; return the outcome. Rows that a step leaves out are closed up."""
+        phase = self.stages[number]
+        stage, start = phase.stage, self.done
+        span = slice(start, start + stage.steps)
+        self.rows["time"][span] = np.nan  # it stays so in rows that a step leaves out
+        slots = self.slot_of[self.planned : self.planned + stage.steps]
         out = Output(
             self.rows[span],
-            self.frame_of[span],
+            slots,
             self.positions,
             self.scene.bottom,
             self.scene.top,
@@ -349,10 +357,17 @@ class _Run:
         tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
         given = self.scene.terms, tolerance, stage, self.state, out, self.control
-        outcome, written = (
+        outcome, passed = (
             march.march(*given) if self.arc is None else arc_length.follow(*given, self.arc)
         )
-        self.done += written
+        there = np.flatnonzero(~np.isnan(out.rows["time"][:passed]))
+        self.done = self.reached = start + len(there)
+        self.planned += passed
+        self.rows[start : self.done] = out.rows[there]
+        self.probed[start : self.done] = out.probed[there]
+        self.slots[start : self.done] = slots[there]
+        if outcome == outcomes.CONVERGED:
+            self.stages[number] = phase._replace(stage=stage._replace(steps=len(there)))
         return outcome
 
     def _failed(self, outcome: int, stage: str) -> Failure:
@@ -386,10 +401,16 @@ class _Run:
             rows["patch_force"] = rows["patch_at"] = np.nan
         return rows
 
+    def shapes(self) -> tuple[np.ndarray, np.ndarray]:
+        """The rows with a stored shape, up to the last row, and their positions (f, n)."""
+        slots = self.slots[: self.reached]
+        last = np.flatnonzero(np.diff(slots, append=-1))  # a later row overwrites its slot
+        last = last[last < self.done]
+        return self.rows[last], self.positions[slots[last]]
+
     def frames(self) -> dict[str, np.ndarray]:
-        """Stored shapes up to the last row, as in `Result.frames`."""
-        steps = np.flatnonzero(self.frame_of[: self.done] >= 0)
-        rows, x = self.rows[steps], self.positions[: len(steps)]
+        """Stored shapes, as in `Result.frames`."""
+        rows, x = self.shapes()
         if isinstance(self.scene, PlateScene):
             return plate_frames(x, self._strain(rows["height"]), rows["time"], self.scene)
         n = len(self.scene.mesh.points)
@@ -413,8 +434,9 @@ class _Run:
 
 
 def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
-    """Frame number of every row (-1: not kept) for about ``frames`` even frames; their number."""
+    """The slot of every row for about ``frames`` even frames, and their number.
+
+    The last of the rows with the same slot is kept.
+    """
     kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
-    frame_of = np.full(n_rows, -1)
-    frame_of[kept] = np.arange(len(kept))
-    return frame_of, len(kept)
+    return np.searchsorted(kept, np.arange(n_rows)), len(kept)

@@ -19,6 +19,7 @@ from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.base import base_columns, patch_width
+from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.iso_13314 import figures
 from sweep.simulation.packing import (
@@ -232,6 +233,8 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """Columns from the force-displacement curve of the loading; only a crush can pack."""
+    if isinstance(case.loading, Crush):
+        loading = between_rows(loading)
     work, force = loading["work_in_J"], transmitted(case, loading)
     row, share = len(work) - 1, last_row(len(work))
     columns = dict.fromkeys(OF_A_CRUSH, np.nan)

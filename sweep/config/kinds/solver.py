@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.table import Count, Duration, Length, Table
+from sweep.config.kinds.table import Count, Duration, Length, Share, Table
 
 ARCS = "arc_length"
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
@@ -44,12 +44,17 @@ class InTime(_Solver):
 
 
 class Static(_Solver):
-    """Equilibria after equal steps of a load or a platen."""
+    """Equilibria after steps of a load or a platen.
+
+    `accuracy`: error of the work that is allowed in a step, as a share of it; a step then spans up
+    to eight of `load_steps` equal ones. Without it, steps are equal.
+    """
 
     because: ClassVar[str] = "the crush is quasi-static"
 
     integrator: Literal["static"] = "static"
     load_steps: Count = 200
+    accuracy: Share | None = None
 
 
 class Arcs(_Solver):

@@ -14,6 +14,7 @@ from sweep.config.kinds.table import Given, Pairs, RefusedError, chosen, given_o
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
 LOAD_STEPS = 200
+BY_ACCURACY = {"load_steps": 128, "accuracy": 3e-3}  # of a quasi-static crush without load_steps
 TIME_STEP = 1e-4  # s
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
 STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back
@@ -34,8 +35,9 @@ def solver(
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
-    A platen moves in `load_steps` equal steps, which set the time step of a crush in time. Along
-    arcs, the default arc length is the diagonal of the structure / `load_steps`. The default of
+    A platen moves in `load_steps` equal steps, which set the time step of a crush in time; a
+    quasi-static one moves in steps of an `accuracy` unless they are given. Along arcs, the default
+    arc length is the diagonal of the structure / `load_steps`. The default of
     an impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
     contact by position it is backward Euler.
     """
@@ -63,7 +65,12 @@ def _steps(
     settings: dict[str, Any], loading: Loading, extent: Extent, by_position: bool
 ) -> InTime | Static:
     if loading.quasi_static:
-        return Static.model_validate(chosen(settings, Static) | {"integrator": "static"})
+        by_accuracy = isinstance(loading, Crush) and "load_steps" not in settings
+        made = (BY_ACCURACY if by_accuracy else {}) | chosen(settings, Static)
+        if "accuracy" in made and not isinstance(loading, Crush):
+            allowed = "none for loads of a file, which grow in equal load_steps"
+            raise RefusedError("solver.accuracy", made["accuracy"], allowed)
+        return Static.model_validate(made | {"integrator": "static"})
     usual = "bdf2" if isinstance(loading, Impact) and not by_position else "backward_euler"
     timed = {"integrator": usual} | chosen(settings, InTime)
     if isinstance(loading, Crush):

@@ -63,7 +63,8 @@ def _steps(solver: Solver, times: float) -> dict[str, Any]:
     after = None if count is None else _times(count, times)
     ratio = 1.0 / times if count is None or after is None else count / after
     order = 1 if solver.integrator == "backward_euler" else 2
-    scales = {"time_step": ratio, "arc_length": ratio, "step_error": ratio ** (order + 1)}
+    scales = {"time_step": ratio, "arc_length": ratio, "accuracy": ratio}
+    scales["step_error"] = ratio ** (order + 1)
     values = {key: getattr(solver, key, None) for key in scales}
     longer = {key: scales[key] * value for key, value in values.items() if value is not None}
     return longer | {"load_steps": after}

@@ -115,6 +115,54 @@ def test_friction_of_a_loaded_particle_is_that_of_where_a_step_starts():
     np.testing.assert_allclose(np.diff(rows["friction"])[3:], paid[3:], rtol=1e-8)
 
 
+def test_friction_of_a_led_particle_is_that_of_where_it_is_led():
+    """The extrapolated position is the final one, once there is a step as long as the next one."""
+    chain = line(1, driven=True, friction=0.3)
+    stage = march.Stage(8, 1.0, False, 0.0, 0.0, -WIDTH, -0.2 * WIDTH)
+    outcome, rows, positions = go(chain, begun(chain, [-WIDTH]), stage)
+    x = positions[2:, 0]
+    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
+    assert outcome == outcomes.CONVERGED
+    rubbing = 0.3 * (1.0 + (x / WIDTH) ** 2)
+    np.testing.assert_allclose(rows["reaction"][2:], slope + rubbing, rtol=1e-8)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_steps_are_as_long_as_their_accuracy_allows(friction):
+    """The work up a smooth hill, compared with that in short steps."""
+    chain, high, low = line(1, driven=True, friction=friction), -0.2, -1.0
+    stage = march.Stage(200, 1.0, False, 0.0, 0.0, low * WIDTH, high * WIDTH)
+    _, short, _ = go(chain, begun(chain, [low * WIDTH]), stage._replace(accuracy=1e-9))
+    errors, counts = [], []
+    for accuracy in (3e-2, 3e-3, 3e-4):
+        state = begun(chain, [low * WIDTH])
+        outcome, rows, positions = go(chain, state, stage._replace(accuracy=accuracy))
+        there = rows["time"] > 0.0  # the others were left out
+        assert outcome == outcomes.CONVERGED
+        assert is_balanced(rows[there])
+        assert len(rows) == len(there) == rows["time"][-1] == 200
+        travel = (positions[there, 0] / WIDTH - low) / (high - low)
+        np.testing.assert_allclose(travel, rows["time"][there] / 200, rtol=1e-12)
+        errors.append(abs(rows["work"][-1] / short["work"][-1] - 1.0) / accuracy)
+        counts.append(there.sum())
+    assert max(errors) < 1.0
+    assert 50 < counts[0] < 60  # four rows a step
+    assert counts[0] < counts[1] < counts[2] <= 200
+
+
+def test_steps_are_short_where_a_particle_snaps():
+    chain, driven = line(4, driven=True, held=True), (-1.2, 4.8)
+    start = [-1.5, -1.45, -1.35, driven[0]]
+    stage = march.Stage(128, 1.0, False, 0.0, 0.0, *driven, accuracy=3e-3)
+    outcome, rows, positions = go(chain, begun(chain, start), stage)
+    there = np.flatnonzero(rows["time"] > 0.0)
+    assert outcome == outcomes.CONVERGED
+    assert is_balanced(rows[there])
+    spans, moved = np.diff(there), np.abs(np.diff(positions[there, 1:3], axis=0)).max(axis=1)
+    assert spans.max() == 4
+    assert spans[moved > 0.5].max() <= 2
+
+
 @pytest.mark.parametrize(("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (TRAPEZOIDAL, 2.0)])
 def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
     """They are corrected once where it is two. The particle slides all the time, down a slope."""
@@ -196,7 +244,7 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     buffers.diagonal[:] = 1e20
     neighbours = chain.find_neighbours(x0)
     problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
-    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5)
+    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5, 1.0)
     workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
     x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
     outcome = newton.minimise(

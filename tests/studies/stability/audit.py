@@ -105,14 +105,14 @@ def _next_step(terms, stage, state):
     y, x_pred, move = x0.copy(), x0.copy(), np.zeros_like(x0)
     rate = state.rates.position.copy()
     if not stage.dynamic:
-        return Step(x0, y, x_pred, 1.0, 1.0, False, stage.factor1, 0.5), integrators.Ahead(
+        return Step(x0, y, x_pred, 1.0, 1.0, False, stage.factor1, 0.5, 1.0), integrators.Ahead(
             0.0, 0.0, rate, move
         )
     h = integrators.length(stage.scheme, dt, last)
     integrators.predict(state, dt, h, terms.coordinates.heavy, y, x_pred, move)
     before = last if stage.scheme == integrators.BDF2 else 0.0
     ahead = integrators.Ahead(dt - h, before, rate, move)
-    return Step(x0, y, x_pred, h, dt, True, stage.factor1, 0.5), ahead
+    return Step(x0, y, x_pred, h, dt, True, stage.factor1, 0.5, 1.0), ahead
 
 
 def _unborne(terms, state, step):
@@ -137,7 +137,8 @@ def _pieces(stage):
     factor = stage.factor0 + (stage.factor1 - stage.factor0) * share
     if before > 0:
         yield stage._replace(steps=before, driven1=driven, factor1=factor), slice(0, before)
-    yield stage._replace(steps=1, driven0=driven, factor0=factor), slice(before, None)
+    last = stage._replace(steps=1, driven0=driven, factor0=factor, accuracy=np.inf)
+    yield last, slice(before, None)
 
 
 def _part(out, rows):

@@ -1,4 +1,4 @@
-"""Ids of cases never change: they name the rows of every results file."""
+"""Ids name the rows of every results file: they change with the meaning of a case alone."""
 
 import json
 from hashlib import blake2b

@@ -26,6 +26,7 @@ def measured(force, names=NEW):
     steps = 0.5 * (force[1:] + force[:-1]) * np.diff(STRAIN) * HEIGHT
     loading = {
         "strain": STRAIN,
+        "top_displacement_m": STRAIN * HEIGHT,
         "work_in_J": np.append(0.0, np.cumsum(steps)),
         "reaction_top_N": force,
         "reaction_bottom_N": force,

@@ -37,6 +37,7 @@ def crushed(strains, forces):
 def curve(strain, force, work, **columns):
     """Columns of a history in which both platens bear the same force."""
     history = {"strain": strain, "work_in_J": work, "reaction_top_N": force}
+    history["top_displacement_m"] = HEIGHT * np.asarray(strain)
     return history | {"reaction_bottom_N": force} | columns
 
 

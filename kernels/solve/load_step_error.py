@@ -1,0 +1,50 @@
+"""Error of a static step that a driven coordinate makes, in the work of that step.
+
+With F the reaction at the driven coordinate, d its move in the step, and d0 the one before:
+
+    work = (F0 + F1) d / 2,    error = |F'' d^3 / 12| + |(r1 - r0) . u| / 2
+
+The first part is the error of the trapezoidal rule, with the second derivative F'' of the quadratic
+through the last three reactions, 2 (s1 - s0) / (d + d0) with slopes s = dF / d. The second part is
+due to friction: its normal forces are those of the start of a step, so that its forces r lag by a
+step, in which the coordinates move by u.
+"""
+
+from kernels.compile.jit import jit_exact
+
+
+@jit_exact
+def _lag(state, found):
+    """Return |(r1 - r0) . u| / 2 in J, with the gradients r of friction after two steps."""
+    before, work = state.gradients.friction, 0.0
+    for i in range(found.u.size):
+        work += (found.friction[i] - before[i]) * found.u[i]
+    return 0.5 * abs(work)
+
+
+@jit_exact
+def ratio(problem, state, found, work, progress):
+    """Return the error of the work in a step as a share of that work, 0 where nothing is driven.
+
+    found: of the end of the step, before `energy_book.enter_step`. progress: see `keep`.
+    """
+    driven = problem.scene.coordinates.driven
+    move = found.u[driven] if driven >= 0 else 0.0
+    if move == 0.0:
+        return 0.0
+    problem.reduce(found.g, work.residual)
+    before, after = state.totals[0].reaction, work.residual[driven]
+    error = _lag(state, found)
+    if progress.move != 0.0:
+        bend = ((after - before) / move - progress.slope) / (move + progress.move)
+        error += abs(bend * move**3) / 6.0
+    done = 0.5 * abs((before + after) * move)
+    return error / done if done > 0.0 else 0.0
+
+
+@jit_exact
+def keep(problem, found, change, progress):
+    """Keep the move of an accepted step and the slope of the reaction. change: of that, N."""
+    driven = problem.scene.coordinates.driven
+    progress.move = found.u[driven] if driven >= 0 else 0.0
+    progress.slope = change / progress.move if progress.move != 0.0 else 0.0

@@ -1,0 +1,113 @@
+"""How long load steps may be: what is ranked, in steps of an accuracy and in equal ones.
+
+Run by `make steps`: the crushes of `crushes` on their default meshes, elastic and with a loss of
+40 %, beside `FINEST` equal steps. Designs of which the two finest runs follow different paths enter
+no average. Finished cases are kept in the given folder.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from sweep.report.tables.sheet import Sheet
+from sweep.running.sweep import run_sweep
+from sweep.store.read import read_history, read_summary
+from tests.studies.mesh.crushes import COLUMNS, DESIGNS, parted, usual
+from tests.studies.rankings.spread import crush, nine_of_ten
+from tests.studies.tables import publish
+
+SETTINGS = {
+    **{f"{share:.1%}": {"accuracy": share} for share in (1e-2, 3e-3, 1e-3)},
+    **{str(count): {"load_steps": count} for count in (25, 50, 100, 200, 400)},
+}
+FINE, FINEST = "800", "1600"
+LOSSES = (0.0, 0.4)
+
+
+def cases_of(designs=DESIGNS, settings=SETTINGS, losses=LOSSES):
+    """The crushes by loss, design and setting."""
+    every = settings | {text: {"load_steps": int(text)} for text in (FINE, FINEST)}
+    return {
+        (loss, design, name): _case(design, loss, setting)
+        for loss in losses
+        for design in designs
+        for name, setting in every.items()
+    }
+
+
+def _case(design, loss, setting):
+    case = crush(design, usual(design), imperfection=0.01, steps=200)
+    solver = {"accuracy": None, "load_steps": None} | setting
+    return case.changed(solver=solver, **({"material": {"loss": loss}} if loss else {}))
+
+
+def compare(cases, rows, curves, loss):
+    """Errors of each setting beside the finest: setting -> column -> (designs,); and iterations.
+
+    rows: the summary by case id. curves: case id -> (strain, work). The errors of a design are NaN
+    if it failed, or has no truth.
+    """
+    designs = list(dict.fromkeys(design for each, design, _ in cases if each == loss))
+    settings = list(dict.fromkeys(name for *_, name in cases))
+    errors = {name: {column: [] for column in (*COLUMNS, "parted", "work")} for name in settings}
+    for design in designs:
+        ids = {name: cases[loss, design, name].case_id for name in settings}
+        true, path = rows.loc[ids[FINEST]], curves[ids[FINEST]]
+        certain = all(rows.loc[ids[name], "status"] == "converged" for name in (FINE, FINEST))
+        certain = certain and np.isnan(parted(curves[ids[FINE]], path))
+        for name, case_id in ids.items():
+            row, known = rows.loc[case_id], errors[name]
+            counts = certain and row["status"] == "converged"
+            for column in COLUMNS:
+                known[column].append(abs(row[column] / true[column] - 1.0) if counts else np.nan)
+            known["parted"].append(parted(curves[case_id], path) if counts else np.nan)
+            known["work"].append(row["newton_iterations"])
+    return errors
+
+
+def sheet(errors, loss):
+    """Errors in %, the middle one / that of nine of ten / the greatest, and iterations."""
+    names = [name for name in errors if name not in (FINE, FINEST)]
+    rows = [
+        [text, *(_errors(errors[name][column]) for name in names)]
+        for column, text in COLUMNS.items()
+    ]
+    rows.append(["paths part", *(str(np.isfinite(errors[name]["parted"]).sum()) for name in names)])
+    rows.append(["iterations", *(f"{np.median(errors[name]['work']):.0f}" for name in names)])
+    entering = int(np.isfinite(errors[FINE]["absorbed_energy_J"]).sum())
+    notes = (
+        f"Errors in %, beside {FINEST} equal steps: the middle one / that of nine of ten / the "
+        "greatest. Accuracies in %, numbers of equal steps.",
+        f"{entering} of {len(errors[FINE]['work'])} designs enter; the others have no truth.",
+    )
+    material = "elastic" if loss == 0.0 else f"loss {loss:.0%}"
+    return Sheet(f"Errors of load steps, {material}", ["steps", *names], rows, notes=notes)
+
+
+def _errors(values):
+    known = np.array(values)[np.isfinite(values)]
+    return " / ".join(
+        f"{100.0 * error:.2g}" for error in (np.median(known), nine_of_ten(known), known.max())
+    )
+
+
+def main(folder):
+    """Run what is missing, and print the tables."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file, cases = folder / "steps.h5", cases_of()
+    run_sweep(list({case.case_id: case for case in cases.values()}.values()), file)
+    rows = read_summary(file).set_index("case_id")
+    curves = {case.case_id: _curve(file, case.case_id) for case in cases.values()}
+    sheets = [sheet(compare(cases, rows, curves, loss), loss) for loss in LOSSES]
+    publish(sheets, folder / "steps.md")
+
+
+def _curve(file, case_id):
+    """Strain and work of a crush, (rows,) each."""
+    history = read_history(file, case_id)
+    return history["strain"].to_numpy(), history["work_in_J"].to_numpy()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,42 @@
+"""The study of load steps: its cases, and a small piece of it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from sweep.simulation.simulate import simulate
+from tests.studies.mesh import steps
+from tests.studies.mesh.crushes import DESIGNS
+
+
+def test_every_design_in_every_setting():
+    cases = steps.cases_of()
+    ids = {case.case_id for case in cases.values()}
+    assert len(ids) == len(cases) == 2 * 48 * (len(steps.SETTINGS) + 2)
+    solvers = {name: case.solver for (_, _, name), case in cases.items()}
+    assert (solvers["1.0%"].accuracy, solvers["1.0%"].load_steps) == (0.01, 128)
+    assert (solvers["25"].accuracy, solvers["25"].load_steps) == (None, 25)
+
+
+def test_errors_beside_the_finest(monkeypatch):
+    monkeypatch.setattr(steps, "FINE", "80")
+    monkeypatch.setattr(steps, "FINEST", "160")
+    few = {name: steps.SETTINGS[name] for name in ("0.3%", "25")}
+    cases = steps.cases_of(DESIGNS[:1], few, (0.0,))
+    results = {case.case_id: simulate(case) for case in cases.values()}
+    rows = pd.DataFrame({key: result.summary for key, result in results.items()}).T
+    curves = {k: (r.history["strain"], r.history["work_in_J"]) for k, r in results.items()}
+    errors = steps.compare(cases, rows.infer_objects(), curves, 0.0)
+    energy = {name: error["absorbed_energy_J"][0] for name, error in errors.items()}
+    assert energy["160"] == 0.0 < energy["0.3%"] < 3e-3
+    assert energy["80"] < energy["25"]
+    shown = steps.sheet(errors, 0.0)
+    assert shown.heads == ["steps", "0.3%", "25"]
+    failed = rows.assign(
+        status=np.where(
+            rows.index == cases[0.0, DESIGNS[0], "25"].case_id, "stopped", rows["status"]
+        )
+    )
+    again = steps.compare(cases, failed.infer_objects(), curves, 0.0)
+    assert np.isnan(again["25"]["absorbed_energy_J"][0])
+    assert again["0.3%"]["absorbed_energy_J"][0] == pytest.approx(energy["0.3%"])
