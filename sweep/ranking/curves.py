@@ -14,16 +14,12 @@ import numpy as np
 from sweep.modes import has
 from sweep.ranking.merit import AT_ALLOWED, panel_in
 from sweep.ranking.question import in_si
-from sweep.simulation.between_rows import CURVE, between_rows
-from sweep.simulation.until import absorbed_until
+from sweep.simulation.until import absorbed_until, stroke_until
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from pandas import DataFrame
 
     from sweep.ranking.question import Question
-
-    Floats = NDArray[np.float64]
 
 ROUND_OFF = 1e-9
 Cache = dict[tuple[str, float], tuple[float, float]]
@@ -75,15 +71,6 @@ def reached(curve: DataFrame, force: float) -> tuple[float, float]:
         return float("nan"), float("nan")
     travel = curve["top_displacement_m"].to_numpy()
     end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
-    borne, work, travel = force_and_work(curve[:end])
-    return absorbed_until(force, borne, work), absorbed_until(force, borne, travel)
-
-
-def force_and_work(loading: DataFrame) -> tuple[Floats, Floats, Floats]:
-    """Greater force of the two platens (N), work (J) and stroke (m) of a loading, at its rows and
-    between them.
-    """
-    columns = {name: loading[name].to_numpy(float) for name in CURVE}
-    curve = between_rows(columns)
-    borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"])
-    return borne, curve["work_in_J"], curve["top_displacement_m"]
+    borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"]).to_numpy()[:end]
+    work = curve["work_in_J"].to_numpy()[:end]
+    return absorbed_until(force, borne, work), stroke_until(force, borne, travel[:end])

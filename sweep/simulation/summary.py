@@ -233,6 +233,11 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """Columns from the force-displacement curve of the loading; only a crush can pack."""
+    force, work = transmitted(case, loading), loading["work_in_J"]
+    until = {
+        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
+        for allowed in case.loading.allowed_forces
+    }
     if isinstance(case.loading, Crush):
         loading = between_rows(loading)
     work, force = loading["work_in_J"], transmitted(case, loading)
@@ -248,10 +253,7 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
         "peak_force_until_packed_N": float(share @ peak),
     }
     columns |= ratios(case, loading, columns)
-    return columns | {
-        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
-        for allowed in case.loading.allowed_forces
-    }
+    return columns | until
 
 
 def ratios(case: Case, loading: dict[str, Floats], columns: dict[str, float]) -> dict[str, float]:

@@ -14,7 +14,7 @@ from sweep.design.panel import BEHIND, BESIDE
 from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
-from sweep.ranking.curves import force_and_work, reached
+from sweep.ranking.curves import reached
 from sweep.ranking.merit import SEVEN_DIGITS, Compared, doubtful, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto
@@ -316,7 +316,8 @@ class _Stored:
     def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Force (N) and work (J) of `force_stairs` while the platen comes down."""
         loading = history.iloc[: last_loaded(history, row) + 1]
-        force, work, _ = force_and_work(loading)
+        force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
+        work = loading["work_in_J"].to_numpy()
         full, thin = force_stairs(force, work), thin_stairs(force, work, self.points)
         self.doubt = max(self.doubt, _work_error(full, thin))
         return [numbers(column, 7) for column in thin]

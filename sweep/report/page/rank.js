@@ -12,13 +12,14 @@ function greatestMass(data, question) {
   return question.budget === null ? Infinity : question.budget * (1 + data.round_off);
 }
 
-// Work (J) done until the force first exceeds a limit (N), from stairs [forces, works].
-function workUntil(limit, [forces, works]) {
+// The value at which the force first exceeds a limit (N), linear in a power of the force between two
+// points: a stroke in the force itself, the work (J), from stairs, in its square.
+function valueUntil(limit, [forces, values], power) {
   const k = forces.findIndex((force) => force > limit);
-  if (k < 0) return works[works.length - 1];
-  if (k === 0) return works[0];
-  const share = (limit - forces[k - 1]) / (forces[k] - forces[k - 1]);
-  return works[k - 1] + share * (works[k] - works[k - 1]);
+  if (k < 0) return values[values.length - 1];
+  if (k === 0) return values[0];
+  const [low, high] = [forces[k - 1] ** power, forces[k] ** power];
+  return values[k - 1] + ((limit ** power - low) / (high - low)) * (values[k] - values[k - 1]);
 }
 
 // Whether the force and what is required are of the panel.
@@ -38,7 +39,7 @@ function storedEnergy(data, question) {
 function countedEnergy(data, design, question, force) {
   const known = storedEnergy(data, question);
   if (known >= 0) return design.energies[known];
-  return design.stairs ? [workUntil(force, design.stairs), null, null] : [null, null, null];
+  return design.stairs ? [valueUntil(force, design.stairs, 2), null, null] : [null, null, null];
 }
 
 // Stroke (m) in which that energy is absorbed; read from the curve where it is not stored.
@@ -48,7 +49,7 @@ function countedStroke(data, design, question, force) {
   if (!design.curve) return null;
   const [strains, forces] = design.curve;
   const end = strains.indexOf(Math.max(...strains)) + 1;
-  return (design.height * workUntil(force, [forces.slice(0, end), strains.slice(0, end)])) / 100;
+  return (design.height * valueUntil(force, [forces.slice(0, end), strains.slice(0, end)], 1)) / 100;
 }
 
 // The limits (SI) that are asked of the designs of a scene: sweep/ranking/requirements.py. Those of

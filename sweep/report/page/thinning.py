@@ -56,7 +56,7 @@ def _distances(points: Floats, start: Floats, end: Floats) -> Floats:
 
 
 def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Relative errors of the work at the force of every point, as points are (force, work)."""
+    """Relative errors of the work at the force of every point; points: squared force, work."""
     rise = end[:, 0] - start[:, 0]
     share = (points[:, 0] - start[:, 0]) / np.where(rise > 0.0, rise, 1.0)
     work = start[:, 1] + share * (end[:, 1] - start[:, 1])
@@ -92,7 +92,8 @@ def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
     """
     highest = np.maximum.accumulate(force)
     again = np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
-    share = (highest[again] - force[again]) / (force[again + 1] - force[again])
+    before, after = np.maximum(force[again], 0.0), force[again + 1]
+    share = (highest[again] ** 2 - before**2) / (after**2 - before**2)
     added = work[again] + share * (work[again + 1] - work[again])
     return (
         np.insert(highest, again + 1, highest[again]),
@@ -108,14 +109,14 @@ def work_until(limit: float, highest: Floats, work: Floats) -> float:
     k = int(over[0])
     if k == 0:
         return float(work[0])
-    share = (limit - highest[k - 1]) / (highest[k] - highest[k - 1])
+    share = (limit**2 - highest[k - 1] ** 2) / (highest[k] ** 2 - highest[k - 1] ** 2)
     return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
 def thin_stairs(force: Floats, work: Floats, most: int) -> tuple[Floats, Floats]:
     """At most ``most`` points of `force_stairs`, those that give the work best, relatively."""
     highest, done = force_stairs(force, work)
-    kept = thinned(np.column_stack([highest, done]), most, gap=_work_gaps)
+    kept = thinned(np.column_stack([highest**2, done]), most, gap=_work_gaps)
     return highest[kept], done[kept]
 
 

@@ -7,7 +7,7 @@ from sweep.design.drawing import extent, pitch
 from sweep.design.infill import families, trait
 
 CELL, HEIGHT, ROWS, THICKNESS = 12.5e-3 / 3, 12.5e-3, 3, 0.4e-3
-STRAIN, PATIENCE = 0.5, 900.0  # s for a case
+STRAIN, STEPS, PATIENCE = 0.5, 200, 900.0  # s for a case
 NARROW, WIDE, WIDEST = (3, 6, 12), (24, 48), 96  # cells side by side
 PLATENS = {"glued": ("glued", 0.3), "loose": ("contact", 0.3), "smooth": ("contact", 0.0)}
 """Platens and their friction; between smooth ones the period of tied sides is free."""
@@ -64,5 +64,5 @@ def crush(strip):
         lattice=lattice,
         loading=dict(mode="displacement", strain=STRAIN, platen=platen, unload=False),
         contact=dict(friction=friction),
-        solver=dict(time_limit=PATIENCE),
+        solver=dict(time_limit=PATIENCE, load_steps=STEPS),
     )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.simulation.until import absorbed_until
+from sweep.simulation.until import absorbed_until, stroke_until
 
 STRAIN = np.linspace(0.0, 0.6, 601)
 FORCE = np.interp(STRAIN, [0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])
@@ -19,8 +19,18 @@ def test_absorbed_until_a_force():
 
 def test_absorbed_until_a_force_is_interpolated_and_stops_at_the_first_time():
     force, work = np.array([0.0, 4.0, 2.0, 8.0]), np.array([0.0, 1.0, 2.0, 3.0])
-    assert absorbed_until(3.0, force, work) == pytest.approx(0.75)
-    assert absorbed_until(5.0, force, work) == pytest.approx(2.5)
+    assert absorbed_until(3.0, force, work) == pytest.approx(9 / 16)
+    assert absorbed_until(5.0, force, work) == pytest.approx(2.0 + (25 - 4) / (64 - 4))
+    assert stroke_until(3.0, force, work) == pytest.approx(0.75)
+
+
+def test_work_between_rows_is_the_integral_of_a_linear_force():
+    travel, force = np.array([0.0, 1e-3]), np.array([4.0, 10.0])
+    work = np.array([0.0, 0.5 * (4.0 + 10.0) * 1e-3])
+    at = stroke_until(7.0, force, travel)
+    assert absorbed_until(7.0, force, work) == pytest.approx(0.5 * (4.0 + 7.0) * at)
+    pulled = np.array([-2.0, 5.0])  # at the start, by which no work is done on the lattice
+    assert absorbed_until(3.0, pulled, travel) == pytest.approx(9 / 25 * 1e-3)
 
 
 def test_a_force_that_is_passed_on_from_the_start_or_by_one_row():
