@@ -223,7 +223,8 @@ class _Run:
             self._fill(worker)
         elif place not in self.compiling:
             self.compiling[place] = worker
-            self.say(f"worker {worker.name} compiles the kernels: {time_to_compile()}")
+            takes = f"this takes {time_to_compile()}"
+            self.say(f"worker {worker.name} compiles the kernels of its host, once: {takes}")
             self._submit(worker, partial(self._compiled, worker), NONE, load, kernels.cold)
         return []
 

@@ -4,6 +4,8 @@ import os
 import signal
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
@@ -55,6 +57,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     keeps finished cases and raises `Interrupted`. part: as of `Progress`.
     """
     config = sweep_of(sweep)
+    config = replace(config, name=config.name or Path(out).stem)
     cases = {case.case_id: case for case in expand(config)}
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()

@@ -220,8 +220,8 @@ def test_one_worker_of_a_host_compiles_first():
         recorded.end(COLD)
     assert recorded.waiting == [("a1", load), ("b1", load)]
     assert [line.split(": ")[0] for line in recorded.lines] == [
-        "worker a1 compiles the kernels",
-        "worker b1 compiles the kernels",
+        "worker a1 compiles the kernels of its host, once",
+        "worker b1 compiles the kernels of its host, once",
     ]
     recorded.end(None)
     assert recorded.waiting == [("b1", load), ("a1", inspect_kernels), ("a2", inspect_kernels)]
