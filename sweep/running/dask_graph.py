@@ -10,13 +10,14 @@ it. A worker gets batches when it has shown that it has the source of the run, a
 of its host are compiled.
 """
 
+import asyncio
 import time
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from queue import Empty, SimpleQueue
+from threading import Thread
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sweep.config.case import Case
@@ -33,11 +34,10 @@ from sweep.running.warming import load, time_to_compile
 if TYPE_CHECKING:
     from distributed import Future
 
-FETCHERS = 4  # threads that bring values here
 AHEAD = 3  # batches of a thread of a worker: one that runs, others so that it need not wait
 MOMENT = 0.2  # seconds between two checks for a stop
 LOOK = 1.0  # seconds between two looks at the workers
-LOSSES = 3  # workers that may be lost to one case
+LOSSES = 5  # workers that may be lost to one case
 LOST = f"each of {LOSSES} workers that ran it died; try a smaller model"
 KEPT = "what is finished is kept, and the same command runs the rest"
 
@@ -94,31 +94,24 @@ def run_on_cluster(  # noqa: PLR0913  what, where, how
 
     say: prints a line about the cluster. A `stop` ends the run early.
     """
-    with ThreadPoolExecutor(FETCHERS) as fetchers:
-        run = _Run(cluster, plan, work, stop, say, fetchers)
-        run.suspects += [Suspects([case]) for case in suspects]
-        try:
-            for results in run.results():
-                if results:
-                    sink(results)
-        finally:
-            run.cancel([*run.tasks])
+    run = _Run(cluster, plan, work, stop, say)
+    run.suspects += [Suspects([case]) for case in suspects]
+    try:
+        for results in run.results():
+            if results:
+                sink(results)
+    finally:
+        run.cancel([*run.tasks])
 
 
 class _Run:
     """Batches on workers: enough to keep them busy, few enough to hold in memory."""
 
     def __init__(
-        self,
-        cluster: Cluster,
-        plan: Plan,
-        work: Work,
-        stop: Stop,
-        say: Callable[[str], None],
-        fetchers: Executor,
+        self, cluster: Cluster, plan: Plan, work: Work, stop: Stop, say: Callable[[str], None]
     ) -> None:
         self.cluster, self.client, self.plan, self.work = cluster, cluster.client, plan, work
-        self.stop, self.say, self.fetchers = stop, say, fetchers
+        self.stop, self.say = stop, say
         self.workers: dict[str, Worker] = {}  # by address
         self.compiling: dict[str, Worker] = {}  # by host, or by address if it compiles for itself
         self.tasks: dict[Future, Task] = {}
@@ -202,13 +195,15 @@ class _Run:
         )
         self.tasks[future] = Task(worker, take, suspects)
         worker.tasks.add(future)
-        future.add_done_callback(lambda ended: self.fetchers.submit(self._fetch, ended))
+        future.add_done_callback(
+            lambda ended: Thread(target=self._fetch, args=[ended], daemon=True).start()
+        )
 
     def _fetch(self, future: "Future") -> None:
-        """Bring a value here: a worker that dies with it makes this wait until `_look` cancels."""
+        """Bring a value here: a thread waits, and for long if a worker dies with the value."""
         try:
             self.finished.put((future, future.result()))
-        except Exception as error:  # noqa: BLE001  `_land` knows what it means
+        except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001  `_land` sorts them
             self.finished.put((future, error))
 
     def _inspect(self, worker: Worker) -> None:
@@ -232,9 +227,8 @@ class _Run:
         """Inspect the workers of a host again, when one of them has compiled or is lost."""
         self.compiling = {at: worker for at, worker in self.compiling.items() if worker != compiler}
         for worker in self.workers.values():
-            if worker.host == compiler.host and not (
-                worker.ready or worker.refused or worker.tasks
-            ):
+            waits = not (worker.ready or worker.refused or worker.tasks)
+            if waits and worker.host == compiler.host:
                 self._inspect(worker)
         return []
 
@@ -266,10 +260,11 @@ class _Run:
         if task is None:  # of a worker that is lost
             return []
         task.worker.tasks.discard(future)
-        if isinstance(value, CancelledError):
+        if isinstance(value, CancelledError | asyncio.CancelledError):
             raise self._lost_scheduler() from value
         if isinstance(value, KilledWorker):  # again and again, and back under its address
-            return self._suspect(task.suspects)
+            self.workers.pop(task.worker.address, None)
+            return self._suspect(task.suspects) + self._lose(task.worker)
         if isinstance(value, Exception):
             self._refuse(task.worker, value)
             self.plan.put_back(task.suspects.cases)

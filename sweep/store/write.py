@@ -121,7 +121,7 @@ class Writer:
         self._parts, self._sealed = [], []
 
     def _refuse_others(self, parts: Sequence[Part]) -> None:
-        """Refuse a part of another sweep: it has a name that no part with a case of this one has."""
+        """Refuse a part whose sweep has another name, unless parts of that name share a case."""
         ids, own, others = self._about.axes.keys(), {_name_of(self._about.attributes)}, {}
         for part in parts if ids else ():
             with ExitStack() as stack:

@@ -7,15 +7,17 @@ from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import pytest
+from distributed import KilledWorker
 
 from sweep.result import Status
+from sweep.running.alone import run_alone
 from sweep.running.batches import Plan
 from sweep.running.cluster import ClusterError, open_cluster
 from sweep.running.dask_graph import LOSSES, Suspects, Work, _Run, run_on_cluster
 from sweep.running.fingerprint import source_hash
 from sweep.running.on_worker import Kernels, OtherSourceError, inspect_kernels
 from sweep.running.sweep import run_sweep
-from sweep.running.threads import Stop
+from sweep.running.threads import Stop, run_batch
 from sweep.running.warming import load
 from sweep.store.read import read_statuses
 from tests.support.cluster import ROOT, Processes
@@ -46,12 +48,12 @@ def poisonous(case, control=None):
     return brief(case)
 
 
-def ran(batch, where, simulate=brief, suspects=(), stop=None, wait=FOREVER):
+def ran(batch, where, simulate=brief, suspects=()):
     """The batches that come from a cluster, and the lines about it."""
-    kept, lines, stop = Kept(), [], stop or Stop()
+    kept, lines = Kept(), []
     plan, work = Plan(batch, 2), Work(simulate, [])
-    with open_cluster(where, wait) as cluster:
-        run_on_cluster(plan, work, kept, stop, cluster, lines.append, suspects)
+    with open_cluster(where, FOREVER) as cluster:
+        run_on_cluster(plan, work, kept, Stop(), cluster, lines.append, suspects)
     return kept, lines
 
 
@@ -87,16 +89,6 @@ def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed(shared):
     with open_cluster(shared.address) as cluster:
         assert len(cluster.client.nthreads()) == 1  # it killed one worker, and no second one
     shared.add()
-
-
-def test_suspects_of_an_earlier_run_kill_no_worker(shared):
-    with open_cluster(shared.address) as cluster:
-        before = {*cluster.client.nthreads()}
-        kept, _ = ran([], cluster, poisonous, suspects=cases(13)[10:])
-        assert {*cluster.client.nthreads()} >= before
-    died = [r for r in kept.results.values() if r.status is Status.WORKER_DIED]
-    assert [number_of(result.case) for result in died] == [11]
-    assert len(kept.results) == 3
 
 
 def test_stop_keeps_what_has_landed(shared):
@@ -182,7 +174,7 @@ class Recorded:
         )
         cluster = SimpleNamespace(client=client, wait=FOREVER, address="tcp://s:1")
         work = Work(simulate, list(kernels))
-        self.run = _Run(cluster, Plan(batch, 1), work, Stop(), self.lines.append, None)
+        self.run = _Run(cluster, Plan(batch, 1), work, Stop(), self.lines.append)
         self.workers = {}
 
     def add(self, name, host):
@@ -278,13 +270,37 @@ def test_if_no_worker_fits_the_run_ends_with_the_reason():
     assert str(failure.value).startswith(f"no worker at tcp://s:1 for 0 s; {why}; what is finished")
 
 
+def test_suspects_run_first_each_in_a_process_of_its_own():
+    recorded = Recorded(cases(3), kernels=())
+    recorded.run.suspects += [Suspects([case]) for case in cases(5)[3:]]
+    recorded.add("a1", "a")
+    recorded.end(WARM)
+    for case in reversed(cases(5)[3:]):
+        ((_, function, arguments, _),) = recorded.calls
+        assert (function, arguments) == (run_alone, (simulate, [case]))
+        recorded.end([simulate(case)])
+    assert recorded.waiting == [("a1", run_batch)]
+
+
+def test_a_worker_that_dies_and_is_back_under_its_address_is_inspected_again():
+    recorded = Recorded(cases(3))
+    recorded.add("a1", "a")
+    recorded.end(COLD)
+    recorded.end(KilledWorker("load", None, 3))
+    assert recorded.waiting == []
+    recorded.run._look()
+    assert recorded.waiting == [("a1", inspect_kernels)]
+    recorded.end(COLD)
+    assert recorded.waiting == [("a1", load)]
+
+
 def test_a_case_to_which_workers_are_lost_again_and_again_is_a_row():
     run = Recorded().run
     assert run._suspect(Suspects(cases(4))) == []
     assert [len(suspects.cases) for suspects in run.suspects] == [2, 2]
     rows = run._suspect(Suspects(cases(1), LOSSES - 1))
     assert [(row.status, row.case) for row in rows] == [(Status.WORKER_DIED, cases(1)[0])]
-    assert "each of 3 workers" in rows[0].message
+    assert f"each of {LOSSES} workers" in rows[0].message
 
 
 def test_long_cases_are_not_taken_ahead():
