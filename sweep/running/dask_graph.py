@@ -61,7 +61,7 @@ NONE = Suspects([])
 
 @dataclass(eq=False)
 class Worker:
-    """A worker as the run sees it. ready: it may have batches; refused: it never may."""
+    """A worker as the run sees it. ready: it may have batches; refused: it may have none."""
 
     address: str
     name: str
@@ -146,24 +146,38 @@ class _Run:
 
     def _look(self) -> list[Result]:
         """Learn which workers have come and gone; return rows of cases that are given up."""
-        try:
-            workers = self.client.scheduler_info(n_workers=-1)["workers"]
-        except OSError as error:
-            raise self._lost_scheduler() from error
-        if self.client.status != "running":
-            raise self._lost_scheduler()
-        present = {a: about for a, about in workers.items() if about["status"] == "running"}
+        present = self._present()
         gone = [self.workers.pop(address) for address in self.workers.keys() - present.keys()]
         rows = [row for worker in gone for row in self._lose(worker)]
         for address in present.keys() - self.workers.keys():
-            about = present[address]
-            name = address if about["name"] == address else f"{about['name']} ({address})"
-            self.workers[address] = Worker(address, name, about["host"], about["nthreads"])
+            name, host, threads = present[address]
+            called = address if name == address else f"{name} ({address})"
+            self.workers[address] = Worker(address, called, host, threads)
             self._inspect(self.workers[address])
         self._watch()
         for worker in self.workers.values():
             self._fill(worker)
         return rows
+
+    def _present(self) -> dict[str, tuple[str, str, int]]:
+        """Workers that run, not paused as their memory is full: address -> name, host, threads.
+
+        `Client.scheduler_info` would not do: now and then it returns an older state, without them.
+        """
+
+        def present(dask_scheduler: Any) -> dict[str, tuple[str, str, int]]:
+            workers = dask_scheduler.workers.values()
+            running = [worker for worker in workers if worker.status.name == "running"]
+            return {w.address: (str(w.name), w.host, w.nthreads) for w in running}
+
+        workers: dict[str, tuple[str, str, int]]
+        try:
+            if self.client.status == "running":
+                workers = self.client.run_on_scheduler(present)
+                return workers
+        except OSError as error:
+            raise self._lost_scheduler() from error
+        raise self._lost_scheduler()
 
     def _watch(self) -> None:
         """Say when no worker is left and when there are workers again; give up after a while."""

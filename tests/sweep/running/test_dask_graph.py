@@ -166,7 +166,7 @@ class Recorded:
     def __init__(self, batch=(), kernels=("marches",)):
         self.calls, self.lines = [], []
         client = SimpleNamespace(
-            scheduler_info=lambda **_: {"workers": self.workers},
+            run_on_scheduler=lambda _: self.workers,
             status="running",
             scheduler=SimpleNamespace(address="tcp://s:1"),
             submit=self.submit,
@@ -179,8 +179,7 @@ class Recorded:
 
     def add(self, name, host):
         """A worker of one thread joins."""
-        about = {"status": "running", "name": name, "host": host, "nthreads": 1}
-        self.workers[name] = about
+        self.workers[name] = name, host, 1
         self.run._look()
 
     def submit(self, _, __, function, *arguments, workers, pure):
