@@ -148,7 +148,7 @@ def _slurm() -> Any:
     try:
         cluster = SLURMCluster()
     except (TypeError, ValueError) as error:
-        line = f"{one_line(error)}; needed: jobqueue.slurm in a file of ~/.config/dask"
+        line = " ".join(f"{error}; needed: jobqueue.slurm in a file of ~/.config/dask".split())
         raise SchedulerError(f"{SLURM}: {line}") from error
     cluster.adapt(minimum=count, maximum=count)
     return cluster
