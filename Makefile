@@ -110,7 +110,7 @@ plates_solid: setup  ## compare a square tube of shells with one of bricks, thro
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (90 min)
 	@$(PYTHON) -m tests.studies.stability results/stability
 
-torture: setup  ## damage results files and kill runs; the tables go to results/torture/ (10 min)
+torture: setup  ## damage results files, kill runs, workers and schedulers; goes to results/torture/ (15 min)
 	@$(PYTHON) -m tests.studies.torture results/torture
 
 bench: setup  ## measure how fast it is; the tables go to results/bench/

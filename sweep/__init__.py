@@ -1,7 +1,8 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-The public functions raise `ConfigError`, `StoreError`, `RankError` and `ExportError`, which are
-public too. Each name is loaded when it is first used, so that `import sweep` takes almost no time.
+The public functions raise `ConfigError`, `StoreError`, `RankError`, `ExportError` and
+`ClusterError`, which are public too. Each name is loaded when it is first used, so that
+`import sweep` takes almost no time.
 
 Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
 case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.report.results import Picture, Results
     from sweep.result import Result, Status
+    from sweep.running.cluster import ClusterError
     from sweep.running.run import run
     from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Case",
+    "ClusterError",
     "Config",
     "ConfigError",
     "ExportError",
@@ -68,6 +71,7 @@ __all__ = [
 
 _HOME = {
     "Case": "config.case",
+    "ClusterError": "running.cluster",
     "Config": "config.grid",
     "ConfigError": "config.faults",
     "ExportError": "export.errors",

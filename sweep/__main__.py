@@ -1,7 +1,8 @@
 """The command line: `crumple VERB ...`, also `python -m crumple`. The verbs are in `cli/verbs.py`.
 
 Exit status: 0 done, also if no design meets what is asked, as that is an answer; 1 some cases
-failed, or the run was interrupted; 2 the config, a file or an argument cannot be used.
+failed, the run was interrupted, or its cluster failed; 2 the config, a file or an argument cannot
+be used.
 """
 
 import argparse
@@ -30,6 +31,7 @@ EXAMPLES = """examples:
   crumple run armor                             simulate; after a stop, the same command continues
   crumple run armor --error-bars                also estimate the error of each number, and ties
   crumple run armor --part 2/16                 the second of sixteen parts, as of a job array
+  crumple run armor --scheduler tcp://host:8786 --wait "2 h"    on a Dask cluster
   crumple run armor --spread                    also show what uncertain numbers change
   crumple run which_way --screen 1              crush one cell of each, then the best of each
   crumple optimize search --budget "1.2 g"      seek the best design within a budget
@@ -243,13 +245,7 @@ def _add_run(verbs: Any) -> None:
     run.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
-    where = run.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
-    where.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="of a Dask cluster, in place of threads: tcp://host:8786",
-    )
+    _add_place(run)
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument(
         "--error-bars",
@@ -297,9 +293,26 @@ def _add_optimize(verbs: Any) -> None:
     optimize.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
-    where = optimize.add_mutually_exclusive_group()
+    _add_place(optimize)
+
+
+def _add_place(verb: Any) -> None:
+    """Add where cases run: on threads or on a cluster."""
+    where = verb.add_mutually_exclusive_group()
     where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster: tcp://host:8786")
+    where.add_argument(
+        "--scheduler",
+        type=_path,
+        metavar="WHERE",
+        help="a Dask cluster in place of threads: tcp://host:8786, tls://host:8786, a scheduler "
+        "file, or slurm (default: DASK_SCHEDULER_ADDRESS, if it is set)",
+    )
+    verb.add_argument(
+        "--wait",
+        type=_duration,
+        metavar="TIME",
+        help='how long to wait while the cluster has no worker: "2 h" (default: "60 s")',
+    )
 
 
 def _add_accuracy(verbs: Any) -> None:
@@ -510,6 +523,20 @@ def _part(text: str) -> tuple[int, int]:
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: K/N, such as 2/8 for the second of eight")
 
 
+def _duration(text: str) -> float:
+    """A time in s."""
+    from sweep.config.faults import ConfigError
+    from sweep.config.units import quantity
+
+    try:
+        seconds = quantity(text, "s")
+    except ConfigError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if seconds < 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r}; allowed: a time of 0 s or more")
+    return seconds
+
+
 def _number(text: str) -> int:
     """A whole number, zero included."""
     if text.isdecimal():
@@ -584,7 +611,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _refuse(verb: str, why: Exception) -> int:
     print(f"crumple {verb}: {plain(why)}", file=sys.stderr)
-    return 2
+    return getattr(why, "exit_status", 2)
 
 
 def _silence() -> None:

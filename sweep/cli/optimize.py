@@ -8,6 +8,7 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
+from sweep.cli.cluster import cluster_of
 from sweep.cli.terminal import print_sheets, say, say_all
 from sweep.modes import MODES
 from sweep.numbers import text_in
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
     from sweep.config.grid import Config
-    from sweep.running.searching.search import Search
+    from sweep.running.searching.search import Search, Settings
 
 FORCES = "loading.allowed_forces"
 SHORT = 8  # characters of an id in a command
@@ -32,17 +33,25 @@ class OptimizeError(ValueError):
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
     from sweep.ranking.assessment import check_searched
-    from sweep.running.dask_graph import usual_workers
-    from sweep.running.searching.design_space import DesignSpace
-    from sweep.running.searching.search import Search, Settings
+    from sweep.running.searching.search import Settings
+    from sweep.running.threads import usual_workers
 
     if not config.recipe.search:
         wrong = "has no [search] with the keys that may be chosen"
         needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
         raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
     check_searched(config.recipe.search)
-    workers = arguments.workers or usual_workers()
-    how = Settings(arguments.evaluations, arguments.seed, workers, arguments.scheduler)
+    with cluster_of(arguments) as cluster:
+        workers = arguments.workers or usual_workers()
+        how = Settings(arguments.evaluations, arguments.seed, workers, cluster)
+        return _search(config, arguments, how)
+
+
+def _search(config: Config, arguments: Namespace, how: Settings) -> int:
+    """Search, and show what is best; return how many of the finalists' cases failed."""
+    from sweep.running.searching.design_space import DesignSpace
+    from sweep.running.searching.search import Search
+
     question = _question(config, arguments)
     limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
     space = DesignSpace(config, *limits)

@@ -16,7 +16,7 @@ REFUSALS = {
     f"{HOME}.cli.new": "NewError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.export.errors": "ExportError",
-    f"{HOME}.running.dask_graph": "GraphError",
+    f"{HOME}.running.cluster": "ClusterError",
     f"{HOME}.ranking.question": "RankError",
     f"{HOME}.ranking.accuracy": "AccuracyError",
     f"{HOME.rpartition('.')[0]}.kernels.compile.choice".lstrip("."): "CompilerError",

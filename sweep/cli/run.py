@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from sweep.cli.cluster import cluster_of
 from sweep.cli.question import question_of
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
@@ -32,9 +33,9 @@ def run(config: Config, arguments: Namespace) -> int:
 
     With --error-bars, a design without an error bar counts as a failure.
     """
-    from sweep.running.dask_graph import usual_workers
     from sweep.running.run import check_question
-    from sweep.store.read import Rerun, read_summary
+    from sweep.running.threads import usual_workers
+    from sweep.store.read import Rerun
 
     check_question(config)
     name, part = config.name, arguments.part
@@ -50,10 +51,17 @@ def run(config: Config, arguments: Namespace) -> int:
         say_all([UNKNOWN_BEST] if arguments.spread else [])
         say_all([SCREENED] if arguments.screen else [])
         return 0
+    with cluster_of(arguments) as cluster:
+        return _simulate(config, arguments, out, (workers, cluster, rerun))
+
+
+def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ...]) -> int:
+    """Simulate the missing cases, then rank; return how many failed."""
     from sweep.running.beside.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
+    from sweep.store.read import read_summary
 
-    how = workers, arguments.scheduler, rerun
+    part = arguments.part
     question = question_of(config.rank.budgets, config.rank.panel)
     question = question._replace(require=config.require.model_dump(), per=config.rank.per)
     failed, estimates = 0, None

@@ -52,8 +52,8 @@ def accuracy(arguments: Namespace) -> int:
     from sweep.config.grid import expand
     from sweep.ranking.accuracy import check_axes
     from sweep.report.publish import publish_accuracy
-    from sweep.running.dask_graph import usual_workers
     from sweep.running.sweep import run_sweep
+    from sweep.running.threads import usual_workers
 
     config, folder = _config(arguments.config), Path(arguments.out)
     cases, out = expand(config), folder / f"{config.name}.h5"
@@ -72,7 +72,7 @@ def warm(_: Namespace) -> int:
     from multiprocessing import get_context
 
     from kernels.compile.cache import is_lasting
-    from sweep.running.sweep import UNWRITABLE, cold_kernels, load
+    from sweep.running.warming import UNWRITABLE, cold_kernels, load
 
     if not is_lasting():
         raise ArgumentError(UNWRITABLE)

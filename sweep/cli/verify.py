@@ -57,7 +57,7 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
     """A sentence for each case that has other numbers now, or ends in another way."""
     import numpy as np
 
-    from sweep.running.sweep import real_simulate
+    from sweep.running.warming import real_simulate
     from sweep.store.read import read_case
 
     cases = [read_case(file, case_id) for case_id in rows.index]

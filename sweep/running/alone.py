@@ -1,6 +1,6 @@
 """A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-The process of a single case runs this module; function and case reach it by its standard input.
+The process of suspect cases runs this module; function and cases reach it by its standard input.
 """
 
 import os
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -34,15 +34,31 @@ def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
         return failed_result(case, Status.STOPPED, message)
 
 
-def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) -> Result | None:
-    """Result of a case in a process of its own, with the status `worker_died` if that dies; None
-    after a stop.
+def run_alone(
+    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool] = lambda: False
+) -> list[Result]:
+    """Results of cases in a process of their own; if it dies, of each half of them in another one.
 
-    simulate: a function of a module, by its name.
+    A case whose process dies with no other case in it has the status `worker_died`. After a stop
+    there are no further results. simulate: a function of a module, by its name.
     """
+    results = _run_in_child(simulate, batch, is_stopped)
+    if results is not None:
+        return results
+    if len(batch) == 1:
+        return [failed_result(batch[0], Status.WORKER_DIED, DIED)]
+    half = len(batch) // 2
+    first = run_alone(simulate, batch[:half], is_stopped)
+    return first + run_alone(simulate, batch[half:], is_stopped)
+
+
+def _run_in_child(
+    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool]
+) -> list[Result] | None:
+    """Results of cases in a process; None if it dies."""
     words, pipe = [sys.executable, "-P", "-m", __name__], subprocess.PIPE
     places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    task: bytes | None = pickle.dumps((simulate, case))
+    task: bytes | None = pickle.dumps((simulate, batch))
     with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
         words, stdin=pipe, stdout=pipe, env=places, start_new_session=True
     ) as process:
@@ -52,20 +68,18 @@ def run_alone(simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) ->
             except subprocess.TimeoutExpired:
                 task = None
                 continue
-            if process.returncode == 0:
-                result: Result = pickle.loads(output)
-                return result
-            return failed_result(case, Status.WORKER_DIED, DIED)
+            return pickle.loads(output) if process.returncode == 0 else None
         process.kill()
-    return None
+    return []
 
 
 def answer() -> None:
-    """Run the case on standard input; write its result to standard output, and nothing else."""
+    """Run the cases on standard input; write results to standard output, and nothing else."""
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    simulate, case = pickle.load(sys.stdin.buffer)
+    simulate, batch = pickle.load(sys.stdin.buffer)
     channel, sys.stdout = sys.stdout.buffer, sys.stderr
-    channel.write(pickle.dumps(attempt(simulate, case, np.zeros(2, np.int64))))
+    results = [attempt(simulate, case, np.zeros(2, np.int64)) for case in batch]
+    channel.write(pickle.dumps(results))
     channel.flush()
 
 

@@ -56,6 +56,18 @@ class Plan:
             self._left -= sum(map(cost, batch))
             return batch
 
+    def put_back(self, batch: Sequence[Case]) -> None:
+        """Take back a batch that has not run."""
+        with self._lock:
+            self._waiting.extendleft(reversed(batch))
+            self._left += sum(map(cost, batch))
+
+    def is_quick(self) -> bool:
+        """True if no waiting case takes longer than a batch should."""
+        with self._lock:
+            longest = cost(self._waiting[0]) if self._waiting else 0.0
+            return longest * self._seconds < SECONDS * self._done
+
     def learn(self, batch: Sequence[Case], seconds: float) -> None:
         """Update the pace with the duration of a batch on its worker."""
         with self._lock:

@@ -1,249 +1,321 @@
-"""Cases on threads of this process, or on the workers of a Dask cluster.
+"""Cases on the workers of a Dask cluster.
 
 With one task per case, Dask would need more time to build the graph than the cases need to run.
 Therefore a task is a batch of about one second of work, and the number of tasks in flight is
 limited.
+
+Each task is for one worker, so that Dask runs it on no other one: a batch whose worker dies comes
+back to the run, whatever the scheduler does with tasks of others, and takes no second worker with
+it. A worker gets batches when it has shown that it has the source of the run, and when the kernels
+of its host are compiled.
 """
 
+import asyncio
 import time
-from asyncio import wait_for
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
 from queue import Empty, SimpleQueue
-from threading import Lock
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from threading import Thread
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sweep.config.case import Case
-from sweep.result import Result, Status
-from sweep.running.alone import Simulate, attempt, one_line, run_alone
+from sweep.numbers import with_unit
+from sweep.result import Result, Status, failed_result
+from sweep.running.alone import Simulate, one_line, run_alone
 from sweep.running.batches import Plan
+from sweep.running.cluster import Cluster, ClusterError
+from sweep.running.fingerprint import fingerprint
+from sweep.running.on_worker import Kernels, OtherSourceError, checked, inspect_kernels
+from sweep.running.threads import Sink, Stop, run_batch
+from sweep.running.warming import load, time_to_compile
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Future
 
-MOST_THREADS = 8  # Python's lock is held 2 ms of a short case
-WINDOW = 8  # batches in flight per thread of a cluster
-ANSWER = 10  # seconds in which a scheduler must answer
-PATIENCE = 60  # seconds in which the first worker of a cluster must join
+AHEAD = 3  # batches of a thread of a worker: one that runs, others so that it need not wait
 MOMENT = 0.2  # seconds between two checks for a stop
-
-Sink = Callable[[list[Result]], None]
-
-
-def usual_workers() -> int:
-    """Threads of a run: one for each core that this process may use, as far as more pay."""
-    from dask.system import cpu_count
-
-    return min(cpu_count(), MOST_THREADS)
+LOOK = 1.0  # seconds between two looks at the workers
+LOSSES = 5  # workers that may be lost to one case
+LOST = f"each of {LOSSES} workers that ran it died; try a smaller model"
+KEPT = "what is finished is kept, and the same command runs the rest"
 
 
-class GraphError(Exception):
-    """Dask cannot run the sweep; the text is one line."""
+class Work(NamedTuple):
+    """What workers do with cases, and the kernels that they need for it."""
+
+    simulate: Simulate
+    kernels: list[str]
 
 
-class Stop:
-    """A request to stop, which also ends running simulations.
+class Suspects(NamedTuple):
+    """Cases that may have killed a worker, and how many workers were lost while they ran."""
 
-    Each running case has its own array `control`, int64 (2,): control[0] = 1 ends the case.
-    """
-
-    def __init__(self) -> None:
-        self.flag = False
-        self._running: dict[int, np.ndarray] = {}
-
-    def ask(self) -> None:
-        """End all running cases and start no further ones."""
-        self.flag = True
-        for control in list(self._running.values()):
-            control[0] = 1
-
-    @contextmanager
-    def control(self) -> Iterator[np.ndarray]:
-        """The array `control` of one case, while the case runs."""
-        control = np.zeros(2, dtype=np.int64)
-        self._running[id(control)] = control
-        control[0] = self.flag
-        try:
-            yield control
-        finally:
-            del self._running[id(control)]
+    cases: list[Case]
+    losses: int = 0
 
 
-def run_plan(
-    plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str | None = None
+NONE = Suspects([])
+
+
+@dataclass(eq=False)
+class Worker:
+    """A worker as the run sees it. ready: it may have batches; refused: it may have none."""
+
+    address: str
+    name: str
+    host: str
+    threads: int
+    ready: bool = False
+    refused: bool = False
+    tasks: "set[Future]" = field(default_factory=set)
+
+
+class Task(NamedTuple):
+    """A task in flight: its worker, what becomes of its value, and the cases in it."""
+
+    worker: Worker
+    take: Callable[[Any], list[Result]]
+    suspects: Suspects
+
+
+def run_on_cluster(  # noqa: PLR0913  what, where, how
+    plan: Plan,
+    work: Work,
+    sink: Sink,
+    stop: Stop,
+    cluster: Cluster,
+    say: Callable[[str], None],
+    suspects: Iterable[Case] = (),
 ) -> None:
-    """Run all cases of a plan, and pass each finished batch to `sink`, one at a time.
+    """Run suspects, each in a process of its own, and all cases of a plan on workers; pass finished
+    batches to `sink`, one at a time.
 
-    Without the address of a `scheduler`, they run on `plan.workers` threads; then `simulate`
-    should release the GIL. A `stop` ends the run early; interrupted cases do not reach the sink.
+    say: prints a line about the cluster. A `stop` ends the run early.
     """
-    if scheduler is None:
-        _run_on_threads(plan, simulate, sink, stop)
-    else:
-        _run_on_cluster(plan, simulate, sink, stop, scheduler)
-
-
-def _run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> None:
-    one_at_a_time = Lock()
-
-    def work() -> None:
-        """Batches, each taken when the last has ended: with the newest estimate of the pace."""
-        while not stop.flag and (batch := plan.take()):
-            results, seconds = run_batch(simulate, batch, stop)
-            plan.learn(batch, seconds)
-            with one_at_a_time:
+    run = _Run(cluster, plan, work, stop, say)
+    run.suspects += [Suspects([case]) for case in suspects]
+    try:
+        for results in run.results():
+            if results:
                 sink(results)
-
-    with ThreadPoolExecutor(plan.workers) as pool:
-        try:
-            for ended in as_completed([pool.submit(work) for _ in range(plan.workers)]):
-                ended.result()
-        except BaseException:  # of the sink, or a second Ctrl-C: the other threads end too
-            stop.ask()
-            raise
-
-
-def run_batch(
-    simulate: Simulate, batch: Sequence[Case], stop: Stop | None = None
-) -> tuple[list[Result], float]:
-    """Results of a batch, without interrupted cases, and the duration of the batch in s."""
-    stop = stop or Stop()
-    started = time.perf_counter()
-    results = []
-    for case in batch:
-        if stop.flag:
-            break
-        with stop.control() as control:
-            result = attempt(simulate, case, control)
-        if not (stop.flag and result.status is Status.STOPPED):
-            results.append(result)
-    return results, time.perf_counter() - started
-
-
-def _run_on_cluster(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop, scheduler: str) -> None:
-    try:
-        with _connected(scheduler, stop) as client, _no_retries(client):
-            batches = _BatchesOnCluster(client, plan, simulate, stop)
-            for results in batches.results():
-                sink(results)
-    except OSError as error:
-        line = f"lost the Dask scheduler at {scheduler}; the same command runs the rest"
-        raise GraphError(line) from error
-
-
-def check_scheduler(scheduler: str) -> None:
-    """Refuse an address at which no Dask scheduler answers: a `Client` could wait forever."""
-    from distributed.utils import LoopRunner
-
-    try:
-        kind = LoopRunner().run_sync(_identify, scheduler)
-    except (ValueError, TypeError) as error:
-        allowed = "a Dask scheduler such as tcp://host:8786"
-        raise GraphError(f'"{scheduler}" is no address; allowed: {allowed}') from error
-    except Exception as error:
-        raise GraphError(f"no Dask scheduler answers at {scheduler}") from error
-    if kind != "Scheduler":
-        raise GraphError(f"{scheduler} is a Dask {kind}; needed: its scheduler")
-
-
-async def _identify(address: str) -> str:
-    """Type of the server at an address: "Scheduler", "Worker", ..."""
-    from distributed import Security, rpc
-
-    security = Security().get_connection_args("client")
-    async with rpc(address, timeout=ANSWER, connection_args=security) as server:
-        identity = await wait_for(server.identity(), ANSWER)
-    return str(identity["type"])
-
-
-@contextmanager
-def _connected(scheduler: str, stop: Stop) -> "Iterator[Client]":
-    from distributed import Client
-
-    try:
-        client = Client(scheduler, set_as_default=False, timeout=ANSWER)
-    except ImportError as error:
-        raise GraphError(f"the Dask scheduler at {scheduler}: {one_line(error)}") from error
-    with client:
-        limit = time.monotonic() + PATIENCE
-        while not (client.nthreads() or stop.flag):
-            if time.monotonic() > limit:
-                line = f"no worker joined the Dask scheduler at {scheduler} within {PATIENCE} s"
-                raise GraphError(line)
-            time.sleep(MOMENT)
-        yield client
-
-
-@contextmanager
-def _no_retries(client: "Client") -> Iterator[None]:
-    """Let the scheduler give up a task when its worker dies; a retry could kill more workers."""
-
-    def allow(count: int, dask_scheduler: Any = None) -> int:
-        before: int = dask_scheduler.allowed_failures
-        dask_scheduler.allowed_failures = count
-        return before
-
-    before = client.run_on_scheduler(allow, 0)
-    try:
-        yield
     finally:
-        client.run_on_scheduler(allow, before)
+        run.cancel([*run.tasks])
 
 
-class _BatchesOnCluster:
-    """Batches on a cluster: enough to keep its workers busy, few enough to hold in memory."""
+class _Run:
+    """Batches on workers: enough to keep them busy, few enough to hold in memory."""
 
-    def __init__(self, client: "Client", plan: Plan, simulate: Simulate, stop: Stop) -> None:
-        self.client, self.plan, self.simulate, self.stop = client, plan, simulate, stop
-        self.running: dict[Future, list[Case]] = {}
-        self.finished: SimpleQueue[Future] = SimpleQueue()
-        self.suspects: list[list[Case]] = []
+    def __init__(
+        self, cluster: Cluster, plan: Plan, work: Work, stop: Stop, say: Callable[[str], None]
+    ) -> None:
+        self.cluster, self.client, self.plan, self.work = cluster, cluster.client, plan, work
+        self.stop, self.say = stop, say
+        self.workers: dict[str, Worker] = {}  # by address
+        self.compiling: dict[str, Worker] = {}  # by host, or by address if it compiles for itself
+        self.tasks: dict[Future, Task] = {}
+        self.finished: SimpleQueue[tuple[Future, Any]] = SimpleQueue()  # with value or exception
+        self.suspects: list[Suspects] = []
+        self.idle_since: float | None = None  # since when there is no worker
+        self.had_workers = False
+        self.refusal = ""  # the last one
 
     def results(self) -> Iterator[list[Result]]:
         """Results of each batch when it finishes, until all have finished or a stop."""
-        self._submit()
-        while self.running and not self.stop.flag:
-            try:
-                future = self.finished.get(timeout=MOMENT)
-            except Empty:
-                continue
-            yield self._results(future, self.running.pop(future))
-            self._submit()
-        for future in [future for future in self.running if future.status == "finished"]:
-            yield self._results(future, self.running.pop(future))
-        self.client.cancel(list(self.running))
+        look = 0.0
+        while self._is_left() and not self.stop.flag:
+            if time.monotonic() > look:
+                yield self._look()
+                look = time.monotonic() + LOOK
+            with suppress(Empty):
+                yield self._land(*self.finished.get(timeout=MOMENT))
+        while not self.finished.empty():
+            yield self._land(*self.finished.get())
 
-    def _submit(self) -> None:
-        self.plan.workers = max(sum(self.client.nthreads().values()), 1)
-        while len(self.running) < WINDOW * self.plan.workers and (batch := self._next_batch()):
-            future = self.client.submit(run_batch, self.simulate, batch, pure=False)
-            self.running[future] = batch
-            future.add_done_callback(self.finished.put)
+    def cancel(self, futures: "list[Future]") -> None:
+        """Forget tasks, here and in the scheduler."""
+        for future in futures:
+            self.tasks.pop(future).worker.tasks.discard(future)
+        if futures and self.client.status == "running":
+            self.client.cancel(futures)
 
-    def _next_batch(self) -> list[Case]:
-        """The next batch; one that lost its worker comes last, since it may kill another one."""
-        return self.plan.take() or (self.suspects.pop() if self.suspects else [])
+    def _is_left(self) -> bool:
+        waiting = len(self.plan) or self.suspects
+        return bool(waiting) or any(task.suspects.cases for task in self.tasks.values())
 
-    def _results(self, future: "Future", batch: list[Case]) -> list[Result]:
-        from distributed import KilledWorker
+    def _look(self) -> list[Result]:
+        """Learn which workers have come and gone; return rows of cases that are given up."""
+        present = self._present()
+        gone = [self.workers.pop(address) for address in self.workers.keys() - present.keys()]
+        rows = [row for worker in gone for row in self._lose(worker)]
+        for address in present.keys() - self.workers.keys():
+            name, host, threads = present[address]
+            called = address if name == address else f"{name} ({address})"
+            self.workers[address] = Worker(address, called, host, threads)
+            self._inspect(self.workers[address])
+        self._watch()
+        for worker in self.workers.values():
+            self._fill(worker)
+        return rows
 
+    def _present(self) -> dict[str, tuple[str, str, int]]:
+        """Workers that run, not paused as their memory is full: address -> name, host, threads.
+
+        `Client.scheduler_info` would not do: now and then it returns an older state, without them.
+        """
+
+        def present(dask_scheduler: Any) -> dict[str, tuple[str, str, int]]:
+            workers = dask_scheduler.workers.values()
+            running = [worker for worker in workers if worker.status.name == "running"]
+            return {w.address: (str(w.name), w.host, w.nthreads) for w in running}
+
+        workers: dict[str, tuple[str, str, int]]
         try:
-            results, seconds = future.result()
-        except KilledWorker:
-            return self._halve(batch)
-        except Exception as error:
-            raise GraphError(f"the Dask workers cannot run a batch: {one_line(error)}") from error
-        self.plan.learn(batch, seconds)
-        return list(results)
+            if self.client.status == "running":
+                workers = self.client.run_on_scheduler(present)
+                return workers
+        except OSError as error:
+            raise self._lost_scheduler() from error
+        raise self._lost_scheduler()
 
-    def _halve(self, batch: list[Case]) -> list[Result]:
-        """Halve a batch that lost its worker; a single case runs in a process of its own."""
-        half = len(batch) // 2
-        if half == 0:
-            result = run_alone(self.simulate, batch[0], lambda: self.stop.flag)
-            return [result] if result else []
-        self.suspects += [batch[:half], batch[half:]]
+    def _watch(self) -> None:
+        """Say when no worker is left and when there are workers again; give up after a while."""
+        usable = [worker for worker in self.workers.values() if not worker.refused]
+        self.plan.workers = max(sum(worker.threads for worker in usable), 1)
+        address, limit = self.cluster.address, with_unit(self.cluster.wait, "s")
+        if usable:
+            if self.idle_since is not None and self.had_workers:
+                self.say(f"there are workers again: {len(usable)}")
+            self.idle_since, self.had_workers = None, True
+        elif self.idle_since is None:
+            self.idle_since = time.monotonic()
+            what = "no worker is left" if self.had_workers else "no worker has joined yet"
+            self.say(f"{what} at {address}; waiting {limit} for one")
+        elif time.monotonic() - self.idle_since > self.cluster.wait:
+            why = f"; {self.refusal}" if self.refusal else ""
+            raise ClusterError(f"no worker at {address} for {limit}{why}; {KEPT}")
+
+    def _submit(
+        self,
+        worker: Worker,
+        take: Callable[[Any], list[Result]],
+        suspects: Suspects,
+        *call: Any,
+    ) -> None:
+        """Have one worker, and no other, call a function with arguments."""
+        future = self.client.submit(
+            checked, fingerprint(), *call, workers=[worker.address], pure=False
+        )
+        self.tasks[future] = Task(worker, take, suspects)
+        worker.tasks.add(future)
+        future.add_done_callback(
+            lambda ended: Thread(target=self._fetch, args=[ended], daemon=True).start()
+        )
+
+    def _fetch(self, future: "Future") -> None:
+        """Bring a value here: a thread waits, and for long if a worker dies with the value."""
+        try:
+            self.finished.put((future, future.result()))
+        except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001  `_land` sorts them
+            self.finished.put((future, error))
+
+    def _inspect(self, worker: Worker) -> None:
+        take = partial(self._inspected, worker)
+        self._submit(worker, take, NONE, inspect_kernels, self.work.kernels)
+
+    def _inspected(self, worker: Worker, kernels: Kernels) -> list[Result]:
+        """A worker gets batches, compiles the kernels, or waits for another one of its host."""
+        place = worker.host if kernels.lasting else worker.address
+        if not kernels.cold:
+            worker.ready = True
+            self._fill(worker)
+        elif place not in self.compiling:
+            self.compiling[place] = worker
+            takes = f"this takes {time_to_compile()}"
+            self.say(f"worker {worker.name} compiles the kernels of its host, once: {takes}")
+            self._submit(worker, partial(self._compiled, worker), NONE, load, kernels.cold)
         return []
+
+    def _compiled(self, compiler: Worker, _: None = None) -> list[Result]:
+        """Inspect the workers of a host again, when one of them has compiled or is lost."""
+        self.compiling = {at: worker for at, worker in self.compiling.items() if worker != compiler}
+        for worker in self.workers.values():
+            waits = not (worker.ready or worker.refused or worker.tasks)
+            if waits and worker.host == compiler.host:
+                self._inspect(worker)
+        return []
+
+    def _fill(self, worker: Worker) -> None:
+        """Give a worker what keeps it busy."""
+        while worker.ready and not self.stop.flag:
+            free = len(worker.tasks) < worker.threads
+            ahead = self.plan.is_quick() and len(worker.tasks) < AHEAD * worker.threads
+            if free and self.suspects:
+                suspects = self.suspects.pop()
+                call = run_alone, self.work.simulate, suspects.cases
+                self._submit(worker, list, suspects, *call)
+            elif (free or ahead) and (batch := self.plan.take()):
+                take = partial(self._learn, batch)
+                self._submit(worker, take, Suspects(batch), run_batch, self.work.simulate, batch)
+            else:
+                return
+
+    def _learn(self, batch: list[Case], value: tuple[list[Result], float]) -> list[Result]:
+        results, seconds = value
+        self.plan.learn(batch, seconds)
+        return results
+
+    def _land(self, future: "Future", value: Any) -> list[Result]:
+        """Results of a task that has ended, with a value or an exception."""
+        from distributed import CancelledError, KilledWorker
+
+        task = self.tasks.pop(future, None)
+        if task is None:  # of a worker that is lost
+            return []
+        task.worker.tasks.discard(future)
+        if isinstance(value, CancelledError | asyncio.CancelledError):
+            raise self._lost_scheduler() from value
+        if isinstance(value, KilledWorker):  # again and again, and back under its address
+            self.workers.pop(task.worker.address, None)
+            return self._suspect(task.suspects) + self._lose(task.worker)
+        if isinstance(value, Exception):
+            self._refuse(task.worker, value)
+            self.plan.put_back(task.suspects.cases)
+            return []
+        rows = task.take(value)
+        self._fill(task.worker)
+        return rows
+
+    def _refuse(self, worker: Worker, error: Exception) -> None:
+        """Give a worker nothing more, as it is another one than the run needs."""
+        if worker.refused:
+            return
+        worker.ready, worker.refused = False, True
+        other = isinstance(error, OtherSourceError)
+        why = f"has {error}" if other else f"cannot run Crumple: {one_line(error)}"
+        self.refusal = f"worker {worker.name} is refused: it {why}"
+        self.say(self.refusal)
+        self._compiled(worker)
+
+    def _lose(self, worker: Worker) -> list[Result]:
+        """Take back what a worker had that is gone."""
+        lost = [self.tasks[future].suspects for future in worker.tasks]
+        self.cancel([*worker.tasks])
+        self._compiled(worker)
+        return [row for suspects in lost for row in self._suspect(suspects)]
+
+    def _suspect(self, suspects: Suspects) -> list[Result]:
+        """Run cases whose worker is lost again, in halves; a row for one that loses too many."""
+        cases, losses = suspects.cases, suspects.losses + 1
+        half = len(cases) // 2
+        if half:
+            self.suspects += [Suspects(cases[:half]), Suspects(cases[half:])]
+        elif cases and losses < LOSSES:
+            self.suspects.append(Suspects(cases, losses))
+        else:
+            return [failed_result(case, Status.WORKER_DIED, LOST) for case in cases]
+        return []
+
+    def _lost_scheduler(self) -> ClusterError:
+        return ClusterError(f"lost the Dask scheduler at {self.cluster.address}; {KEPT}")

@@ -26,8 +26,9 @@ from sweep.running.alone import Simulate
 from sweep.running.batches import Plan, cost
 from sweep.running.beside.error_bars import companions_beside
 from sweep.running.beside.run_beside import file_beside
-from sweep.running.dask_graph import Stop, run_plan
-from sweep.running.sweep import Interrupted, interruptible, real_simulate
+from sweep.running.sweep import Interrupted, interruptible
+from sweep.running.threads import Stop, run_on_threads
+from sweep.running.warming import real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
 BYTES = 4  # of a stored number, in single precision
@@ -134,7 +135,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
-        run_plan(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
+        run_on_threads(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
     if stop.flag:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}

@@ -105,7 +105,7 @@ class Progress:
         self.failed += 1
         if result.message not in self._sentences and len(self._sentences) < SENTENCES:
             self._sentences.add(result.message)
-            self._say(f"case {result.case_id} {result.status}: {result.message}")
+            self.say(f"case {result.case_id} {result.status}: {result.message}")
 
     def _measure(self, now: float) -> None:
         self._recent.append((now, self.done, self._left))
@@ -137,7 +137,8 @@ class Progress:
         if self._notebook:
             self._notebook.show(line)
         else:
-            self._say(line)
+            self.say(line)
 
-    def _say(self, line: str) -> None:
+    def say(self, line: str) -> None:
+        """Print a line, above the bar if there is one."""
         self.console.print(plain(line), markup=False, highlight=False, soft_wrap=True)

@@ -4,20 +4,25 @@ import os
 import signal
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand, sweep_of
 from sweep.numbers import counted
-from sweep.result import HOW_TO_RENEW, Status
+from sweep.result import HOW_TO_RENEW, Result, Status
 from sweep.running.alone import Simulate, run_alone
 from sweep.running.batches import Plan, cost
-from sweep.running.dask_graph import Stop, check_scheduler, run_plan
+from sweep.running.cluster import Cluster, Scheduler, open_cluster
+from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal
 from sweep.running.period_note import sentences_on_periods
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.running.relaxation_warning import sentences_on_lossless
+from sweep.running.threads import Sink, Stop, run_on_threads
+from sweep.running.warming import real_simulate, simulate_unloaded
 from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import (
     ONLY_MISSING,
@@ -30,7 +35,6 @@ from sweep.store.read import (
 from sweep.store.write import WriteError, Writer
 
 SUSPECTED = "ran when the last run died: now first, each in a process of its own"
-UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
 
 
 class Interrupted(KeyboardInterrupt):
@@ -41,24 +45,24 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     sweep: Config | Sequence[Case],
     out: str | os.PathLike[str],
     workers: int = 2,
-    scheduler: str | None = None,
+    scheduler: Scheduler = None,
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
     part: bool = False,
 ) -> int:
     """Run the cases that `out` does not hold; return how many cases of the sweep are not converged.
 
-    scheduler: address of a Dask scheduler; without one, `workers` threads of this process.
+    scheduler: as of `open_cluster`; without one, `workers` threads of this process.
     rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
     keeps finished cases and raises `Interrupted`. part: as of `Progress`.
     """
     config = sweep_of(sweep)
+    config = replace(config, name=config.name or Path(out).stem)
     cases = {case.case_id: case for case in expand(config)}
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()
-    if scheduler is not None:
-        check_scheduler(scheduler)
     with ExitStack() as stack:
+        cluster = stack.enter_context(open_cluster(scheduler))
         try:
             about = describe_run(config_text(config))
             writer = stack.enter_context(Writer(out, axes, about))
@@ -78,9 +82,9 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         asked = list(waiting.values())
         for line in (*sentences_on_lossless(asked), *sentences_on_periods(asked)):
             announce(line)
-        chosen = simulate or real_simulate(waiting.values()) if waiting else None
+        work = _work(simulate, asked, cluster) if waiting else None
         with interruptible(stop):
-            if not chosen:
+            if not work:
                 with writer_thread() as thread:
                     thread.submit(writer.fold).result()
             else:
@@ -96,12 +100,13 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
-                    for case in suspects:
-                        if result := run_alone(chosen, case, lambda: stop.flag):
-                            sink([result])
-                            journal.end(case.case_id)
-                    watched = journal.watched(chosen) if scheduler is None else chosen
-                    run_plan(plan, watched, sink, stop, scheduler)
+                    keep = _ending(suspects, journal, sink)
+                    if cluster:
+                        run_on_cluster(plan, work, keep, stop, cluster, progress.say, suspects)
+                    else:
+                        for case in suspects:
+                            keep(run_alone(work.simulate, [case], lambda: stop.flag))
+                        run_on_threads(plan, journal.watched(work.simulate), sink, stop)
     kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
@@ -109,47 +114,29 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     return len(cases) - _converged(out, cases)
 
 
+def _work(simulate: Simulate | None, cases: Sequence[Case], cluster: Cluster | None) -> Work:
+    """What runs the cases; the kernels that they need are loaded only where they run."""
+    if simulate:
+        return Work(simulate, [])
+    return Work(*simulate_unloaded(cases)) if cluster else Work(real_simulate(cases), [])
+
+
+def _ending(suspects: Iterable[Case], journal: Journal, sink: Sink) -> Sink:
+    """A sink that also notes in the journal which suspects have ended."""
+    ids = {case.case_id for case in suspects}
+
+    def keep(results: list[Result]) -> None:
+        sink(results)
+        for case_id in ids & {result.case_id for result in results}:
+            journal.end(case_id)
+
+    return keep
+
+
 def _converged(out: str | os.PathLike[str], cases: Iterable[str]) -> int:
     """How many of these cases, by id, have converged."""
     statuses = read_statuses(out)
     return sum(statuses.get(case_id) == Status.CONVERGED for case_id in cases)
-
-
-def real_simulate(cases: Iterable[Case]) -> Simulate:
-    """The function `simulate_again`, with the kernels that these cases need.
-
-    It is imported only here, since it loads or compiles the kernels.
-    """
-    from kernels.compile.cache import is_lasting
-    from kernels.compile.choice import FAST, compiler
-    from sweep.simulation.retries import simulate_again
-    from sweep.simulation.simulate import kernels_of
-
-    kernels = sorted({kernels_of(case) for case in cases})
-    if cold_kernels(kernels):
-        takes = "a minute or two" if compiler() == FAST else "two or three minutes"
-        announce(f"compiling the kernels, once: this takes {takes}")
-        if not is_lasting():
-            announce(f"for this run alone: {UNWRITABLE}")
-    load(kernels)
-    return simulate_again
-
-
-def cold_kernels(kernels: Iterable[str]) -> list[str]:
-    """Those of the named kernels (keys of `SMALLEST`) that may have to be compiled."""
-    from kernels.compile.cache import is_cold
-
-    return [name for name in kernels if is_cold(name)]
-
-
-def load(kernels: Iterable[str]) -> None:
-    """Load or compile the named kernels, and note that they are kept."""
-    from kernels.compile.cache import warmed_up
-    from sweep.simulation.simulate import warm_up
-
-    for name in kernels:
-        warm_up([name])
-        warmed_up(name)
 
 
 @contextmanager

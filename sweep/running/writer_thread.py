@@ -6,8 +6,8 @@ from contextlib import contextmanager
 
 from sweep.result import Result
 from sweep.running.batches import Plan
-from sweep.running.dask_graph import Sink
 from sweep.running.progress import Progress
+from sweep.running.threads import Sink
 from sweep.store.read import StoreError
 from sweep.store.write import Writer
 

@@ -1,7 +1,8 @@
 """The status of a case that does not finish, and its sentence: what happened, and what to try.
 
 A converged case whose material breaks has a sentence too. Cases that end without a simulation, as
-their memory or their worker is lost, have theirs in `running.dask_graph`, which alone sees that.
+their memory or their worker is lost, have theirs in `running.alone` and `running.dask_graph`, which
+alone see that.
 """
 
 from collections.abc import Mapping

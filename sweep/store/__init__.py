@@ -2,5 +2,5 @@
 
 `write` decides when rows are written, `parts` names the sealed files, `hdf5` writes one, `read`
 reads all of them, and `lock` admits one writer at a time. `batch` and `tables` hold rows in memory.
-`hdf5` and `read` are the only home of h5py.
+`hdf5` and `read` are the only home of h5py, `errors` has the one error.
 """

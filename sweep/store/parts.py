@@ -11,6 +11,8 @@ from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from sweep.store.errors import StoreError
+
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
@@ -135,11 +137,11 @@ def discard(parts: list[Part]) -> None:
 
 def clear_leftovers(path: Path, folded: int) -> None:
     """Delete the remains of a killed writer: temporary files, and parts stored elsewhere."""
+    needed = {part for part in list_parts(path) if part.last > folded}
     path.with_name(path.name + _TEMPORARY).unlink(missing_ok=True)
     for temporary in parts_folder(path).glob("*.h5" + _TEMPORARY):
         if _NAME.fullmatch(temporary.name.removesuffix(_TEMPORARY)):
             temporary.unlink()
-    needed = {part for part in list_parts(path) if part.last > folded}
     discard([part for part in _found(path) if part not in needed])
 
 
@@ -152,9 +154,19 @@ def remove_folder(path: Path) -> None:
 
 def _found(path: Path) -> list[Part]:
     folder = parts_folder(path)
+    _refuse_link(folder)
     names = os.listdir(folder) if folder.is_dir() else []
     matches = [match for name in names if (match := _NAME.fullmatch(name))]
-    return [Part(int(match[1]), int(match[2]), folder / match[0]) for match in matches]
+    parts = [Part(int(match[1]), int(match[2]), folder / match[0]) for match in matches]
+    for part in parts:
+        _refuse_link(part.path)
+    return parts
+
+
+def _refuse_link(path: Path) -> None:
+    """A link leads to what is no part of the results, and must not be deleted with the parts."""
+    if path.is_symlink():
+        raise StoreError(f"{path} is a link: remove it; allowed: what a run has written there.")
 
 
 def _synchronise(path: Path) -> None:

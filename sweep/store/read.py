@@ -32,6 +32,7 @@ from sweep.columns import HISTORY_COLUMNS
 from sweep.result import MODEL_VERSION, Status
 from sweep.store.batch import FORMAT, FRAME_GROUPS, GROUPS, TEXT, Block, Ragged, newest
 from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
+from sweep.store.errors import StoreError as StoreError
 from sweep.store.parts import list_parts
 from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
@@ -72,10 +73,6 @@ class StoredRun(NamedTuple):
     case_id: str
     history: "DataFrame"
     frames: dict[str, np.ndarray]
-
-
-class StoreError(Exception):
-    """A results file that cannot be read or written; the text is one line."""
 
 
 def exists(path: str | os.PathLike[str]) -> bool:

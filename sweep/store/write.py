@@ -1,8 +1,9 @@
 """The writer of a results file: seals batches as parts, merges parts, folds them into the file."""
 
+import json
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
@@ -34,6 +35,8 @@ from sweep.store.read import (
     open_whole,
 )
 from sweep.store.tables import Axes
+
+ASIDE = "move it away; `crumple merge` brings its rows into any results file"
 
 
 class WriteError(StoreError):
@@ -70,6 +73,7 @@ class Writer:
             make_folder(self.path.parent)
             stack.enter_context(_only_writer(self.path))
             folded = folded_batches(self.path)
+            self._refuse_others(list_parts(self.path))
             clear_leftovers(self.path, folded)
             parts = list_parts(self.path)
             self._count(max([folded, *(part.last for part in parts)]))
@@ -116,6 +120,19 @@ class Writer:
             remove_folder(self.path)
         self._parts, self._sealed = [], []
 
+    def _refuse_others(self, parts: Sequence[Part]) -> None:
+        """Refuse a part whose sweep has another name, unless parts of that name share a case."""
+        ids, own, others = self._about.axes.keys(), {_name_of(self._about.attributes)}, {}
+        for part in parts if ids else ():
+            with ExitStack() as stack:
+                block = open_sealed(part.path, stack)
+                others[part.path] = name = _name_of(block.attributes)
+                own |= set() if ids.isdisjoint(block.summary["case_id"]) else {name}
+        for path, name in others.items():
+            if name not in own:
+                of = f"another sweep, {name}" if name else "another sweep"
+                raise StoreError(f"{path} is a part of {of}: {ASIDE}.")
+
     def _block(self, results: Sequence[Result]) -> Block:
         return block_of(results, self._about.attributes.get("git_revision", ""))
 
@@ -147,6 +164,13 @@ class Writer:
             seal_blocks(merged.path, blocks, self._about, packed=True)
         discard(parts)
         return merged
+
+
+def _name_of(attributes: Mapping[str, Any]) -> str:
+    """Name of the sweep of a file, by the config in its attributes; "" if it has none."""
+    with suppress(ValueError, AttributeError):
+        return str(json.loads(attributes.get("config", "")).get("name", ""))
+    return ""
 
 
 @contextmanager

@@ -31,7 +31,8 @@ FLOORS = [
 HOMES = {
     "numba": "kernels.compile",
     "llvmlite": "kernels.compile",
-    "distributed": "sweep.running.dask_graph",
+    "distributed": "sweep.running.cluster sweep.running.dask_graph",
+    "dask_jobqueue": "sweep.running.cluster",
     "h5py": "sweep.store.read sweep.store.hdf5",
     "matplotlib": "sweep.report.figures.case_plots",
     "manifold3d": "sweep.export.solid",

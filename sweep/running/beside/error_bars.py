@@ -31,6 +31,7 @@ from sweep.ranking.unfinished import loaded
 from sweep.running.alone import Simulate
 from sweep.running.beside.refinement import pieces, refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
@@ -122,7 +123,7 @@ def add_error_bars(
     sweep: Config | Sequence[Case],
     out: str | os.PathLike[str],
     workers: int = 2,
-    scheduler: str | None = None,
+    scheduler: Scheduler = None,
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> int:

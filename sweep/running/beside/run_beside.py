@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 
 from sweep.config.case import Case
 from sweep.running.alone import Simulate
+from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
@@ -16,7 +17,7 @@ class How(NamedTuple):
     """How cases run: the arguments of `run_sweep` after the results file."""
 
     workers: int = 2
-    scheduler: str | None = None
+    scheduler: Scheduler = None
     rerun: Rerun = ONLY_MISSING
     simulate: Simulate | None = None
 

@@ -31,6 +31,7 @@ from sweep.ranking.unfinished import loaded
 from sweep.result import design_columns
 from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.cluster import Scheduler
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 
 EXTENSIVE = ("J", "N", "g")
@@ -72,7 +73,7 @@ def run_columns(
     designs: Sequence[Case],
     out: str | os.PathLike[str],
     workers: int = 2,
-    scheduler: str | None = None,
+    scheduler: Scheduler = None,
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> DataFrame:

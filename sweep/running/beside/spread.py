@@ -18,6 +18,7 @@ from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.cluster import Scheduler
 from sweep.store.read import ONLY_MISSING, Rerun, read_case
 
 FRICTION = (
@@ -104,7 +105,7 @@ def run_corners(
     by_design: Mapping[str, Sequence[Corner]],
     out: str | os.PathLike[str],
     workers: int = 2,
-    scheduler: str | None = None,
+    scheduler: Scheduler = None,
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> None:

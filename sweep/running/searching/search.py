@@ -34,6 +34,7 @@ from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Cache, with_allowed
 from sweep.ranking.question import Question
 from sweep.running.alone import Simulate
+from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.sweep import run_sweep
@@ -49,12 +50,12 @@ RENEW = Rerun(older=True)  # a search does not compare versions of the model
 
 
 class Settings(NamedTuple):
-    """How to search: number of designs, seed, threads or the address of a Dask scheduler."""
+    """How to search: number of designs, seed, threads or a scheduler as of `open_cluster`."""
 
     evaluations: int = 150
     seed: int = 1
     workers: int = 2
-    scheduler: str | None = None
+    scheduler: Scheduler = None
 
 
 @dataclass

@@ -3,7 +3,7 @@
 from kernels.compile.cache import cache_home
 from sweep.__main__ import main
 from sweep.config.case import Case
-from sweep.running.sweep import real_simulate
+from sweep.running.warming import real_simulate
 from sweep.store.read import read_summary
 from tests.studies.bench import starts
 

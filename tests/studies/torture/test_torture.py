@@ -1,8 +1,8 @@
-"""A fast slice of the study of damaged files and killed runs."""
+"""A fast slice of the study of damaged files, killed runs, workers and schedulers."""
 
 from collections import Counter
 
-from tests.studies.torture import damage, kills
+from tests.studies.torture import clusters, damage, kills
 from tests.support.results.standin import cases, write
 
 
@@ -33,3 +33,9 @@ def test_two_kills_lose_nothing(tmp_path):
     found = kills.torture(tmp_path, 2, longest=3.0)
     assert found == kills.Killed(2, 0, 0)
     assert kills.sheet(found).rows == [["2", "0", "0"]]
+
+
+def test_a_killed_worker_costs_no_row(tmp_path):
+    found = clusters.torture(tmp_path, 1, schedulers=0, count=3)
+    assert found == clusters.Killed(1, 0, 0, 0, 0)
+    assert clusters.sheet(found).rows == [["1", "0", "0", "0", "0"]]

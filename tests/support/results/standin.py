@@ -19,6 +19,19 @@ from sweep.store.write import Writer
 NODES = 5
 
 
+class Kept(list):
+    """A sink that remembers the batches."""
+
+    def __call__(self, results):
+        """Remember a batch."""
+        self.append(results)
+
+    @property
+    def results(self):
+        """All results by their case."""
+        return {result.case_id: result for batch in self for result in batch}
+
+
 def cases(count, first=0):
     """Cases that differ in one number, which is also their only grid key."""
     values = [0.001 * number for number in range(first, first + count)]

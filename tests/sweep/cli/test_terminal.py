@@ -33,7 +33,9 @@ def test_scheduler_that_is_none_ends_the_command(tmp_path):
     (tmp_path / "trial.toml").write_text("[lattice]")
     done = started("run", "trial.toml", "--scheduler", "nonsense", cwd=tmp_path)
     assert done.returncode == 2
-    assert done.stderr.startswith('crumple run: "nonsense" is no address')
+    assert done.stderr.startswith(
+        'crumple run: "nonsense" is no scheduler and no file; allowed: an address'
+    )
     assert done.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
 

@@ -24,35 +24,44 @@ def poisonous(case, control):
 
 def test_the_result_is_that_of_the_function_whatever_it_prints():
     (case,) = cases(1)
-    result = run_alone(poisonous, case, lambda: False)
+    (result,) = run_alone(poisonous, [case])
     assert result.case == case
     assert repr(result.summary) == repr(simulate(case).summary)
 
 
 def test_a_case_that_kills_its_process_is_a_row():
     case = cases(2)[1]
-    result = run_alone(poisonous, case, lambda: False)
+    (result,) = run_alone(poisonous, [case])
     assert (result.case_id, result.status) == (case.case_id, Status.WORKER_DIED)
     assert "even with no other case" in result.message
+
+
+def test_of_several_only_the_one_that_kills_is_such_a_row():
+    batch = [case for case in cases(8) if number_of(case) != 2]
+    results = run_alone(poisonous, batch)
+    assert [result.case_id for result in results] == [case.case_id for case in batch]
+    statuses = {number_of(result.case): result.status for result in results}
+    assert [n for n, status in statuses.items() if status is Status.WORKER_DIED] == [1]
+    assert statuses[4] is statuses[6] is Status.CONVERGED
 
 
 def test_a_stop_ends_it():
     stopped = threading.Event()
     threading.Timer(0.5, stopped.set).start()
     started = time.monotonic()
-    assert run_alone(poisonous, cases(3)[2], stopped.is_set) is None
+    assert run_alone(poisonous, cases(3)[2:], stopped.is_set) == []
     assert time.monotonic() - started < 30.0
 
 
 def test_a_defect_is_no_death():
-    result = run_alone(poisonous, cases(4)[3], lambda: False)
+    (result,) = run_alone(poisonous, cases(4)[3:])
     assert result.status is Status.STOPPED
     assert "unexpected ZeroDivisionError: of something" in result.message
 
 
 def test_a_stop_from_the_keyboard_does_not_reach_it():
     """Its group of processes is another: it would die, and the case would be blamed."""
-    result = run_alone(interrupted, cases(1)[0], lambda: False)
+    (result,) = run_alone(interrupted, cases(1))
     assert result.status is Status.CONVERGED
 
 
@@ -67,4 +76,5 @@ def test_files_of_the_folder_are_no_modules(tmp_path, monkeypatch):
     (tmp_path / "random.py").write_text("raise SystemExit(3)")
     monkeypatch.setattr(sys, "path", [os.getcwd(), *filter(None, sys.path)])
     monkeypatch.chdir(tmp_path)
-    assert run_alone(interrupted, cases(1)[0], lambda: False).status is Status.CONVERGED
+    (result,) = run_alone(interrupted, cases(1))
+    assert result.status is Status.CONVERGED

@@ -67,3 +67,23 @@ def test_compiling_in_the_first_case_is_soon_forgotten():
         batch = plan.take()
         plan.learn(batch, 0.01 * len(batch))
     assert 20 <= len(plan.take()) <= 100
+
+
+def test_a_batch_that_is_put_back_comes_again():
+    plan = Plan(cases(6), workers=1)
+    first = plan.take()
+    plan.learn(first, 0.1)
+    second = plan.take()
+    plan.put_back(second)
+    assert len(plan) == 5
+    assert plan.take() == second
+
+
+def test_a_plan_is_quick_if_its_longest_case_is_shorter_than_a_batch():
+    plan = Plan(cases(6), workers=1)
+    assert not plan.is_quick()  # nothing is known
+    plan.learn(plan.take(), 2.0)
+    assert not plan.is_quick()
+    for _ in range(5):
+        plan.learn(cases(6), 0.1)
+    assert plan.is_quick()

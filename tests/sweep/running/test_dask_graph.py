@@ -1,246 +1,316 @@
-"""Cases on Dask: every case once, whatever its neighbours do."""
+"""Cases on real workers: every case once, whatever happens to workers, scheduler and neighbours."""
 
 import os
-import socket
-import threading
+import shutil
 import time
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
+from distributed import KilledWorker
 
 from sweep.result import Status
+from sweep.running.alone import run_alone
 from sweep.running.batches import Plan
-from sweep.running.dask_graph import GraphError, Stop, check_scheduler, run_plan, usual_workers
-from tests.support.results.standin import cases, number_of, simulate
+from sweep.running.cluster import ClusterError, open_cluster
+from sweep.running.dask_graph import LOSSES, Suspects, Work, _Run, run_on_cluster
+from sweep.running.fingerprint import source_hash
+from sweep.running.on_worker import Kernels, OtherSourceError, inspect_kernels
+from sweep.running.sweep import run_sweep
+from sweep.running.threads import Stop, run_batch
+from sweep.running.warming import load
+from sweep.store.read import read_statuses
+from tests.support.cluster import ROOT, Processes
+from tests.support.results.standin import Kept, cases, number_of, simulate
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*never retrieved")
+FOREVER = 60.0  # seconds
 
 
-class Kept(list):
-    """A sink that remembers the batches."""
-
-    def __call__(self, results):
-        """Remember a batch."""
-        self.append(results)
-
-    @property
-    def results(self):
-        """All results by their case."""
-        return {result.case_id: result for batch in self for result in batch}
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory):
+    """A scheduler with two workers, for tests that leave it as it was."""
+    with Processes(tmp_path_factory.mktemp("shared")) as processes:
+        processes.add(2)
+        yield processes
 
 
-def run_on_threads(batch, simulate, stop=None, workers=2):
-    kept = Kept()
-    run_plan(Plan(batch, workers), simulate, kept, stop or Stop())
-    return kept
-
-
-def test_every_case_runs_once():
-    batch = cases(300)
-    seen = []
-    kept = run_on_threads(batch, lambda case, stop: seen.append(case.case_id) or simulate(case))
-    assert sorted(seen) == sorted(case.case_id for case in batch)
-    assert kept.results.keys() == {case.case_id for case in batch}
-    assert len(kept) < 100
-
-
-def test_batches_are_handed_over_one_at_a_time_while_others_run():
-    busy, clashes, threads = threading.Lock(), [], set()
-
-    def sink(results):
-        threads.add(threading.get_ident())
-        clashes.append(not busy.acquire(blocking=False))
-        time.sleep(0.002)
-        busy.release()
-
-    run_plan(
-        Plan(cases(100), 2), lambda case, stop: time.sleep(0.001) or simulate(case), sink, Stop()
-    )
-    assert len(clashes) > 1
-    assert not any(clashes)
-
-
-def test_cases_run_at_the_same_time():
-    together = threading.Barrier(2, timeout=5)
-    kept = run_on_threads(cases(2), lambda case, stop: together.wait() * 0 or simulate(case))
-    assert len(kept.results) == 2
-
-
-def test_exception_in_a_case_is_a_row_with_its_name():
-    def broken(case, stop):
-        if number_of(case) == 2:
-            raise ZeroDivisionError("of\nsomething")
-        return simulate(case)
-
-    batch = cases(5)
-    failed = run_on_threads(batch, broken).results[batch[2].case_id]
-    assert failed.status is Status.STOPPED
-    assert "ZeroDivisionError: of something" in failed.message
-
-
-def test_case_that_needs_too_much_memory_is_a_row_with_advice():
-    def huge(case, stop):
-        raise MemoryError
-
-    failed = run_on_threads(cases(1), huge).results[cases(1)[0].case_id]
-    assert failed.status is Status.STOPPED
-    assert failed.message == "needs more memory than there is; try fewer cells, nodes or steps"
-
-
-def test_error_of_the_sink_ends_the_sweep():
-    def full(results):
-        raise OSError("no space left")
-
-    started = time.perf_counter()
-    with pytest.raises(OSError, match="no space"):
-        run_plan(
-            Plan(cases(200), 2), lambda case, stop: time.sleep(0.05) or simulate(case), full, Stop()
-        )
-    assert time.perf_counter() - started < 2
-
-
-def test_stop_reaches_running_cases_and_forgets_them():
-    """Two cases run at a time; those that the stop cuts short are not results."""
-    stop, running = Stop(), threading.Semaphore(0)
-
-    def endless(case, control):
-        if number_of(case) < 2:
-            return simulate(case)
-        running.release()
-        while not control[0]:
-            time.sleep(0.001)
-        return simulate(cases(8)[7])  # a result with the status `stopped`
-
-    def ask():
-        assert running.acquire(timeout=5)
-        assert running.acquire(timeout=5)
-        stop.ask()
-
-    threading.Thread(target=ask).start()
-    batch = cases(6)
-    kept = run_on_threads(batch, endless, stop)
-    assert kept.results.keys() <= {case.case_id for case in batch[:2]}
-
-
-def test_each_case_has_its_own_control():
-    """One that reaches its time limit, and uses its own array to end, must not end the others."""
-    together = threading.Barrier(2, timeout=5)
-    seen = []
-
-    def expire(case, control):
-        together.wait()
-        control[0] = 1
-        together.wait()
-        seen.append(control)
-        return simulate(case)
-
-    kept = run_on_threads(cases(2), expire)
-    assert seen[0] is not seen[1]
-    assert len(kept.results) == 2
-
-
-def poisonous(case, stop=None):
-    """Case 11 takes its process with it; the others take a moment."""
-    if number_of(case) == 11:
-        os._exit(1)
+def brief(case, control=None):
+    """A case of 20 ms."""
     time.sleep(0.02)
     return simulate(case)
 
 
-@pytest.mark.filterwarnings("ignore")  # of a worker that died, as it shall
-def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed():
-    from distributed import LocalCluster
+def poisonous(case, control=None):
+    """Case 11 takes its process with it; the others take a moment."""
+    if number_of(case) == 11:
+        os._exit(1)
+    return brief(case)
 
-    batch, kept = cases(24), Kept()
-    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
-    with LocalCluster(**options, silence_logs=50) as cluster:
-        run_plan(Plan(batch, 2), poisonous, kept, Stop(), cluster.scheduler_address)
-        assert cluster.scheduler.allowed_failures == 3
+
+def ran(batch, where, simulate=brief, suspects=()):
+    """The batches that come from a cluster, and the lines about it."""
+    kept, lines = Kept(), []
+    plan, work = Plan(batch, 2), Work(simulate, [])
+    with open_cluster(where, FOREVER) as cluster:
+        run_on_cluster(plan, work, kept, Stop(), cluster, lines.append, suspects)
+    return kept, lines
+
+
+def test_two_runs_share_a_scheduler_that_stays_as_it_is(shared, tmp_path):
+    def settings(dask_scheduler):
+        return dask_scheduler.allowed_failures, [*dask_scheduler.plugins]
+
+    def run(first):
+        out = tmp_path / f"{first}.h5"
+        run_sweep(cases(60, first), out, scheduler=shared.address, simulate=brief)
+        return read_statuses(out).keys()
+
+    with open_cluster(str(shared.file)) as cluster:
+        before = cluster.client.run_on_scheduler(settings)
+        with ThreadPoolExecutor(2) as pool:
+            ids = [*pool.map(run, (0, 100))]
+        assert cluster.client.run_on_scheduler(settings) == before
+        assert (
+            cluster.client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
+        )
+    assert ids == [{case.case_id for case in cases(60, first)} for first in (0, 100)]
+
+
+def test_case_that_kills_its_worker_is_a_row_and_its_neighbours_succeed(shared):
+    batch = cases(16)
+    kept, lines = ran(batch, shared.address, poisonous)
     statuses = {number_of(case): kept.results[case.case_id].status for case in batch}
     assert statuses.pop(11) is Status.WORKER_DIED
     assert statuses.pop(7) is Status.STOPPED
     assert set(statuses.values()) == {Status.CONVERGED}
-    assert sum(map(len, kept)) == 24
+    assert sum(map(len, kept)) == 16
+    assert lines == []
+    with open_cluster(shared.address) as cluster:
+        assert len(cluster.client.nthreads()) == 1  # it killed one worker, and no second one
+    shared.add()
 
 
-@pytest.mark.filterwarnings("ignore")
-def test_stop_on_a_cluster_keeps_what_has_landed():
-    from distributed import LocalCluster
-
-    batch, kept, stop = cases(40), Kept(), Stop()
+def test_stop_keeps_what_has_landed(shared):
+    stop, kept = Stop(), Kept()
 
     def sink(results):
         kept(results)
         stop.ask()
 
-    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
-    with LocalCluster(**options, dashboard_address=None, silence_logs=50) as cluster:
-        run_plan(Plan(batch, 2), simulate, sink, stop, cluster.scheduler_address)
-    assert 0 < sum(map(len, kept)) < 40
+    with open_cluster(shared.address) as cluster:
+        work = Work(brief, [])
+        run_on_cluster(Plan(cases(400), 2), work, sink, stop, cluster, print)
+        assert cluster.client.futures == {}
+    assert 0 < sum(map(len, kept)) < 400
 
 
-@pytest.mark.parametrize("address", ["nonsense", "", "tcp://", "host:port", "http://host:80"])
-def test_what_is_no_address_is_refused_in_one_line(address):
-    with pytest.raises(GraphError, match="such as tcp://host:8786") as refusal:
-        check_scheduler(address)
-    assert str(refusal.value).startswith(f'"{address}" is no address')
-    assert "\n" not in str(refusal.value)
+def test_a_worker_of_another_source_is_refused_by_name(shared, tmp_path):
+    other = tmp_path / "other"
+    for package in ("kernels", "sweep", "tests/support"):
+        shutil.copytree(ROOT / package, other / package)
+    with (other / "sweep" / "result.py").open("a") as file:
+        file.write("# changed\n")
+    (process,) = shared.add(source=other, name="old")
+    with open_cluster(shared.address) as cluster:
+        while len(cluster.client.nthreads()) < 3:
+            time.sleep(0.05)
+    kept, (line,) = ran(cases(120), shared.address)
+    process.kill()
+    assert len(kept.results) == 120
+    assert line.startswith("worker old (tcp://127.0.0.1:")
+    assert f"is refused: it has source {source_hash(other / 'kernels', other / 'sweep')} " in line
 
 
-def test_scheduler_that_is_not_there(monkeypatch):
-    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 0.5)
-    with pytest.raises(GraphError, match="no Dask scheduler answers at tcp://"):
-        check_scheduler("tcp://127.0.0.1:9")
+def test_workers_come_and_go_and_a_lost_scheduler_ends_the_run(shared, tmp_path):
+    """The only worker is killed, another one comes, then the scheduler is killed."""
+    lines = []
+    with Processes(tmp_path) as processes:
+        (worker,) = processes.add()
 
+        def kill(results):
+            kept(results)
+            worker.kill()
+            if lines[-1].startswith("there are workers again"):
+                processes.scheduler.kill()
 
-def test_server_that_never_answers(monkeypatch):
-    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 0.5)
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        address = "tcp://{}:{}".format(*server.getsockname())
-        with pytest.raises(GraphError, match=f"no Dask scheduler answers at {address}"):
-            check_scheduler(address)
+        def say(line):
+            lines.append(line)
+            if "no worker is left" in line:
+                processes.add()
 
-
-@pytest.mark.filterwarnings("ignore")
-def test_scheduler_that_goes_away_is_told_in_one_line(monkeypatch):
-    from distributed import LocalCluster
-
-    monkeypatch.setattr("sweep.running.dask_graph.ANSWER", 1)
-    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
-    with (
-        LocalCluster(**options, dashboard_address=None, silence_logs=60) as cluster,
-        pytest.raises(GraphError, match="lost the Dask scheduler at inproc"),
-    ):
-        run_plan(
-            Plan(cases(40), 2),
-            simulate,
-            lambda _: cluster.close(),
-            Stop(),
-            cluster.scheduler_address,
-        )
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_worker_is_no_scheduler():
-    from distributed import LocalCluster
-
-    options = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
-    with LocalCluster(**options, dashboard_address=None, silence_logs=50) as cluster:
-        assert check_scheduler(cluster.scheduler_address) is None
-        with pytest.raises(GraphError, match="is a Dask Worker; needed: its scheduler"):
-            check_scheduler(cluster.workers[0].address)
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_stop_while_a_cluster_has_no_worker():
-    from distributed import LocalCluster
-
-    stop = Stop()
-    threading.Timer(0.5, stop.ask).start()
-    with LocalCluster(n_workers=0, dashboard_address=None, silence_logs=50) as cluster:
         kept = Kept()
-        run_plan(Plan(cases(3), 2), simulate, kept, stop, cluster.scheduler_address)
-    assert kept == []
+        lost = "lost the Dask scheduler at tcp://.*; what is finished is kept, and the same command"
+        with (
+            open_cluster(str(processes.file), FOREVER) as cluster,
+            pytest.raises(ClusterError, match=lost),
+        ):
+            run_on_cluster(Plan(cases(200), 2), Work(brief, []), kill, Stop(), cluster, say)
+    assert 1 < len(kept.results) < 200
+    assert lines[-2:] == [
+        f"no worker is left at {cluster.address}; waiting 60 s for one",
+        "there are workers again: 1",
+    ]
 
 
-@pytest.mark.parametrize(("cores", "threads"), [(1, 1), (6, 6), (64, 8)])
-def test_a_run_has_as_many_threads_as_pay(monkeypatch, cores, threads):
-    monkeypatch.setattr("dask.system.cpu_count", lambda: cores)
-    assert usual_workers() == threads
+class Unfinished:
+    """A future that nobody waits for."""
+
+    def add_done_callback(self, _):
+        """Do nothing."""
+
+
+class Recorded:
+    """A run on workers that do nothing, and what is submitted to them."""
+
+    def __init__(self, batch=(), kernels=("marches",)):
+        self.calls, self.lines = [], []
+        client = SimpleNamespace(
+            run_on_scheduler=lambda _: self.workers,
+            status="running",
+            scheduler=SimpleNamespace(address="tcp://s:1"),
+            submit=self.submit,
+            cancel=lambda futures: None,
+        )
+        cluster = SimpleNamespace(client=client, wait=FOREVER, address="tcp://s:1")
+        work = Work(simulate, list(kernels))
+        self.run = _Run(cluster, Plan(batch, 1), work, Stop(), self.lines.append)
+        self.workers = {}
+
+    def add(self, name, host):
+        """A worker of one thread joins."""
+        self.workers[name] = name, host, 1
+        self.run._look()
+
+    def submit(self, _, __, function, *arguments, workers, pure):
+        """Note a call, and give it a future that ends when the test says so."""
+        future = Unfinished()
+        self.calls.append((workers[0], function, arguments, future))
+        return future
+
+    def end(self, value):
+        """The first call ends with a value; return who was called and what."""
+        worker, function, _, future = self.calls.pop(0)
+        self.run._land(future, value)
+        return worker, function
+
+    @property
+    def waiting(self):
+        """Who is called, and what."""
+        return [(worker, function) for worker, function, *_ in self.calls]
+
+
+COLD, WARM = Kernels(["marches"], True), Kernels([], True)
+
+
+def test_one_worker_of_a_host_compiles_first():
+    recorded = Recorded(cases(8))
+    for name, host in (("a1", "a"), ("a2", "a"), ("b1", "b")):
+        recorded.add(name, host)
+    for _ in range(3):
+        recorded.end(COLD)
+    assert recorded.waiting == [("a1", load), ("b1", load)]
+    assert [line.split(": ")[0] for line in recorded.lines] == [
+        "worker a1 compiles the kernels of its host, once",
+        "worker b1 compiles the kernels of its host, once",
+    ]
+    recorded.end(None)
+    assert recorded.waiting == [("b1", load), ("a1", inspect_kernels), ("a2", inspect_kernels)]
+    recorded.end(None)
+    recorded.end(WARM)
+    assert recorded.waiting[-1][0] == "a1"
+    assert len(recorded.calls[-1][2][1]) == 1  # the first batch is one case
+
+
+def test_where_nothing_lasts_each_worker_compiles():
+    recorded = Recorded(cases(8))
+    recorded.add("a1", "a")
+    recorded.add("a2", "a")
+    recorded.end(COLD._replace(lasting=False))
+    recorded.end(COLD._replace(lasting=False))
+    assert recorded.waiting == [("a1", load), ("a2", load)]
+
+
+def test_when_the_compiling_worker_is_lost_another_one_compiles():
+    recorded = Recorded(cases(8))
+    recorded.add("a1", "a")
+    recorded.add("a2", "a")
+    recorded.end(COLD)
+    recorded.end(COLD)
+    del recorded.workers["a1"], recorded.calls[:]
+    recorded.run._look()
+    assert recorded.waiting == [("a2", inspect_kernels)]
+    recorded.end(COLD)
+    assert recorded.waiting == [("a2", load)]
+
+
+def test_a_worker_that_cannot_run_it_gets_nothing_more_and_its_cases_go_back():
+    recorded = Recorded(cases(3), kernels=())
+    recorded.add("a1", "a")
+    recorded.end(WARM)
+    assert len(recorded.run.plan) == 2
+    recorded.end(ModuleNotFoundError("No module named 'scipy'"))
+    assert len(recorded.run.plan) == 3
+    assert recorded.waiting == []
+    assert recorded.lines == [
+        "worker a1 is refused: it cannot run Crumple: ModuleNotFoundError: No module named 'scipy'"
+    ]
+
+
+def test_if_no_worker_fits_the_run_ends_with_the_reason():
+    recorded = Recorded(cases(3), kernels=())
+    recorded.run.cluster.wait = 0.0
+    recorded.add("a1", "a")
+    recorded.end(OtherSourceError("numba 0.60.0 (this run: 0.61.2)"))
+    recorded.run._look()
+    with pytest.raises(ClusterError) as failure:
+        recorded.run._look()
+    why = "worker a1 is refused: it has numba 0.60.0 (this run: 0.61.2)"
+    assert str(failure.value).startswith(f"no worker at tcp://s:1 for 0 s; {why}; what is finished")
+
+
+def test_suspects_run_first_each_in_a_process_of_its_own():
+    recorded = Recorded(cases(3), kernels=())
+    recorded.run.suspects += [Suspects([case]) for case in cases(5)[3:]]
+    recorded.add("a1", "a")
+    recorded.end(WARM)
+    for case in reversed(cases(5)[3:]):
+        ((_, function, arguments, _),) = recorded.calls
+        assert (function, arguments) == (run_alone, (simulate, [case]))
+        recorded.end([simulate(case)])
+    assert recorded.waiting == [("a1", run_batch)]
+
+
+def test_a_worker_that_dies_and_is_back_under_its_address_is_inspected_again():
+    recorded = Recorded(cases(3))
+    recorded.add("a1", "a")
+    recorded.end(COLD)
+    recorded.end(KilledWorker("load", None, 3))
+    assert recorded.waiting == []
+    recorded.run._look()
+    assert recorded.waiting == [("a1", inspect_kernels)]
+    recorded.end(COLD)
+    assert recorded.waiting == [("a1", load)]
+
+
+def test_a_case_to_which_workers_are_lost_again_and_again_is_a_row():
+    run = Recorded().run
+    assert run._suspect(Suspects(cases(4))) == []
+    assert [len(suspects.cases) for suspects in run.suspects] == [2, 2]
+    rows = run._suspect(Suspects(cases(1), LOSSES - 1))
+    assert [(row.status, row.case) for row in rows] == [(Status.WORKER_DIED, cases(1)[0])]
+    assert f"each of {LOSSES} workers" in rows[0].message
+
+
+def test_long_cases_are_not_taken_ahead():
+    recorded = Recorded(cases(40), kernels=())
+    recorded.add("a1", "a")
+    recorded.end(WARM)
+    (first,) = recorded.calls[0][2][1]
+    recorded.end(([simulate(first)], 100.0))
+    assert len(recorded.calls) == 1
+    for _ in range(12):
+        recorded.run.plan.learn(cases(9), 0.01)
+    (second,) = recorded.calls[0][2][1]
+    recorded.end(([simulate(second)], 0.001))
+    assert len(recorded.calls) > 1

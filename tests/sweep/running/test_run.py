@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import dask
 import pytest
 
 from sweep.config.load import load_config
@@ -48,3 +49,20 @@ def test_a_panel_that_holds_no_specimen_is_refused_before_anything_runs(config):
     with pytest.raises(RankError, match="a panel of 5 mm is smaller than half of a specimen"):
         run(config)
     assert not Path("results").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "scheduler"),
+    [
+        ({}, "tcp://host:8786"),
+        ({"workers": 1}, None),
+        ({"scheduler": "tcp://other:8786"}, "tcp://other:8786"),
+    ],
+)
+def test_where_cases_run(config, monkeypatch, given, scheduler):
+    """In the scheduler that is given, else that of the environment, unless threads are."""
+    places = []
+    monkeypatch.setattr("sweep.running.run.run_sweep", lambda *how: places.append(how[3]))
+    with dask.config.set({"scheduler-address": "tcp://host:8786"}):
+        run(config, **given)
+    assert places == [scheduler]

@@ -15,7 +15,7 @@ import pytest
 
 from sweep.config.grid import Config, Recipe, Written, expanded
 from sweep.running.batches import Plan
-from sweep.running.dask_graph import GraphError
+from sweep.running.cluster import ClusterError, SchedulerError
 from sweep.running.progress import Progress
 from sweep.running.sweep import Interrupted, run_sweep
 from sweep.running.writer_thread import AT_RISK, result_sink
@@ -188,7 +188,7 @@ def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_pa
 
 
 def test_scheduler_that_cannot_be_is_refused_before_anything_is_written(tmp_path):
-    with pytest.raises(GraphError, match="nonsense"):
+    with pytest.raises(SchedulerError, match="nonsense"):
         run_sweep(cases(3), tmp_path / "new" / "sweep.h5", scheduler="nonsense", simulate=slow)
     assert list(tmp_path.iterdir()) == []
 
@@ -272,9 +272,9 @@ def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_pat
         with Writer(out) as writer, result_sink(writer, Plan([], workers=2), told) as keep:
             keep(took(0.1, [0]))
             keep(took(0.1, [1, 2]))
-            raise GraphError("lost the scheduler")
+            raise ClusterError("lost the scheduler")
 
-    with pytest.raises(GraphError):
+    with pytest.raises(ClusterError):
         broken_off(tmp_path / "sweep.h5")
     assert len(read_summary(tmp_path / "sweep.h5")) == 3
 

@@ -1,0 +1,57 @@
+"""The kernels that cases need: loaded or compiled, here or on a worker of a cluster."""
+
+from collections.abc import Iterable
+
+from sweep.config.case import Case
+from sweep.running.alone import Simulate
+from sweep.running.progress import announce
+
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
+
+
+def real_simulate(cases: Iterable[Case]) -> Simulate:
+    """The function `simulate_again`, with the kernels that these cases need.
+
+    It is imported only here, since it loads or compiles the kernels.
+    """
+    from kernels.compile.cache import is_lasting
+
+    simulate, kernels = simulate_unloaded(cases)
+    if cold_kernels(kernels):
+        announce(f"compiling the kernels, once: this takes {time_to_compile()}")
+        if not is_lasting():
+            announce(f"for this run alone: {UNWRITABLE}")
+    load(kernels)
+    return simulate
+
+
+def simulate_unloaded(cases: Iterable[Case]) -> tuple[Simulate, list[str]]:
+    """The function `simulate_again`, and the names of the kernels that these cases need."""
+    from sweep.simulation.retries import simulate_again
+    from sweep.simulation.simulate import kernels_of
+
+    return simulate_again, sorted({kernels_of(case) for case in cases})
+
+
+def time_to_compile() -> str:
+    """How long the compiler of this process takes, in words."""
+    from kernels.compile.choice import FAST, compiler
+
+    return "a minute or two" if compiler() == FAST else "two or three minutes"
+
+
+def cold_kernels(kernels: Iterable[str]) -> list[str]:
+    """Those of the named kernels (keys of `SMALLEST`) that may have to be compiled."""
+    from kernels.compile.cache import is_cold
+
+    return [name for name in kernels if is_cold(name)]
+
+
+def load(kernels: Iterable[str]) -> None:
+    """Load or compile the named kernels, and note that they are kept."""
+    from kernels.compile.cache import warmed_up
+    from sweep.simulation.simulate import warm_up
+
+    for name in kernels:
+        warm_up([name])
+        warmed_up(name)

@@ -1,0 +1,127 @@
+"""Cases on threads: every case once, whatever its neighbours do."""
+
+import threading
+import time
+
+import pytest
+
+from sweep.result import Status
+from sweep.running.batches import Plan
+from sweep.running.threads import Stop, run_on_threads, usual_workers
+from tests.support.results.standin import Kept, cases, number_of, simulate
+
+
+def ran(batch, simulate, stop=None, workers=2):
+    kept = Kept()
+    run_on_threads(Plan(batch, workers), simulate, kept, stop or Stop())
+    return kept
+
+
+def test_every_case_runs_once():
+    batch = cases(300)
+    seen = []
+    kept = ran(batch, lambda case, stop: seen.append(case.case_id) or simulate(case))
+    assert sorted(seen) == sorted(case.case_id for case in batch)
+    assert kept.results.keys() == {case.case_id for case in batch}
+    assert len(kept) < 100
+
+
+def test_batches_are_handed_over_one_at_a_time_while_others_run():
+    busy, clashes, threads = threading.Lock(), [], set()
+
+    def sink(results):
+        threads.add(threading.get_ident())
+        clashes.append(not busy.acquire(blocking=False))
+        time.sleep(0.002)
+        busy.release()
+
+    run_on_threads(
+        Plan(cases(100), 2), lambda case, stop: time.sleep(0.001) or simulate(case), sink, Stop()
+    )
+    assert len(clashes) > 1
+    assert not any(clashes)
+
+
+def test_cases_run_at_the_same_time():
+    together = threading.Barrier(2, timeout=5)
+    kept = ran(cases(2), lambda case, stop: together.wait() * 0 or simulate(case))
+    assert len(kept.results) == 2
+
+
+def test_exception_in_a_case_is_a_row_with_its_name():
+    def broken(case, stop):
+        if number_of(case) == 2:
+            raise ZeroDivisionError("of\nsomething")
+        return simulate(case)
+
+    batch = cases(5)
+    failed = ran(batch, broken).results[batch[2].case_id]
+    assert failed.status is Status.STOPPED
+    assert "ZeroDivisionError: of something" in failed.message
+
+
+def test_case_that_needs_too_much_memory_is_a_row_with_advice():
+    def huge(case, stop):
+        raise MemoryError
+
+    failed = ran(cases(1), huge).results[cases(1)[0].case_id]
+    assert failed.status is Status.STOPPED
+    assert failed.message == "needs more memory than there is; try fewer cells, nodes or steps"
+
+
+def test_error_of_the_sink_ends_the_sweep():
+    def full(results):
+        raise OSError("no space left")
+
+    started = time.perf_counter()
+    with pytest.raises(OSError, match="no space"):
+        run_on_threads(
+            Plan(cases(200), 2), lambda case, stop: time.sleep(0.05) or simulate(case), full, Stop()
+        )
+    assert time.perf_counter() - started < 2
+
+
+def test_stop_reaches_running_cases_and_forgets_them():
+    """Two cases run at a time; those that the stop cuts short are not results."""
+    stop, running = Stop(), threading.Semaphore(0)
+
+    def endless(case, control):
+        if number_of(case) < 2:
+            return simulate(case)
+        running.release()
+        while not control[0]:
+            time.sleep(0.001)
+        return simulate(cases(8)[7])  # a result with the status `stopped`
+
+    def ask():
+        assert running.acquire(timeout=5)
+        assert running.acquire(timeout=5)
+        stop.ask()
+
+    threading.Thread(target=ask).start()
+    batch = cases(6)
+    kept = ran(batch, endless, stop)
+    assert kept.results.keys() <= {case.case_id for case in batch[:2]}
+
+
+def test_each_case_has_its_own_control():
+    """One that reaches its time limit, and uses its own array to end, must not end the others."""
+    together = threading.Barrier(2, timeout=5)
+    seen = []
+
+    def expire(case, control):
+        together.wait()
+        control[0] = 1
+        together.wait()
+        seen.append(control)
+        return simulate(case)
+
+    kept = ran(cases(2), expire)
+    assert seen[0] is not seen[1]
+    assert len(kept.results) == 2
+
+
+@pytest.mark.parametrize(("cores", "threads"), [(1, 1), (6, 6), (64, 8)])
+def test_a_run_has_as_many_threads_as_pay(monkeypatch, cores, threads):
+    monkeypatch.setattr("dask.system.cpu_count", lambda: cores)
+    assert usual_workers() == threads

@@ -1,0 +1,34 @@
+"""The kernels of cases: which they are, and that those that are cold are announced."""
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.running.warming import real_simulate, simulate_unloaded
+from sweep.simulation.retries import simulate_again
+
+
+@pytest.fixture
+def cold(monkeypatch):
+    """Kernels none of which is kept, and the names of those that are loaded."""
+    loaded = []
+    monkeypatch.setattr("kernels.compile.cache.is_cold", lambda name: name not in loaded)
+    monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda name: None)
+    monkeypatch.setattr("sweep.simulation.simulate.warm_up", loaded.extend)
+    return loaded
+
+
+def test_cold_kernels_are_announced_and_loaded(cold, capsys, monkeypatch):
+    monkeypatch.setattr("kernels.compile.cache.is_lasting", lambda: False)
+    assert real_simulate([Case.of()]) is simulate_again
+    assert cold == ["marches"]
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.startswith("compiling the kernels, once: this takes ")
+    assert second.startswith("for this run alone: ")
+    real_simulate([Case.of()])
+    assert capsys.readouterr().err == ""
+
+
+def test_for_a_cluster_nothing_is_loaded_here(cold, capsys):
+    assert simulate_unloaded([Case.of(), Case.of()]) == (simulate_again, ["marches"])
+    assert cold == []
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,77 @@
+"""What lies in the folder of the parts and is none of this sweep is refused, and stays."""
+
+import json
+import shutil
+
+import pytest
+
+from sweep.running.sweep import run_sweep
+from sweep.store.read import StoreError, read_summary
+from sweep.store.write import Writer
+from tests.support.results.standin import cases, parts_of, simulate, write
+
+
+def named(name):
+    return json.dumps({"name": name})
+
+
+def put_part(tmp_path, about=None):
+    """A part of other.h5 among those of armor.h5."""
+    write(tmp_path / "other.h5", cases(2, first=50), **(about or {}))
+    (tmp_path / "armor.parts").mkdir(exist_ok=True)
+    place = tmp_path / "armor.parts" / "00000009-00000009.h5"
+    shutil.copy(parts_of(tmp_path / "other.h5")[0], place)
+    return place
+
+
+@pytest.mark.parametrize("finished", [0, 3])
+def test_a_part_of_another_sweep_is_refused_and_stays(tmp_path, finished):
+    out = tmp_path / "armor.h5"
+    if finished:
+        run_sweep(cases(finished), out, simulate=lambda case, stop: simulate(case))
+    part = put_part(tmp_path, {"config": named("bumper")})
+    with pytest.raises(StoreError) as refusal:
+        run_sweep(cases(5), out, simulate=lambda case, stop: simulate(case))
+    assert str(refusal.value).startswith(f"{part} is a part of another sweep, bumper: move it away")
+    part.rename(tmp_path / "aside.h5")
+    run_sweep(cases(5), out, simulate=lambda case, stop: simulate(case))
+    assert {*read_summary(out)["case_id"]} == {case.case_id for case in cases(5)}
+    with Writer(out) as writer:
+        writer.fold(files=[tmp_path / "aside.h5"])
+    assert len(read_summary(out)) == 7
+
+
+def test_a_part_without_a_name_and_without_a_case_of_the_sweep_is_refused(tmp_path):
+    part = put_part(tmp_path)
+    with pytest.raises(StoreError, match=r"09\.h5 is a part of another sweep: move"):
+        run_sweep(cases(5), tmp_path / "armor.h5")
+    assert part.exists()
+
+
+@pytest.mark.parametrize(("first", "name"), [(1, "bumper"), (50, "armor")])
+def test_parts_of_a_grid_that_has_changed_are_its_own(tmp_path, first, name):
+    """They share a case with it, or its name."""
+    out = tmp_path / "armor.h5"
+    write(out, cases(4, first), config=named(name))
+    run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
+    ids = {case.case_id for case in cases(3) + cases(4, first)}
+    assert {*read_summary(out)["case_id"]} == ids
+
+
+@pytest.mark.parametrize("is_file", [False, True])
+def test_a_link_in_place_of_parts_is_refused_and_not_followed(tmp_path, is_file):
+    write(tmp_path / "other.h5", cases(2), size=2)
+    (theirs,) = parts_of(tmp_path / "other.h5")
+    (theirs.parent / "00000001-00000001.h5.tmp").touch()
+    link = tmp_path / "armor.parts"
+    if is_file:
+        link.mkdir()
+        link = link / theirs.name
+        link.symlink_to(theirs)
+    else:
+        link.symlink_to(theirs.parent)
+    for use in (read_summary, lambda out: run_sweep(cases(5), out)):
+        with pytest.raises(StoreError) as refusal:
+            use(tmp_path / "armor.h5")
+        assert str(refusal.value).startswith(f"{link} is a link: remove it; allowed: ")
+    assert len(parts_of(tmp_path / "other.h5")) == 2
