@@ -85,7 +85,7 @@ def _column(values: Sequence[Any]) -> np.ndarray:
 
 def _join(parts: Sequence[np.ndarray | None], lengths: Sequence[int]) -> np.ndarray:
     kinds = {"f" if part is None else part.dtype.kind for part in parts}
-    if "O" in kinds:
+    if "O" in kinds and len(kinds) > 1:
         return _column([v for part, n in zip(parts, lengths, strict=True) for v in _list(part, n)])
     blank = [np.full(n, np.nan) for n in lengths]
     return np.concatenate([b if p is None else p for p, b in zip(parts, blank, strict=True)])
