@@ -33,7 +33,15 @@ from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sliced import Sliced, sliced
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import TABLES, Given, Pairs, RefusedError, Table, canonical
+from sweep.config.kinds.table import (
+    TABLES,
+    Given,
+    Pairs,
+    RefusedError,
+    Table,
+    canonical,
+    keys_of,
+)
 from sweep.config.kinds.upright import across, upright
 from sweep.config.structures.structure_file import faults
 
@@ -61,10 +69,10 @@ class Case(BaseModel):
         """
         _check_tables(tables)
         contents = {name: _values(values) for name, values in tables.items()}
-        case = complete(contents).sound()
+        case = complete(contents).sound(axes)
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
-        return case.model_copy(update={"axes": dict(axes or {})})
+        return case
 
     @property
     def along(self) -> bool:
@@ -112,10 +120,11 @@ class Case(BaseModel):
         _check_tables(tables)
         changes = {name: dict(change) for name, change in tables.items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
-        case = complete({name: _values(table) for name, table in values.items()}).sound()
+        labels = self.axes | dict(axes or {})
+        case = complete({name: _values(table) for name, table in values.items()}).sound(labels)
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
-        return case.model_copy(update={"axes": self.axes | dict(axes or {})})
+        return case
 
     def to_json(self) -> str:
         """The case as JSON text, which `from_json` reads."""
@@ -164,11 +173,12 @@ class Draft:
         self.tables[name] = made  # type: ignore[assignment]
         return made
 
-    def sound(self) -> Case:
-        """The case; raises the first refusal if there is one."""
+    def sound(self, axes: Mapping[str, Any] | None = None) -> Case:
+        """The case, with these labels; raises the first refusal if there is one."""
         if self.refused:
             raise self.refused[0]
-        return Case.model_construct(None, **self.tables, axes={})  # type: ignore[arg-type]
+        values: dict[str, Any] = {**self.tables, "axes": dict(axes or {})}
+        return Case.model_construct(keys_of(Case), **values)
 
 
 def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> Draft:

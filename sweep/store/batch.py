@@ -79,6 +79,24 @@ class Ragged:
         end = begin + self.rows[row]
         return {name: array[begin:end] for name, array in self.arrays.items()}
 
+    def cases(
+        self, kept: np.ndarray, names: Sequence[str]
+    ) -> Iterator[tuple[int, dict[str, np.ndarray]]]:
+        """The number of each kept row and its named arrays, in their order in the file; those of
+        many cases are read at once.
+        """
+        order = kept[np.argsort(self.start[kept], kind="stable")]
+        begins, ends = self.start[order], np.maximum.accumulate((self.start + self.rows)[order])
+        first = 0
+        while first < len(order):
+            begin = begins[first]
+            last = max(int(np.searchsorted(ends, begin + CHUNK, "right")), first + 1)
+            read = {name: self.arrays[name][begin : ends[last - 1]] for name in names}
+            for row in order[first:last]:
+                own = slice(self.start[row] - begin, self.start[row] + self.rows[row] - begin)
+                yield int(row), {name: array[own] for name, array in read.items()}
+            first = last
+
     def ranges(self, kept: np.ndarray) -> Iterator[tuple[int, int]]:
         """Begin and end of ranges of rows that together hold the kept cases, in their order."""
         begins, ends = self.start[kept], self.start[kept] + self.rows[kept]

@@ -3,6 +3,7 @@
 A missing value is NaN in a column of numbers and "" in a column of text.
 """
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -96,5 +97,5 @@ def _list(part: np.ndarray | None, length: int) -> list[Any]:
 
 
 def _text(value: Any) -> str:
-    """A value of a text column; "" for None and NaN."""
-    return "" if value is None or value != value else str(value)
+    """A value of a text column, one object for all that are alike; "" for None and NaN."""
+    return "" if value is None or value != value else sys.intern(str(value))

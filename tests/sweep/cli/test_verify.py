@@ -3,7 +3,6 @@
 import re
 
 import h5py
-import numpy as np
 import pytest
 
 from sweep.store.read import read_summary
