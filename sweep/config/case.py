@@ -6,6 +6,7 @@ them, so that equal physics has an equal id.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from hashlib import blake2b
 from math import hypot, inf
 from typing import Any, TypeVar
@@ -105,11 +106,18 @@ class Case(BaseModel):
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
         return self.lattice.tied and loose and self.loading.quasi_static
 
-    @property
+    @cached_property
     def case_id(self) -> str:
         """Hash of all parameters except labels: 16 hexadecimal digits."""
         tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> "Case":
+        """The case with other tables, or other labels, which alone leave it its id."""
+        copied = super().model_copy(update=update, deep=deep)
+        if set(update or ()) - {"axes"}:
+            copied.__dict__.pop("case_id", None)
+        return copied
 
     def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.

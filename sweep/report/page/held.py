@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Indices = NDArray[np.int64]
 
-MOST = 400  # designs
+MOST = 300  # designs
 SAMPLE = 50  # of these, from all the others
 SCENES = 40
 PLACES = 15  # within a budget

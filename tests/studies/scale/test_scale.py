@@ -57,8 +57,8 @@ def test_page_of_many_cases_holds_some_and_says_so(folder, capsys):
     assert (status, len(html) < 5e6) == (1, True)
     data = json.loads(re.search(r'id="data">(.*?)</script>', html)[1])
     (scene,) = data["scenes"]
-    assert len(data["cases"]) == 400 < scene["designs"]
-    assert f"The page holds 400 of {scene['designs']} designs" in html
+    assert len(data["cases"]) == 300 < scene["designs"]
+    assert f"The page holds 300 of {scene['designs']} designs" in html
     assert sum(map(len, scene["left_out"])) > 100
 
 
