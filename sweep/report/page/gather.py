@@ -25,7 +25,13 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
-from sweep.report.page.held import SCENES, Counted, held, held_unfinished, left_out
+from sweep.report.page.selection import (
+    SCENES,
+    Counted,
+    group_others,
+    select_designs,
+    select_stopped,
+)
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
@@ -71,12 +77,12 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     counted = _counted(summary)
     compared = counted[0].rows
     scenes = by_scene(loaded(compared))[:SCENES] if len(finished) else []
-    ids = held(_asked_first(finished, question), counted, scenes)
+    ids = select_designs(_asked_first(finished, question), counted, scenes)
     kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
     cases = _cases(counted, kept, summary)
     alike = [same_scene(rows, compared) for rows in scenes]
     stopped = [rows[rows["loaded"] != 1] for rows in alike]
-    shown = [held_unfinished(rows, counted[0].names) for rows in stopped]
+    shown = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
     unfinished = _cases(counted, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
@@ -93,7 +99,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "scenes": [
             _scene(rows, some)
             | {"designs": len(rows), "stopped": len(halted) - len(named)}
-            | {"left_out": left_out(counted, rows, ids, len(scenes))}
+            | {"others": group_others(counted, rows, ids, len(scenes))}
             for rows, some, halted, named in zip(scenes, kept, stopped, shown, strict=True)
         ],
         "energies": [_energy(each) for each in counted],

@@ -332,7 +332,7 @@ function detail(best) {
 
 // Whether the page leaves designs of the scene out.
 function isPart() {
-  return scene().left_out.length > 0;
+  return scene().others.length > 0;
 }
 
 // What the page may lack, as it does not hold all designs.

@@ -247,7 +247,7 @@ function doubtful(row) {
 }
 
 // A group of designs that the page leaves out, as a row at least as good as that of each member:
-// held.py. which: "any" member, or those to be trusted, "sound". A panel takes more specimens of the
+// selection.py. which: "any" member, or those to be trusted, "sound". A panel takes more specimens of the
 // smallest member than of the largest one.
 function bestOf(data, group, question, which) {
   const count = (outer) => (question.panel ? panelOf(question.panel, { ...group, outer }, data.beside).specimens : 1);
@@ -267,10 +267,10 @@ function bestOf(data, group, question, which) {
 // trusted meets, come nearer to it, or be lighter.
 function certainty(data, question, { placed, nearest, lightestMeeting }) {
   const scene = data.scenes[question.scene];
-  if (!scene.left_out.length) return { certain: placed.length, better: false };
+  if (!scene.others.length) return { certain: placed.length, better: false };
   const sign = scene.least ? -1 : 1;
   const most = greatestMass(data, question);
-  const groupings = (which) => scene.left_out.map((groups) => groups.map((group) => bestOf(data, group, question, which)));
+  const groupings = (which) => scene.others.map((groups) => groups.map((group) => bestOf(data, group, question, which)));
   const worths = (rows) => rows.filter((row) => row.worst === 0 && row.mass <= most && row.value !== null).map((row) => sign * row.value);
   const bound = Math.min(...groupings("sound").map((rows) => Math.max(-Infinity, ...worths(rows))));
   const slack = storedEnergy(data, question) < 0 ? data.doubt : 0;

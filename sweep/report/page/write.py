@@ -138,11 +138,11 @@ def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> 
     heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
     count = f"{counted(failed, 'case')} failed"
     more = f"{failed - len(rows)} more are left out: crumple status {file} says why they failed."
-    left_out = _paragraphs([more]) if failed > len(rows) else ""
+    note = _paragraphs([more]) if failed > len(rows) else ""
     return (
         f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
         f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
-        f"{left_out}</details>"
+        f"{note}</details>"
     )
 
 
@@ -153,9 +153,9 @@ def _origin(data: Mapping[str, Any]) -> str:
     config = escape(json.dumps(data["config"], indent=1))
     folded = f"<details><summary>Config, in SI</summary><pre>{config}</pre></details>"
     thin = f"Curves have at most {data['points']} points, energies over the path two thirds of them"
-    held, designs = len(data["cases"]), data["designs"]
-    kept = f"{len(data['shapes'])} of {held} designs have their motion in this page"
+    shown, designs = len(data["cases"]), data["designs"]
+    kept = f"{len(data['shapes'])} of {shown} designs have their motion in this page"
     lines = [f"{thin}; {kept}."]
-    if held < designs:
-        lines += [LEFT_OUT.format(held, designs)]
+    if shown < designs:
+        lines += [LEFT_OUT.format(shown, designs)]
     return f"<dl>{listed}</dl>{folded}{_paragraphs(lines)}"

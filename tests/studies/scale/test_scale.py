@@ -59,7 +59,7 @@ def test_page_of_many_cases_holds_some_and_says_so(folder, capsys):
     (scene,) = data["scenes"]
     assert len(data["cases"]) == 300 < scene["designs"]
     assert f"The page holds 300 of {scene['designs']} designs" in html
-    assert sum(map(len, scene["left_out"])) > 100
+    assert sum(map(len, scene["others"])) > 100
 
 
 def test_verb_is_measured_in_a_process_of_its_own(folder):

@@ -10,9 +10,9 @@ from sweep.columns import absorbed_energy_column
 from sweep.ranking.curves import reached, with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
-from sweep.report.page import gather, held
+from sweep.report.page import gather, selection
 from sweep.report.page.gather import page_data
-from sweep.report.page.held import layers
+from sweep.report.page.selection import layers
 from tests.support.results.questions import (
     FORCES,
     OTHERS,
@@ -22,7 +22,7 @@ from tests.support.results.questions import (
     write_curves,
 )
 
-COUNT, HELD = 90, 40  # designs of each of two scenes; of both in the page
+COUNT, SELECTED = 90, 40  # designs of each of two scenes; of both in the page
 QUESTIONS = 12
 ASK = """
 function told({ data, questions }) {
@@ -53,8 +53,8 @@ def told():
 @pytest.fixture
 def few(monkeypatch):
     """Pages hold few designs, and groups have few members."""
-    monkeypatch.setattr(held, "MOST", HELD)
-    monkeypatch.setattr(held, "SAMPLE", 6)
+    monkeypatch.setattr(selection, "MOST", SELECTED)
+    monkeypatch.setattr(selection, "SAMPLE", 6)
 
 
 def many(path, seed):
@@ -99,8 +99,8 @@ def on_the_page(question):
 def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few, tmp_path, seed):
     """Whatever is asked: budget, panel, allowed force, requirements."""
     file, table, data, rng = many(tmp_path, seed)
-    assert len(data["cases"]) == HELD
-    assert sum(scene["designs"] for scene in data["scenes"]) > 3 * HELD
+    assert len(data["cases"]) == SELECTED
+    assert sum(scene["designs"] for scene in data["scenes"]) > 3 * SELECTED
     questions, cache = [random_question(rng, table) for _ in range(QUESTIONS)], {}
     sure = better = 0
     answers = told(data, [on_the_page(question) for question in questions])
@@ -126,7 +126,7 @@ def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few,
 def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
     told, few, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(held, "MOST", 2 * HELD)
+    monkeypatch.setattr(selection, "MOST", 2 * SELECTED)
     file, table, data, _ = many(tmp_path, 5)
     masses = table["mass_g"].dropna().unique()
     plain = {"panel": None, "per": "specimen", "require": {}}
@@ -150,8 +150,8 @@ def test_layers_hold_the_best_below_every_limit():
         assert {*within[np.argsort(-merit[within])][:4]} <= {*first}
 
 
-def test_few_designs_are_all_held(tmp_path):
+def test_the_page_of_few_designs_has_all(tmp_path):
     _, table, data, _ = many(tmp_path, 1)
     assert {design["id"] for design in data["cases"]} == {*table["case_id"][table["loaded"] == 1]}
-    assert [scene["left_out"] for scene in data["scenes"]] == [[], []]
+    assert [scene["others"] for scene in data["scenes"]] == [[], []]
     assert all(scene["stopped"] == 0 for scene in data["scenes"])

@@ -38,7 +38,7 @@ SAMPLE = 50  # of these, from all the others
 SCENES = 40
 PLACES = 15  # within a budget
 LIMITED = 3  # places below a limit
-STOPPED = 60  # unfinished cases of a scene
+STOPPED, LEAST_STOPPED = 60, 10  # unfinished cases in all scenes; of each at least
 GROUPS = 256  # in all scenes
 LIMITS = {
     "passed": "passed_on_N",
@@ -58,7 +58,7 @@ class Counted(NamedTuple):
     names: Compared
 
 
-def held(
+def select_designs(
     first: Iterable[str], counted: Sequence[Counted], scenes: Sequence[DataFrame]
 ) -> list[str]:
     """Ids of the designs that a page holds, the most important first.
@@ -76,16 +76,17 @@ def held(
     return [*ids, *(others[k] for k in sample)]
 
 
-def held_unfinished(rows: DataFrame, names: Compared) -> DataFrame:
-    """The rows of stopped cases of a scene that reached the most so far, for some budget."""
-    if len(rows) <= STOPPED:
+def select_stopped(rows: DataFrame, names: Compared, scenes: int) -> DataFrame:
+    """The rows of stopped cases of one of the scenes that reached the most, for some budget."""
+    most = max(STOPPED // scenes, LEAST_STOPPED)
+    if len(rows) <= most:
         return rows
     mass, energy = (rows[name].to_numpy(float) for name in (names.mass, names.energy))
     merits = layers(mass, energy, PLACES), layers(np.zeros_like(mass), energy / mass, PLACES)
     leading = chain.from_iterable(
         part for depth in zip_longest(*merits) for part in depth if part is not None
     )
-    chosen = list(islice(dict.fromkeys(chain(leading, range(len(rows)))), STOPPED))
+    chosen = list(islice(dict.fromkeys(chain(leading, range(len(rows)))), most))
     return rows.iloc[np.sort(chosen)]
 
 
@@ -140,7 +141,7 @@ def _merits(part: DataFrame, names: Compared) -> list[Floats]:
     return [sign * part[name].to_numpy(float) for name in columns]
 
 
-def left_out(
+def group_others(
     counted: Sequence[Counted], rows: DataFrame, ids: Iterable[str], scenes: int
 ) -> list[list[dict[str, Any]]]:
     """The groups of the designs of a scene that the page leaves out, twice; none if it has all.
