@@ -28,6 +28,7 @@ from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.selection import (
     SCENES,
     Counted,
+    front_of_others,
     group_others,
     select_designs,
     select_stopped,
@@ -100,6 +101,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
             _scene(rows, some)
             | {"designs": len(rows), "stopped": len(halted) - len(named)}
             | {"others": group_others(counted, rows, ids, len(scenes))}
+            | {"front_of_others": front_of_others(counted, rows, ids)}
             for rows, some, halted, named in zip(scenes, kept, stopped, shown, strict=True)
         ],
         "energies": [_energy(each) for each in counted],

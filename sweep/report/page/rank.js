@@ -272,7 +272,11 @@ function certainty(data, question, { placed, nearest, lightestMeeting }) {
   const most = greatestMass(data, question);
   const groupings = (which) => scene.others.map((groups) => groups.map((group) => bestOf(data, group, question, which)));
   const worths = (rows) => rows.filter((row) => row.worst === 0 && row.mass <= most && row.value !== null).map((row) => sign * row.value);
-  const bound = Math.min(...groupings("sound").map((rows) => Math.max(-Infinity, ...worths(rows))));
+  const bounds = groupings("sound").map((rows) => Math.max(-Infinity, ...worths(rows)));
+  const front = scene.least ? scene.front_of_others[0] : scene.front_of_others[storedEnergy(data, question)];
+  if (front && !question.panel && (scene.least || question.budget !== null))
+    bounds.push(Math.max(-Infinity, ...front[1].filter((_, i) => front[0][i] <= most)));
+  const bound = Math.min(...bounds);
   const slack = storedEnergy(data, question) < 0 ? data.doubt : 0;
   const worth = (row) => sign * row.value - slack * Math.abs(row.value);
   const unsure = placed.findIndex((row) => doubtful(row) || !(worth(row) > bound));

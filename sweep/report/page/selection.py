@@ -7,8 +7,9 @@ columns; the best below some limit of a requirement; and a sample of the others.
 The designs that it leaves out are in groups. A group is a design that no page shows: the least mass
 of its members, their greatest energies, their least force and so on. No member can have a better
 value than the group for any question, nor miss a requirement that the group meets. So the page
-knows which places are certain (`leftOut` in rank.js). The members are grouped twice, once by mass
-alone and once by all that limits them, and the lower of both bounds counts.
+knows which places are certain (`certainty` in rank.js). The members are grouped twice, once by mass
+alone and once by all that limits them, and the lower of both bounds counts; within a budget, also
+that of the front of the designs that are left out.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ MOST = 300  # designs
 SAMPLE = 50  # of these, from all the others
 SCENES = 40
 PLACES = 15  # within a budget
-LIMITED = 3  # places below a limit
+LIMITED = 8  # of those that are the best below some limit of a requirement
 STOPPED, LEAST_STOPPED = 60, 10  # unfinished cases in all scenes; of each at least
 GROUPS = 256  # in all scenes
 LIMITS = {
@@ -69,7 +70,9 @@ def select_designs(
     if len(every) <= MOST:
         return list(dict.fromkeys([*first, *every]))
     depths = zip_longest(*(layer for rows in scenes for layer in _layered(counted, rows)))
-    leading = chain.from_iterable(filter(None, chain.from_iterable(depths)))
+    limited = (layer for rows in scenes for layer in _limited(counted[0], rows))
+    rounds = chain(islice(depths, 1), [limited], depths)
+    leading = chain.from_iterable(filter(None, chain.from_iterable(rounds)))
     ids = dict.fromkeys(islice(dict.fromkeys(chain(first, leading)), MOST - SAMPLE))
     others = [case_id for case_id in every if case_id not in ids]
     sample = np.linspace(0, len(others) - 1, min(MOST - len(ids), len(others))).round().astype(int)
@@ -108,29 +111,34 @@ def layers(limited: Floats, merit: Floats, most: int) -> Iterator[Indices]:
 
 def _layered(counted: Sequence[Counted], rows: DataFrame) -> Iterator[Iterator[list[str]]]:
     """Ids of the best designs of a scene by one of its merits after another, in layers."""
-
-    def ids(part: DataFrame, limited: Floats, merit: Floats, most: int) -> Iterator[list[str]]:
-        names = part["case_id"].to_numpy()
-        return (list(names[layer]) for layer in layers(limited, merit, most))
-
     for name in (counted[0].names.mass, "peak_force_N"):  # ends of the sliders
         values = rows[name].to_numpy(float)
         for ends in (values, -values):
-            yield ids(rows, np.zeros(len(rows)), ends, 1)
+            yield _ids(rows, np.zeros(len(rows)), ends, 1)
     for each in counted:
         part = each.rows.loc[rows.index]
         part = part[~doubtful(part)]
         mass, same = part[each.names.mass].to_numpy(float), np.zeros(len(part))
-        merits = _merits(part, each.names)
-        for merit in merits:
-            yield ids(part, mass, merit, PLACES)
-            yield ids(part, same, merit, PLACES)
+        merit, *per_gram = _merits(part, each.names)
         area = (part["outer_width_m"] * part["depth_m"]).to_numpy(float)
-        yield ids(part, mass / area, merits[0] / area, PLACES)
-        yield ids(part, same, merits[0] / area, PLACES)
-        for column in (*LIMITS.values(), "counted_stroke_m") if each is counted[0] else ():
-            for merit in merits:
-                yield ids(part, part[column].to_numpy(float), merit, LIMITED)
+        yield _ids(part, mass, merit, PLACES)
+        yield _ids(part, same, per_gram[0] if per_gram else merit, PLACES)
+        yield _ids(part, mass / area, merit / area if per_gram else merit, PLACES)
+        yield _ids(part, same, merit / area, PLACES)
+
+
+def _limited(until_packed: Counted, rows: DataFrame) -> Iterator[list[str]]:
+    """Ids of some of the best designs of a scene below the limits of one requirement."""
+    part = rows[~doubtful(rows)]
+    for column in (*LIMITS.values(), "counted_stroke_m"):
+        for merit in _merits(part, until_packed.names):
+            for ids in _ids(part, part[column].to_numpy(float), merit, 1):
+                yield ids[:: -(-len(ids) // LIMITED)]
+
+
+def _ids(part: DataFrame, limited: Floats, merit: Floats, most: int) -> Iterator[list[str]]:
+    names = part["case_id"].to_numpy()
+    return (list(names[layer]) for layer in layers(limited, merit, most))
 
 
 def _merits(part: DataFrame, names: Compared) -> list[Floats]:
@@ -163,6 +171,23 @@ def group_others(
         ]
         for used in (1, len(columns))
     ]
+
+
+def front_of_others(
+    counted: Sequence[Counted], rows: DataFrame, ids: Iterable[str]
+) -> list[list[list[float]]]:
+    """The best designs to be trusted that the page leaves out, within every budget: their masses
+    and energies, for each kind of energy; where something else is compared, the negative of that.
+    """
+    rows = rows[~rows["case_id"].isin([*ids])]
+    fronts = []
+    for each in counted if len(rows) else ():
+        part = each.rows.loc[rows.index]
+        part = part[~doubtful(part)]
+        mass, merit = part[each.names.mass].to_numpy(float), _merits(part, each.names)[0]
+        best = next(layers(mass, merit, 1), np.zeros(0, int))
+        fronts.append([mass[best].tolist(), merit[best].tolist()])
+    return fronts
 
 
 def _split(rows: Indices, axes: Floats, count: int, turn: int = 0) -> list[Indices]:

@@ -154,4 +154,5 @@ def test_the_page_of_few_designs_has_all(tmp_path):
     _, table, data, _ = many(tmp_path, 1)
     assert {design["id"] for design in data["cases"]} == {*table["case_id"][table["loaded"] == 1]}
     assert [scene["others"] for scene in data["scenes"]] == [[], []]
+    assert [scene["front_of_others"] for scene in data["scenes"]] == [[], []]
     assert all(scene["stopped"] == 0 for scene in data["scenes"])
