@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh steps pictures rammed \
-        bars spread effort search sides wide memory stability torture plates plates_solid bench experiment along figures lint clean
+        bars spread effort search sides wide memory stability torture scale plates plates_solid bench experiment along figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -112,6 +112,9 @@ stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stabi
 
 torture: setup  ## damage results files, kill runs, workers and schedulers; goes to results/torture/ (15 min)
 	@$(PYTHON) -m tests.studies.torture results/torture
+
+scale: setup  ## time every verb on 20,000 and 100,000 invented cases; goes to results/scale/ (20 min, 6 GB)
+	@$(PYTHON) -m tests.studies.scale results/scale
 
 bench: setup  ## measure how fast it is; the tables go to results/bench/
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.bench results/bench

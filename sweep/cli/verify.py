@@ -86,12 +86,9 @@ def _other_array(file: str, result: Result) -> str:
 
     from sweep.store.read import read_frames, read_history
 
-    try:
-        curves = read_history(file, result.case_id)
-        stored = {name: curves[name].to_numpy() for name in curves}
-        stored |= read_frames(file, result.case_id)
-    except (ValueError, LookupError):  # other types, other numbers of rows
-        return "curves"
+    curves = read_history(file, result.case_id)
+    stored = {name: curves[name].to_numpy() for name in curves}
+    stored |= read_frames(file, result.case_id)
     for name, array in (*result.history.items(), *result.frames.items()):
         new, old = np.asarray(array, float), np.asarray(stored.get(name, np.nan), float)
         size = np.nanmax(np.abs(new), initial=0.0)

@@ -6,6 +6,7 @@ them, so that equal physics has an equal id.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from hashlib import blake2b
 from math import hypot, inf
 from typing import Any, TypeVar
@@ -33,7 +34,15 @@ from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sliced import Sliced, sliced
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import TABLES, Given, Pairs, RefusedError, Table, canonical
+from sweep.config.kinds.table import (
+    TABLES,
+    Given,
+    Pairs,
+    RefusedError,
+    Table,
+    canonical,
+    keys_of,
+)
 from sweep.config.kinds.upright import across, upright
 from sweep.config.structures.structure_file import faults
 
@@ -61,10 +70,10 @@ class Case(BaseModel):
         """
         _check_tables(tables)
         contents = {name: _values(values) for name, values in tables.items()}
-        case = complete(contents).sound()
+        case = complete(contents).sound(axes)
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
-        return case.model_copy(update={"axes": dict(axes or {})})
+        return case
 
     @property
     def along(self) -> bool:
@@ -97,11 +106,18 @@ class Case(BaseModel):
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
         return self.lattice.tied and loose and self.loading.quasi_static
 
-    @property
+    @cached_property
     def case_id(self) -> str:
         """Hash of all parameters except labels: 16 hexadecimal digits."""
         tables = ",".join(f'"{name}":{canonical(getattr(self, name))}' for name in sorted(TABLES))
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> "Case":
+        """The case with other tables, or other labels, which alone leave it its id."""
+        copied = super().model_copy(update=update, deep=deep)
+        if set(update or ()) - {"axes"}:
+            copied.__dict__.pop("case_id", None)
+        return copied
 
     def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
@@ -112,10 +128,11 @@ class Case(BaseModel):
         _check_tables(tables)
         changes = {name: dict(change) for name, change in tables.items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
-        case = complete({name: _values(table) for name, table in values.items()}).sound()
+        labels = self.axes | dict(axes or {})
+        case = complete({name: _values(table) for name, table in values.items()}).sound(labels)
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
-        return case.model_copy(update={"axes": self.axes | dict(axes or {})})
+        return case
 
     def to_json(self) -> str:
         """The case as JSON text, which `from_json` reads."""
@@ -164,11 +181,12 @@ class Draft:
         self.tables[name] = made  # type: ignore[assignment]
         return made
 
-    def sound(self) -> Case:
-        """The case; raises the first refusal if there is one."""
+    def sound(self, axes: Mapping[str, Any] | None = None) -> Case:
+        """The case, with these labels; raises the first refusal if there is one."""
         if self.refused:
             raise self.refused[0]
-        return Case.model_construct(None, **self.tables, axes={})  # type: ignore[arg-type]
+        values: dict[str, Any] = {**self.tables, "axes": dict(axes or {})}
+        return Case.model_construct(keys_of(Case), **values)
 
 
 def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> Draft:

@@ -127,8 +127,9 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
             impossible.append(draft)
             continue
         usable |= draft.texts
-        cases.setdefault(draft.case.case_id, draft.labelled())
-        unused = still_unused(unused, draft.given, draft.case) if unused else unused
+        case = draft.labelled()
+        cases.setdefault(case.case_id, case)
+        unused = still_unused(unused, draft.given, case) if unused else unused
     refused = [draft for draft in impossible if draft.needs(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
         raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))
@@ -164,11 +165,6 @@ class _Combination:
         """Whether it has a value that is not usable, and not only walls that do not print."""
         return [fault.key for fault in self.faults] != [PRINTABLE] and not self.texts <= usable
 
-    @property
-    def case(self) -> Case:
-        """The case of a combination without faults."""
-        return self.draft.sound()
-
     def value(self, key: str) -> Any:
         """The value of the case; of an alias, the value that all its targets share."""
         first, *others = [self._value(target) for target in _keys(key)]
@@ -189,10 +185,10 @@ class _Combination:
         return all(rounded(self.value(key)) in values for key, values in table.items())
 
     def labelled(self) -> Case:
-        """The case with its values along the axes."""
+        """The case of a combination without faults, with its values along the axes."""
         values = {key: self.value(key) for key in self.chosen}
         axes = {key: int(v) if isinstance(v, bool) else v for key, v in values.items()}
-        return self.case.model_copy(update={"axes": axes})
+        return self.draft.sound(axes)
 
 
 def _drafts(recipe: Recipe) -> Iterator[_Combination]:

@@ -6,8 +6,9 @@ which the panel bears the allowed one. The stored curves have the answer for eac
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from sweep.ranking.question import Question
 
 ROUND_OFF = 1e-9
+READ = ("top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")
+"""Columns of a curve from which energy and stroke are read."""
 Cache = dict[tuple[str, float], tuple[float, float]]
 """Energy (J) and stroke (m) of a case by its id and a force (N)."""
 
@@ -38,7 +41,7 @@ def with_allowed(
     are no crush or have no curve. Of a crush that stopped, they are those so far. cache : values
     of earlier calls, which are not read again; new values are added.
     """
-    from sweep.store.read import read_runs
+    from sweep.store.read import read_curves
 
     force, panel = question.allowed_force, question.panel
     of_panel = question.per == "panel"
@@ -54,23 +57,24 @@ def with_allowed(
     keys = [(str(case_id), float(force)) for case_id, force in at]
     cache = {} if cache is None else cache
     new = [key for key in keys if key not in cache]
-    cases = read_runs(file, [case_id for case_id, _ in new], shapes=False)
-    cache |= {key: reached(case.history, key[1]) for key, case in zip(new, cases, strict=True)}
+    forces = dict(new)
+    curves = read_curves(file, forces, READ)
+    cache |= {(k, forces[k]): reached(curve, forces[k]) for k, curve in curves} if new else {}
     values = [cache[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
     added.loc[crushes, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(values).reshape(-1, 2)
     return added
 
 
-def reached(curve: DataFrame, force: float) -> tuple[float, float]:
+def reached(curve: Mapping[str, Any], force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
-    curve : the history of the crush. Of several cycles, the first one counts. NaN without rows.
+    curve : the history of the crush, at least its columns `READ`. Of several cycles, the first one
+    counts. NaN without rows.
     """
-    if curve.empty:
+    travel, top, bottom, work = (np.asarray(curve[name], float) for name in READ)
+    if not len(travel):
         return float("nan"), float("nan")
-    travel = curve["top_displacement_m"].to_numpy()
     end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
-    borne = np.fmax(curve["reaction_top_N"], curve["reaction_bottom_N"]).to_numpy()[:end]
-    work = curve["work_in_J"].to_numpy()[:end]
-    return absorbed_until(force, borne, work), stroke_until(force, borne, travel[:end])
+    borne, work, travel = np.fmax(top, bottom)[:end], work[:end], travel[:end]
+    return absorbed_until(force, borne, work), stroke_until(force, borne, travel)

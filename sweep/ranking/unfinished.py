@@ -35,6 +35,8 @@ from sweep.result import Status
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from numpy.typing import NDArray
+
     from sweep.ranking.question import Question
 
 RISING = re.compile(
@@ -155,11 +157,16 @@ def stroke_left(rows: DataFrame) -> Series:
 
 def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
     """1 + the number of ranked rows that are better; a doubtful one is so only than its like."""
-    own, their = (np.asarray(values, float) for values in (value, placed[by]))
-    better = their < own[:, None] if less_is_better(by) else their > own[:, None]
-    mine, yours = doubt.to_numpy()[:, None], doubtful(placed).to_numpy()
-    ahead = np.where(mine == yours, better, mine & ~yours)
-    return Series(1 + ahead.sum(axis=1), value.index, dtype=int)
+    sign = -1.0 if less_is_better(by) else 1.0
+    own, their = (sign * np.asarray(values, float) for values in (value, placed[by]))
+    yours = doubtful(placed).to_numpy()
+
+    def better(values: NDArray[np.float64]) -> NDArray[np.int64]:
+        return len(values) - np.searchsorted(np.sort(values), own, side="right")
+
+    behind = (~yours).sum() + better(their[yours])
+    ahead = np.where(doubt.to_numpy(), behind, better(their[~yours]))
+    return Series(1 + ahead, value.index, dtype=int)
 
 
 def _judged(

@@ -27,6 +27,7 @@ from sweep.running.writer_thread import result_sink, writer_thread
 from sweep.store.read import (
     ONLY_MISSING,
     Rerun,
+    changed_cases,
     damaged_ids,
     finished_ids,
     older_ids,
@@ -72,7 +73,9 @@ def run_sweep(  # noqa: PLR0913  what, where, how
             announce(f"{error} All {len(cases)} cases are in it already.")
             return len(cases) - _converged(out, cases)
         done = cases.keys() & finished_ids(out, rerun)
-        if lost := damaged_ids(out):
+        changed = changed_cases(out, {case_id: cases[case_id] for case_id in done})
+        done -= changed
+        if lost := changed.union(damaged_ids(out)):
             announce(f"damaged rows in {out}: {len(lost)}; cases of this sweep run again")
         if old := done & older_ids(out):
             announce(

@@ -33,12 +33,24 @@ TEXT = "json"
 DIMENSIONS = {"points": 2, "plate_points": 3}
 """Length of a row of positions."""
 
+LENGTHS = {"plate_y_m": 2, "striker_m": 2, "base_m": 2, "edges": 2, "quads": 4}
+"""Numbers in a row of other arrays; those that are not named have one number."""
+WHOLE = ("edges", "quads", TEXT)
+"""Arrays of whole numbers; the others are of fractions."""
+
 FORMAT = 7
 """Version of the layout and of the columns of a file; `read` refuses files of another."""
 
 GROUPS = ("cases", "histories", *FRAME_GROUPS)
 
 CHUNK = 1 << 18  # rows copied at a time
+
+
+def is_as_written(group: str, name: str, dtype: np.dtype, shape: tuple[int, ...]) -> bool:
+    """Whether an array of a group has the kind and the length of rows that a writer gives it."""
+    length = DIMENSIONS.get(group, 0) if name == "position_m" else LENGTHS.get(name, 0)
+    kinds = "iu" if name in WHOLE else "f"
+    return dtype.kind in kinds and shape[1:] == ((length,) if length else ())
 
 
 @dataclass(frozen=True)
@@ -66,6 +78,24 @@ class Ragged:
         begin = self.start[row]
         end = begin + self.rows[row]
         return {name: array[begin:end] for name, array in self.arrays.items()}
+
+    def cases(
+        self, kept: np.ndarray, names: Sequence[str]
+    ) -> Iterator[tuple[int, dict[str, np.ndarray]]]:
+        """The number of each kept row and its named arrays, in their order in the file; those of
+        many cases are read at once.
+        """
+        order = kept[np.argsort(self.start[kept], kind="stable")]
+        begins, ends = self.start[order], np.maximum.accumulate((self.start + self.rows)[order])
+        first = 0
+        while first < len(order):
+            begin = begins[first]
+            last = max(int(np.searchsorted(ends, begin + CHUNK, "right")), first + 1)
+            read = {name: self.arrays[name][begin : ends[last - 1]] for name in names}
+            for row in order[first:last]:
+                own = slice(self.start[row] - begin, self.start[row] + self.rows[row] - begin)
+                yield int(row), {name: array[own] for name, array in read.items()}
+            first = last
 
     def ranges(self, kept: np.ndarray) -> Iterator[tuple[int, int]]:
         """Begin and end of ranges of rows that together hold the kept cases, in their order."""

@@ -43,8 +43,9 @@ def row_checksums(columns: Mapping[str, np.ndarray]) -> np.ndarray:
 def _bits(column: np.ndarray) -> np.ndarray:
     """The values of a column as 64 bits each; of a text, its length and its checksum."""
     if column.dtype == object:
-        texts = [text.encode() for text in column]
-        return np.array([len(text) << 32 | crc32(text) for text in texts], np.uint64)
+        encoded = {text: text.encode() for text in {*column}}
+        bits = {name: len(text) << 32 | crc32(text) for name, text in encoded.items()}
+        return np.array([bits[text] for text in column], np.uint64)
     wide = np.float64 if column.dtype.kind == "f" else np.int64
     return np.ascontiguousarray(column, wide).view(np.uint64)
 

@@ -81,12 +81,12 @@ class Growing:
 
     def seal(self, about: About) -> None:
         """Write the summary, with rows in the order of `about.axes`, and seal the file."""
-        table = stack(self._tables)
+        table, self._tables = stack(self._tables), []
         newest = {case_id: row for row, case_id in enumerate(table["case_id"])}
         places = rows_in_order(newest, dict.fromkeys([*about.axes, *self._known]))
         order = np.array(list(newest.values()), dtype=np.int64)[places]
         summary = self._file.create_group("summary", track_order=True)
-        rows = relabel(take(table, order), about.axes)
+        rows = relabel({name: table.pop(name)[order] for name in [*table]}, about.axes)
         for name, column in arrange(rows).items():
             data = _write_column(summary, name, column, self._packed)
             if self._packed:

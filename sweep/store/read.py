@@ -17,9 +17,10 @@ with the same case id it takes the newer one.
                                attribute `checksum` is that of the other attributes
 """
 
+import json
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -28,9 +29,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import h5py
 import numpy as np
 
-from sweep.columns import HISTORY_COLUMNS
-from sweep.result import MODEL_VERSION, Status
-from sweep.store.batch import FORMAT, FRAME_GROUPS, GROUPS, TEXT, Block, Ragged, newest
+from sweep.columns import COLUMNS, HISTORY_COLUMNS
+from sweep.result import LOADED, MODEL_VERSION, Status
+from sweep.store.batch import (
+    FORMAT,
+    FRAME_GROUPS,
+    GROUPS,
+    TEXT,
+    Block,
+    Ragged,
+    is_as_written,
+    newest,
+    newest_rows,
+)
 from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.errors import StoreError as StoreError
 from sweep.store.parts import list_parts
@@ -46,12 +57,14 @@ ATTEMPTS = 100  # to open all files of a set before the writer changes the set
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 ID = re.compile(r"[0-9a-f]{1,16}")
+NOT_SO = "has values of another kind, or rows of another length"
 ELSEWHERE = (
     "is open for writing in another program: close it there, or run `h5clear -s` on it if that "
     "program has crashed"
 )
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
+CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
 FILES_REMEMBERED = 4096
 _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 """Damaged rows of files that this process has checked: a sealed file never changes."""
@@ -137,9 +150,43 @@ def unreadable(
         for case_id in case_ids:
             try:
                 arrays = arrays_of[case_id](GROUPS)
+                _frames(path, case_id, arrays)
                 _case(path, case_id, arrays)
             except StoreError as error:
                 yield case_id, error
+
+
+def changed_cases(path: str | os.PathLike[str], cases: Mapping[str, "Case"]) -> set[str]:
+    """Ids of those of the cases whose row holds another case; cases without a row are left out.
+
+    Texts are compared, which takes 30 us each; where they differ, the ids of the cases.
+    """
+    if not exists(path):
+        return set()
+    with _union(Path(path)) as blocks:
+        texts = _texts(blocks, cases.keys())
+        return {case_id for case_id, text in texts if not _is_of(text, cases[case_id])}
+
+
+def _texts(blocks: list[Block], ids: Collection[str]) -> Iterator[tuple[str, bytes]]:
+    """The stored text of each of these cases that has a row, by its id."""
+    for block, newest_row in zip(blocks, newest_rows(blocks), strict=True):
+        names = block.summary["case_id"]
+        rows = newest_row[[names[row] in ids for row in newest_row]]
+        for row, arrays in block.ragged["cases"].cases(rows, [TEXT]):
+            yield names[row], arrays[TEXT].tobytes()
+
+
+def _is_of(text: bytes, case: "Case") -> bool:
+    """Whether a stored text is of a case; labels, the last table, may be those of another sweep."""
+    own, mark = case.to_json().encode(), b',"axes":'
+    (body, _, labels), (own_body, _, own_labels) = text.rpartition(mark), own.rpartition(mark)
+    try:
+        if body == own_body:
+            return labels == own_labels or [*json.loads(b'{"axes":' + labels)] == ["axes"]
+        return type(case).model_validate_json(text).case_id == case.case_id
+    except (ValueError, ArithmeticError):
+        return False
 
 
 def _case(path: str | os.PathLike[str], case_id: str, arrays: dict[str, np.ndarray]) -> "Case":
@@ -164,7 +211,7 @@ def read_history(path: str | os.PathLike[str], case_id: str) -> "DataFrame":
 
 def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndarray]:
     """Stored shapes of one case, the arrays of `Result.frames`; empty if the case has none."""
-    return _frames(_read_arrays(Path(path), case_id, FRAME_GROUPS))
+    return _frames(path, case_id, _read_arrays(Path(path), case_id, FRAME_GROUPS))
 
 
 def read_runs(
@@ -179,8 +226,28 @@ def read_runs(
             if case_id not in arrays_of:
                 raise StoreError(f"{path} holds no case {case_id}.")
             arrays = arrays_of[case_id]
-            frames = _frames(arrays(FRAME_GROUPS)) if shapes else {}
+            frames = _frames(path, case_id, arrays(FRAME_GROUPS)) if shapes else {}
             yield StoredRun(case_id, _history(arrays(["histories"])), frames)
+
+
+def read_curves(
+    path: str | os.PathLike[str], case_ids: Collection[str], names: Sequence[str]
+) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
+    """Named columns of the curves of many cases, in their order in the file; no rows where a case
+    has no curves.
+    """
+    ids = {*case_ids}
+    with _union(Path(path)) as blocks:
+        for block, newest_row in zip(blocks, newest_rows(blocks), strict=True):
+            stored, curves = block.summary["case_id"], block.ragged["histories"]
+            rows = newest_row[[stored[row] in ids for row in newest_row]]
+            known = [name for name in names if name in curves.arrays]
+            none = {name: np.zeros(0) for name in names}
+            for row, arrays in curves.cases(rows, known):
+                ids.discard(stored[row])
+                yield stored[row], none | {k: v.astype(np.float64) for k, v in arrays.items()}
+    for case_id in ids:
+        raise StoreError(f"{path} holds no case {case_id}.")
 
 
 @contextmanager
@@ -201,12 +268,19 @@ def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
     return DataFrame(curves, columns=list(HISTORY_COLUMNS | curves), dtype=np.float64)
 
 
-def _frames(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _frames(
+    path: str | os.PathLike[str], case_id: str, arrays: dict[str, np.ndarray]
+) -> dict[str, np.ndarray]:
     """The arrays of `Result.frames` as they were before positions became rows of a table."""
-    if "position_m" in arrays:
-        rows = arrays["position_m"]
-        arrays["position_m"] = rows.reshape(len(arrays["strain"]), -1, rows.shape[1])
-    return arrays
+    if "position_m" not in arrays:
+        return arrays
+    rows = arrays["position_m"]
+    nodes, rest = divmod(len(rows), len(arrays.get("strain", ())) or len(rows) + 1)
+    named = [arrays[name] for name in ("edges", "quads") if name in arrays]
+    if rest or not named or any(each.min() < 0 or each.max() >= nodes for each in named):
+        why = "elements of nodes that they do not have" if not rest else "frames without all nodes"
+        raise StoreError(f"{path} holds no usable shapes of case {case_id}: {why}; {AGAIN}.")
+    return arrays | {"position_m": rows.reshape(-1, nodes, rows.shape[1])}
 
 
 def folded_batches(path: Path) -> int:
@@ -266,7 +340,7 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         if not (path.is_file() or path.is_dir()) and path.exists():
             raise StoreError(f"{path} cannot be read: it is no regular file.")
         # A sealed file never changes, so it needs no lock, which would block other readers.
-        file = stack.enter_context(h5py.File(path, "r", locking=False))
+        file = stack.enter_context(h5py.File(path, "r", locking=False, rdcc_nbytes=CACHE))
         if (written := _attribute(file, "format")) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")
@@ -278,7 +352,7 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         if (content := _identity(file)) not in _DAMAGED:
             while len(_DAMAGED) >= FILES_REMEMBERED:
                 _DAMAGED.pop(next(iter(_DAMAGED)), None)
-            _DAMAGED[content] = _changed_rows(columns, ragged, _numbers(file, "checksums"))
+            _DAMAGED[content] = _changed_rows(path, columns, ragged, _numbers(file, "checksums"))
         return Block(columns, ragged, attributes, _DAMAGED[content])
 
 
@@ -317,11 +391,15 @@ def _identity(file: h5py.File) -> tuple[int, ...]:
 
 
 def _changed_rows(
-    columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
+    path: Path, columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
 ) -> frozenset[int]:
     """Numbers of the rows whose checksums are not those written, or whose id is none of Crumple's:
     ids become names of files.
     """
+    for name, column in columns.items():
+        is_text, known = column.dtype == object, COLUMNS.get(name)
+        if known and is_text != (known.units == "") and (is_text or name not in LOADED):
+            raise StoreError(f"{path} is damaged: /summary/{name} {NOT_SO}: {AGAIN}.")
     ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
     if any(column.shape != written.shape for column in checked_columns(columns, ranges).values()):
         raise ValueError("columns of other lengths")
@@ -371,16 +449,19 @@ def _undamaged(path: Path) -> Iterator[None]:
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
     values = _inside(group, "values", h5py.Group)
-    arrays = _Members(path, values, partial(_Array, path))
+    arrays = _Members(path, values, partial(_Array, path, group.name.strip("/")))
     return Ragged(_numbers(group, "start"), _numbers(group, "rows"), arrays)
 
 
 class _Array:
     """An array of a sealed file, which is read when it is indexed."""
 
-    def __init__(self, path: Path, data: h5py.Dataset) -> None:
+    def __init__(self, path: Path, group: str, data: h5py.Dataset) -> None:
         self._path, self._data = path, data
         self.dtype, self.shape = data.dtype, data.shape
+        name = data.name.rsplit("/", 1)[-1]
+        if not is_as_written(group, name, data.dtype, data.shape):
+            raise StoreError(f"{path} is damaged: {data.name} {NOT_SO}: {AGAIN}.")
 
     def __getitem__(self, rows: slice) -> np.ndarray:
         with _undamaged(self._path):
@@ -408,7 +489,11 @@ class _Members(Mapping[str, Any]):
 
 
 def _column(data: h5py.Dataset) -> np.ndarray:
-    return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
+    if not h5py.check_string_dtype(data.dtype):
+        return data[:]
+    encoded = data[:].tolist()
+    texts = {text: text.decode() for text in {*encoded}}  # most are alike, and then one object
+    return np.array([texts[text] for text in encoded], dtype=object)
 
 
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:

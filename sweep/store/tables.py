@@ -3,6 +3,7 @@
 A missing value is NaN in a column of numbers and "" in a column of text.
 """
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -85,7 +86,7 @@ def _column(values: Sequence[Any]) -> np.ndarray:
 
 def _join(parts: Sequence[np.ndarray | None], lengths: Sequence[int]) -> np.ndarray:
     kinds = {"f" if part is None else part.dtype.kind for part in parts}
-    if "O" in kinds:
+    if "O" in kinds and len(kinds) > 1:
         return _column([v for part, n in zip(parts, lengths, strict=True) for v in _list(part, n)])
     blank = [np.full(n, np.nan) for n in lengths]
     return np.concatenate([b if p is None else p for p, b in zip(parts, blank, strict=True)])
@@ -96,5 +97,5 @@ def _list(part: np.ndarray | None, length: int) -> list[Any]:
 
 
 def _text(value: Any) -> str:
-    """A value of a text column; "" for None and NaN."""
-    return "" if value is None or value != value else str(value)
+    """A value of a text column, one object for all that are alike; "" for None and NaN."""
+    return "" if value is None or value != value else sys.intern(str(value))

@@ -7,7 +7,7 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.table import Given, RefusedError
+from sweep.config.kinds.table import Given, RefusedError, keys_of
 from sweep.config.network import network_of
 from sweep.constants import TO_MM
 
@@ -22,11 +22,14 @@ PARTS = (
 
 
 def across(made: Lattice) -> Lattice:
-    """The lattice without what only a crush along the cells uses."""
+    """The lattice without what only a crush along the cells uses.
+
+    It is one of perhaps very many: all share the set of their keys.
+    """
     unused: dict[str, Any] = {"layers": None, "symmetry": "none", "imperfection_seed": None}
     if isinstance(made, CustomStructure):
         unused["imperfection"] = 0.0
-    return made.model_copy(update=unused)
+    return type(made).model_construct(keys_of(type(made)), **(dict(made) | unused))
 
 
 def upright(made: Lattice, given: Given) -> Lattice:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +15,8 @@ from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import SEVEN_DIGITS, Compared, doubtful, merits, through_solid
+from sweep.ranking.merit import SEVEN_DIGITS, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.places import pareto
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
@@ -26,6 +25,14 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import interrupted, loaded, same_scene, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
+from sweep.report.page.selection import (
+    SCENES,
+    Counted,
+    front_of_others,
+    group_others,
+    select_designs,
+    select_stopped,
+)
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
@@ -52,6 +59,7 @@ POINTS = 60  # of a curve
 LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
 LEAST_POINTS = 12  # of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
+FAILURES = 500
 DRAWINGS, SHAPES = 500_000, 1_500_000  # characters
 OF_THE_RUN = {
     "created": "last run",
@@ -59,14 +67,6 @@ OF_THE_RUN = {
     "compiler": "compiler of the kernels",
     "platform": "machine",
 }
-
-
-class Counted(NamedTuple):
-    """Energy up to an allowed force (N; None: until packed), and the rows with what is compared."""
-
-    force: float | None
-    rows: DataFrame
-    names: Compared
 
 
 def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, Any]:
@@ -77,14 +77,18 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     finished = loaded(summary)
     counted = _counted(summary)
     compared = counted[0].rows
-    scenes = by_scene(loaded(compared)) if len(finished) else []
-    cases = _cases(counted, scenes, summary)
+    scenes = by_scene(loaded(compared))[:SCENES] if len(finished) else []
+    ids = select_designs(_asked_first(finished, question), counted, scenes)
+    kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
+    cases = _cases(counted, kept, summary)
     alike = [same_scene(rows, compared) for rows in scenes]
-    unfinished = _cases(counted, [rows[interrupted(rows)] for rows in alike], summary)
+    stopped = [rows[interrupted(rows)] for rows in alike]
+    shown = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
+    unfinished = _cases(counted, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
     stored, by_id = _Stored(len(cases)), summary.set_index("case_id", drop=False)
-    for case in read_runs(file, [*_first_shown(finished, counted, question), *unfinished]):
+    for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = by_id.loc[case.case_id]
         design = cases.get(case.case_id) or unfinished[case.case_id]
         design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
@@ -93,7 +97,13 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     return {
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
-        "scenes": [_scene(rows) for rows in scenes],
+        "scenes": [
+            _scene(rows, some)
+            | {"designs": len(rows), "stopped": len(halted) - len(named)}
+            | {"others": group_others(counted, rows, ids, len(scenes))}
+            | {"front_of_others": front_of_others(counted, rows, ids)}
+            for rows, some, halted, named in zip(scenes, kept, stopped, shown, strict=True)
+        ],
         "energies": [_energy(each) for each in counted],
         "heads": list(design_text(finished, summary)),
         "question": {
@@ -112,6 +122,8 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "cases": list(cases.values()),
         "unfinished": list(unfinished.values()),
         "total": len(summary),
+        "designs": len(finished),
+        "failed": int((summary["status"] != Status.CONVERGED).sum()),
         "failures": list(_failures(summary)),
         "drawings": stored.drawings,
         "shapes": stored.shapes,
@@ -212,7 +224,8 @@ def _measures(rows: DataFrame) -> dict[str, Series]:
     return crush_text(rows) if mode.driven else {}
 
 
-def _scene(rows: DataFrame) -> dict[str, Any]:
+def _scene(rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
+    """What the page says of a scene; kept: the rows of the designs that it holds."""
     mode, least = mode_of(rows), compared(rows)
     return {
         "label": scene_label(rows),
@@ -222,7 +235,7 @@ def _scene(rows: DataFrame) -> dict[str, Any]:
         "shown": mode.least and mode.least._asdict(),
         "least": least,
         "bar": least is not None and error_column(least) in rows,
-        "heads": list(_measures(rows)),
+        "heads": list(_measures(kept)),
         "meanings": meanings(rows, mode),
         "narrow": list(narrow_note(narrow_patterns(rows))),
     }
@@ -233,31 +246,15 @@ def _energy(counted: Counted) -> dict[str, Any]:
     return {"force": counted.force, "until": counted.names.until, "bar": bar}
 
 
-def _first_shown(finished: DataFrame, counted: Sequence[Counted], question: Question) -> list[str]:
-    """Ids of all cases; those whose shapes are kept first: winners, else the nearest, then those
-    that may win.
-    """
+def _asked_first(finished: DataFrame, question: Question) -> list[str]:
+    """Ids of the winners of the question that the page starts with, and of the nearest designs."""
     usual = question._replace(by=None, top=3, allowed_force=None)
     ranking = answer(finished, usual)
     winners = ranking.table.sort_values("place", kind="stable")["case_id"]
     nearest = [
         k for scene in ranking.outcomes.values() for o in scene for k in o.nearest["case_id"]
     ]
-    fronts = [front for each in counted for front in _fronts(finished, each)]
-    return list(dict.fromkeys([*winners, *nearest, *fronts, *finished["case_id"]]))
-
-
-def _fronts(finished: DataFrame, counted: Counted) -> Iterator[str]:
-    """Ids of the designs that are the best for some budget, and of the best per gram."""
-    tied = counted.rows["sides"].str.startswith(TIED_SIDES).any()
-    for panel in (None,) if tied else (None, (1.0, 1.0)):
-        rows, names = merits(finished, Question(panel=panel, allowed_force=counted.force))
-        for scene in by_scene(rows) if len(rows) else []:
-            least = compared(scene)
-            sound = scene[~doubtful(scene)]
-            merit = sound[names.energy] if least is None else -sound[least]
-            yield from sound["case_id"][pareto(sound[names.mass], merit)]
-            yield from sound.nlargest(1, names.per_gram)["case_id"]
+    return [*winners, *nearest]
 
 
 class _Stored:
@@ -376,8 +373,8 @@ def _forces(
 
 
 def _failures(summary: DataFrame) -> Iterator[dict[str, str]]:
-    """Every case that did not converge: design, scene, how it ended and why."""
-    failed = summary[summary["status"] != Status.CONVERGED]
+    """The first cases that did not converge: design, scene, how it ended and why."""
+    failed = summary[summary["status"] != Status.CONVERGED][:FAILURES]
     for rows in by_scene(failed) if len(failed) else []:
         label = scene_label(rows)
         for (_, row), design in zip(rows.iterrows(), design_labels(rows, summary), strict=True):

@@ -291,7 +291,7 @@ function showAnswer() {
     const missed = !none && now.missing.length > 0;
     if (missed) $("sentence").textContent = `No design${limit} meets the requirements.`;
     if (now.nearest) showPicture(now.nearest);
-    const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : []), ...stoppedText()];
+    const more = [...(now.nearest ? nearestText() : []), ...(missed ? instead() : []), ...lackText(), ...stoppedText()];
     $("detail").textContent = [requiredText(), ...more].filter(Boolean).join(" ");
     showCommand();
     return;
@@ -327,7 +327,29 @@ function* words(best) {
 }
 
 function detail(best) {
-  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...stoppedText()].filter(Boolean);
+  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...lackText(), ...stoppedText()].filter(Boolean);
+}
+
+// Whether the page leaves designs of the scene out.
+function isPart() {
+  return scene().others.length > 0;
+}
+
+// What the page may lack, as it does not hold all designs.
+function* lackText() {
+  if (now.better) yield "A design that this page leaves out may be better for this question: crumple rank compares all.";
+}
+
+// What the page holds, and how far its places are those among all designs.
+function* partText() {
+  if (!isPart()) return;
+  yield `This page holds ${now.rows.length} of ${scene().designs} designs: the best within every budget, per gram and per area, until densification ` +
+    "and up to the forces of the columns, the best below some limits, and a sample of the others. Numbers of designs are of these.";
+  const { certain, placed } = now;
+  if (certain > 0 && certain < placed.length)
+    yield `The first ${certain === 1 ? "design is the first" : `${certain} designs are the first`} among all; between and behind the others may be more.`;
+  else if (!certain && placed.length) yield "Places are among the designs of the page.";
+  if (now.bar || now.ranged) yield "Designs that it leaves out may share places.";
 }
 
 // The stopped cases that could have had a place, each with its reason: unfinished_notes.py.
@@ -339,7 +361,9 @@ function* stoppedText() {
       : `would have place ${least}${best < least ? " or better" : ""}, by what it had reached`;
     yield `Unfinished: ${row.design.label}: ${place}; ${row.design.message}.`;
   }
-  if (stopped.length > NAMED) yield `${stopped.length - NAMED} more unfinished cases could have had a place: see the failed cases below.`;
+  const more = stopped.length - NAMED;
+  const others = scene().stopped ? `, and so could ${scene().stopped} that this page leaves out` : "";
+  if (more > 0) yield `${more} more unfinished cases could have had a place${others}: see the failed cases below.`;
 }
 
 // The command that prints the same ranking, if there is one.
@@ -482,6 +506,7 @@ function near(id, on) {
 function notes() {
   const lines = [`*: on the Pareto front: no lighter design of the scene is as good. mass: of ${asked.panel ? "one specimen" : "the part"}.`];
   const rows = now.placed;
+  lines.unshift(...partText());
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
   lines.push(...scene().narrow);

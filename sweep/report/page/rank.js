@@ -247,11 +247,54 @@ function doubtful(row) {
   return Number(row.beyond || row.design.crossed);
 }
 
+// A group of designs that the page leaves out, as a row at least as good as that of each member:
+// selection.py. which: "any" member, or those to be trusted, "sound". A panel takes more specimens of the
+// smallest member than of the largest one.
+function bestOf(data, group, question, which) {
+  const count = (outer) => (question.panel ? panelOf(question.panel, { ...group, outer }, data.beside).specimens : 1);
+  const best = group[which];
+  const more = count(group.smallest) / count(group.outer);
+  const energies = best.energies.map(([most]) => [times(most, more), null, null]);
+  const stairs = best.stairs && [best.stairs[0], best.stairs[1].map((work) => more * work)];
+  const row = measured(data, { ...group, ...best, energies, stairs }, question);
+  const known = storedEnergy(data, question);
+  if (!data.scenes[question.scene].least && !question.panel && question.budget === null && known >= 0)
+    row.value = best.perGram[known];
+  return row;
+}
+
+// How many of the placed rows are surely the first among all designs, those that the page leaves out
+// too, which may share their places within errors; and whether one of the latter may be better than the first, meet what no design to be
+// trusted meets, come nearer to it, or be lighter.
+function certainty(data, question, { placed, nearest, lightestMeeting }) {
+  const scene = data.scenes[question.scene];
+  if (!scene.others.length) return { certain: placed.length, better: false };
+  const sign = scene.least ? -1 : 1;
+  const most = greatestMass(data, question);
+  const groupings = (which) => scene.others.map((groups) => groups.map((group) => bestOf(data, group, question, which)));
+  const worths = (rows) => rows.filter((row) => row.worst === 0 && row.mass <= most && row.value !== null).map((row) => sign * row.value);
+  const bounds = groupings("sound").map((rows) => Math.max(-Infinity, ...worths(rows)));
+  const front = scene.least ? scene.front_of_others[0] : scene.front_of_others[storedEnergy(data, question)];
+  if (front && !question.panel && (scene.least || question.budget !== null))
+    bounds.push(Math.max(-Infinity, ...front[1].filter((_, i) => front[0][i] <= most)));
+  const bound = Math.min(...bounds);
+  const slack = storedEnergy(data, question) < 0 ? data.doubt : 0;
+  const worth = (row) => sign * row.value - slack * Math.abs(row.value);
+  const unsure = placed.findIndex((row) => doubtful(row) || !(worth(row) > bound));
+  const certain = unsure < 0 ? placed.length : unsure;
+  if (placed.length && !doubtful(placed[0])) return { certain, better: certain === 0 };
+  const far = nearest && !doubtful(nearest) ? nearest.worst : Number.MAX_VALUE;
+  const nearer = (row) => row.mass <= most && row.worst <= far;
+  const lighter = (row) => row.worst === 0 && row.mass < (lightestMeeting?.mass ?? Infinity);
+  return { certain, better: groupings("any").every((rows) => rows.some((row) => nearer(row) || lighter(row))) };
+}
+
 // All designs of a scene of known mass as `rows`; those with a place, best first, as `placed`; those
 // within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
 // lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`; `ranged`: some
 // energies stand for a range; `passedOver`: doubtful designs whose values are better than the first.
+// Of a page that leaves designs out: `certain` and `better` of `certainty`.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
   const weighed = (design) => design.scene === question.scene && design.mass !== null;
@@ -278,5 +321,6 @@ function ranked(data, question) {
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);
   const lightest = Math.min(...rows.map((row) => row.mass));
   const stopped = unfinished(data, placed, question);
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged, passedOver };
+  const sure = certainty(data, question, { placed, nearest, lightestMeeting });
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged, passedOver, ...sure };
 }

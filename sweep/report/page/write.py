@@ -11,6 +11,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
+from sweep.numbers import counted
 from sweep.ranking.merit import doubtful
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -27,8 +28,13 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")
-IN_HTML = ("failures", "about", "config", "total")
+IN_HTML = ("failures", "failed", "about", "config", "total", "designs")
 TOP, TOP_OF_A_BUDGET = 10, 3
+LEFT_OUT = (
+    "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
+    "up to the forces of the columns or below some limit, and a sample of the others. Where a "
+    "design that is left out may be better, the page says so."
+)
 
 
 def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> Path:
@@ -44,9 +50,9 @@ def page(data: Mapping[str, Any], static: str) -> str:
     """The whole page; `static`: what is shown where scripts do not run, as HTML."""
     script = "\n".join(['"use strict";', *map(_read, PROGRAM)])
     digest = b64encode(sha256(script.encode()).digest()).decode()
-    failed = len(data["failures"])
-    total = "1 case" if data["total"] == 1 else f"{data['total']} cases"
-    done = total + (f", {failed} of them failed" if failed else "")
+    done = counted(data["total"], "case")
+    if failed := data["failed"]:
+        done += f", {failed} of them failed"
     return Template(_read("page.html")).substitute(
         title=escape(f"{data['name']}: which lattice is best?"),
         subtitle=escape(f"{data['file']}, {done}"),
@@ -55,7 +61,7 @@ def page(data: Mapping[str, Any], static: str) -> str:
         script_hash=f"sha256-{digest}",
         data=_as_script(_of_the_program(data)),
         tables=static,
-        failures=_failures(data["failures"], data["file"]),
+        failures=_failures(data["failures"], data["failed"], data["file"]),
         origin=_origin(data),
     )
 
@@ -118,8 +124,10 @@ def _paragraphs(lines: Iterable[str]) -> str:
     return "".join(f'<p class="quiet">{escape(line)}</p>' for line in lines)
 
 
-def _failures(failures: Iterable[Mapping[str, str]], file: str) -> str:
-    """The cases that did not converge, with their sentences; "" if there is none."""
+def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> str:
+    """The cases that did not converge, with their sentences; "" if there is none. failed: number of
+    all of them, of which the page may have only the first.
+    """
     rows = [
         f"<tr>{_cells([each['case_id'], each['label'], each['scene'], each['status']])}"
         f'<td class="sentence">{escape(each["message"])}</td></tr>'
@@ -128,10 +136,13 @@ def _failures(failures: Iterable[Mapping[str, str]], file: str) -> str:
     if not rows:
         return ""
     heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
-    count = "1 case failed" if len(rows) == 1 else f"{len(rows)} cases failed"
+    count = f"{counted(failed, 'case')} failed"
+    more = f"{failed - len(rows)} more are left out: crumple status {file} says why they failed."
+    note = _paragraphs([more]) if failed > len(rows) else ""
     return (
         f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
-        f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div></details>"
+        f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
+        f"{note}</details>"
     )
 
 
@@ -142,5 +153,9 @@ def _origin(data: Mapping[str, Any]) -> str:
     config = escape(json.dumps(data["config"], indent=1))
     folded = f"<details><summary>Config, in SI</summary><pre>{config}</pre></details>"
     thin = f"Curves have at most {data['points']} points, energies over the path two thirds of them"
-    kept = f"{len(data['shapes'])} of {len(data['cases'])} designs have their motion in this page"
-    return f'<dl>{listed}</dl>{folded}<p class="quiet">{thin}; {kept}.</p>'
+    shown, designs = len(data["cases"]), data["designs"]
+    kept = f"{len(data['shapes'])} of {shown} designs have their motion in this page"
+    lines = [f"{thin}; {kept}."]
+    if shown < designs:
+        lines += [LEFT_OUT.format(shown, designs)]
+    return f"<dl>{listed}</dl>{folded}{_paragraphs(lines)}"

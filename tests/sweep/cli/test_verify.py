@@ -3,7 +3,6 @@
 import re
 
 import h5py
-import numpy as np
 import pytest
 
 from sweep.store.read import read_summary
@@ -60,15 +59,7 @@ def moved(file):
     file["points/values/position_m"][-1] += 1e-4
 
 
-def text(file):
-    del file["histories/values/work_in_J"]
-    rows = len(file["histories/values/strain"])
-    file["histories/values/work_in_J"] = np.full(rows, b"a")
-
-
-@pytest.mark.parametrize(
-    ("change", "named"), [(swapped, "work_in_J"), (moved, "position_m"), (text, "curves")]
-)
+@pytest.mark.parametrize(("change", "named"), [(swapped, "work_in_J"), (moved, "position_m")])
 def test_curves_and_shapes_that_a_tool_has_changed_are_named(
     capsys, tmp_path, monkeypatch, change, named
 ):

@@ -89,3 +89,14 @@ def test_a_value_of_another_type_is_refused(table, key, value):
         with pytest.raises(RefusedError) as refused:
             make(**{table: {key: value}})
         assert (refused.value.key, refused.value.value) == (f"{table}.{key}", value)
+
+
+def test_a_copy_with_another_table_has_another_id():
+    case = Case.of(lattice=dict(cells_x=3))
+    known = case.case_id
+    relabelled = case.model_copy(update={"axes": {"lattice.cells_x": 3}})
+    lattice = case.lattice.model_copy(update={"cells_x": 4})
+    assert relabelled.case_id == known
+    assert relabelled == relabelled.model_copy(deep=True)
+    other = case.model_copy(update={"lattice": lattice})
+    assert other.case_id == Case.of(lattice=dict(lattice)).case_id != known

@@ -8,6 +8,8 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
 
 from sweep.result import MODEL_VERSION, Status
@@ -165,3 +167,17 @@ def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
     assert "older" not in crumple(capsys, "run", config, "--renew")[2]
     _, said, _ = crumple(capsys, "status", "results/trial.h5")
     assert "model version" not in said
+
+
+def test_a_row_that_holds_another_case_runs_again(out, log, logged, capsys):
+    write(out, cases(5), fold=True)
+    with h5py.File(out, "r+") as file:
+        texts = file["cases/values/json"]
+        other = texts[:].tobytes().replace(b'"imperfection":0.003', b'"imperfection":0.009', 1)
+        texts[:] = np.frombuffer(other, np.uint8)
+    assert run_sweep(cases(5), out, simulate=logged) == 0
+    assert log == [3]
+    assert f"damaged rows in {out}: 1" in capsys.readouterr().err
+    assert crumple(capsys, "verify", str(out), "--again", "0")[0] == 0
+    run_sweep(cases(5), out, simulate=logged)
+    assert log == [3]

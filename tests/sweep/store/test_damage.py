@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import h5py
+import numpy as np
 import pytest
 
 from sweep.store.read import (
@@ -16,7 +17,8 @@ from sweep.store.read import (
     read_history,
     read_summary,
 )
-from tests.support.results.standin import cases, forge, parts_of, write
+from tests.support.command import crumple
+from tests.support.results.standin import NODES, cases, forge, parts_of, write
 
 
 @pytest.fixture
@@ -219,3 +221,70 @@ def test_a_pipe_is_no_results_file(path):
     os.mkfifo(path)
     with pytest.raises(StoreError, match="no regular file"):
         read_summary(path)
+
+
+def replaced(file, name, values):
+    del file[name]
+    file[name] = values
+
+
+def text_for_numbers(file):
+    replaced(file, "summary/mass_g", np.array([b"a", b"b"]))
+
+
+def numbers_for_text(file):
+    replaced(file, "summary/message", [1.0, 2.0])
+
+
+def curve_of_text(file):
+    replaced(file, "histories/values/strain", np.full(len(file["histories/values/time_s"]), b"a"))
+
+
+def curve_of_rows(file):
+    replaced(file, "histories/values/strain", np.zeros((len(file["histories/values/time_s"]), 2)))
+
+
+def edges_of_three(file):
+    replaced(file, "edges/values/edges", np.zeros((len(file["edges/values/edges"]), 3), int))
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        (text_for_numbers, "/summary/mass_g"),
+        (numbers_for_text, "/summary/message"),
+        (curve_of_text, "/histories/values/strain"),
+        (curve_of_rows, "/histories/values/strain"),
+        (edges_of_three, "/edges/values/edges"),
+    ],
+)
+def test_arrays_of_another_kind_are_named(path, change, named, capsys):
+    """With checksums that fit: the file comes from elsewhere."""
+    write(path, cases(2), fold=True)
+    with h5py.File(path, "r+") as file:
+        change(file)
+    with pytest.raises(StoreError, match=f"damaged: {named} has values of another kind, or rows"):
+        read_summary(path)
+    for words in (["show", str(path)], ["status", str(path)]):
+        status, _, said = crumple(capsys, *words)
+        assert (status, named in said) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "why"),
+    [
+        ("edges/values/edges", NODES, "elements of nodes that they do not have"),
+        ("edges/values/edges", -1, "elements of nodes that they do not have"),
+        ("points/rows", 7, "frames without all nodes"),
+    ],
+)
+def test_shapes_that_do_not_fit_together_are_named(path, capsys, name, value, why):
+    write(path, cases(2), fold=True)
+    forge(path, name, lambda values: values.__setitem__(0, value))
+    case_id = cases(2)[0].case_id
+    with pytest.raises(StoreError, match=f"no usable shapes of case {case_id}: {why}"):
+        read_frames(path, case_id)
+    status, _, said = crumple(capsys, "show", str(path), case_id)
+    assert (status, why in said) == (2, True)
+    status, said, _ = crumple(capsys, "verify", str(path))
+    assert (status, why in said) == (1, True)

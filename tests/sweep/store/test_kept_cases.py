@@ -9,7 +9,15 @@ from sweep.config.load import load_config
 from sweep.result import Status, failed_result
 from sweep.store import parts
 from sweep.store.batch import FORMAT
-from sweep.store.read import StoreError, read_case, read_runs, read_summary
+from sweep.store.read import (
+    StoreError,
+    changed_cases,
+    read_case,
+    read_curves,
+    read_history,
+    read_runs,
+    read_summary,
+)
 from sweep.store.write import Writer
 from tests.support.results.specimens import summary
 from tests.support.results.specimens import write as write_made_up
@@ -126,3 +134,64 @@ def test_file_of_another_format_is_refused_with_advice(path, other):
         with pytest.raises(StoreError, match=wrong) as refused:
             ask(path)
         assert "\n" not in str(refused.value)
+
+
+def edited(path, old, new, name="cases/values/json"):
+    """Change a text in the stored cases, as a tool for HDF5 can."""
+    with h5py.File(path, "r+") as file:
+        text = file[name][:].tobytes()
+        assert len(old) == len(new)
+        assert old in text
+        file[name][:] = np.frombuffer(text.replace(old, new, 1), np.uint8)
+
+
+@pytest.mark.parametrize("fold", [False, True])
+def test_a_row_that_holds_another_case_is_found(path, fold):
+    batch = cases(5)
+    write(path, batch, fold, size=5)
+    known = {case.case_id: case for case in cases(7)}
+    assert changed_cases(path, known) == set()
+    (sealed,) = [path] if fold else parts_of(path)
+    edited(sealed, b'"imperfection":0.003', b'"imperfection":0.009')
+    assert changed_cases(path, known) == {batch[3].case_id}
+    assert changed_cases(path, {batch[1].case_id: batch[1]}) == set()
+
+
+def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path):
+    batch = cases(3)
+    relabelled = [case.model_copy(update={"axes": {"lattice.depth": 0.01}}) for case in batch]
+    write(path, relabelled, fold=True)
+    known = {case.case_id: case for case in batch}
+    assert changed_cases(path, known) == set()
+    edited(path, b'"axes":{"lattice.depth":0.01}', b'"axes":{},"solver":{"mode":1}')
+    assert changed_cases(path, known) == {batch[0].case_id}
+
+
+def test_texts_written_otherwise_are_compared_by_their_ids(path):
+    """As those of an older Crumple are."""
+    batch = cases(3)
+    write(path, batch, fold=True)
+    edited(path, b'"imperfection":0.002', b'"imperfection":2e-03')
+    edited(path, b'"imperfection":0.001', b'"imperfection":3e-03')
+    known = {case.case_id: case for case in batch}
+    assert changed_cases(path, known) == {batch[1].case_id}
+
+
+def test_no_file_has_no_changed_case(path):
+    assert changed_cases(path, {case.case_id: case for case in cases(2)}) == set()
+
+
+def test_curves_of_many_cases_are_those_of_each(path, monkeypatch):
+    monkeypatch.setattr("sweep.store.batch.CHUNK", 40)
+    batch = cases(9)
+    write(path, batch[:5], fold=True)
+    write(path, batch[3:])
+    ids = [case.case_id for case in batch[1:]]
+    read = dict(read_curves(path, ids, ["strain", "work_in_J"]))
+    assert read.keys() == {*ids}
+    for case_id in ids:
+        history = read_history(path, case_id)
+        for name in ("strain", "work_in_J"):
+            np.testing.assert_array_equal(read[case_id][name], history[name])
+    with pytest.raises(StoreError, match="holds no case ff"):
+        list(read_curves(path, ["ff"], ["strain"]))

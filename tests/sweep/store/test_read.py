@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+from contextlib import ExitStack
 from pathlib import Path
 
 import h5py
@@ -17,6 +18,7 @@ from sweep.store.read import (
     Rerun,
     StoreError,
     finished_ids,
+    open_sealed,
     read_attributes,
     read_frames,
     read_history,
@@ -339,3 +341,19 @@ def test_a_link_is_another_name_of_a_results_file(tmp_path):
     assert link.is_symlink()
     assert len(read_summary(path)) == len(read_summary(link)) == 3
     assert [*link.parent.iterdir()] == [link]
+
+
+def test_a_file_that_is_read_keeps_few_chunks_in_memory(path, monkeypatch):
+    """A merge has 64 parts open, of 30 arrays each: by default HDF5 would keep 1 MB of each."""
+    write(path, cases(3), fold=True)
+    opened, real = [], h5py.File
+
+    def spied(*words, **how):
+        opened.append(real(*words, **how))
+        return opened[-1]
+
+    monkeypatch.setattr(h5py, "File", spied)
+    with ExitStack() as stack:
+        open_sealed(path, stack)
+        (file,) = opened
+        assert file.id.get_access_plist().get_cache()[2] <= 1 << 16

@@ -1,0 +1,1 @@
+"""Sweeps of many cases with invented results: time and memory of every verb (`make scale`)."""
