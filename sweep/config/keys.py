@@ -22,7 +22,7 @@ from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.solver import Arcs, Integrator, InTime
+from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import TABLES, Table
 from sweep.config.materials.material_file import available
 from sweep.config.question import QUESTION
@@ -33,7 +33,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
     "loading": BY_MODE,
     "contact": (Barrier,),
     "damping": (Rayleigh, KelvinVoigt),
-    "solver": (InTime, Arcs),
+    "solver": (InTime, Static, Arcs),
 }
 """The kinds of a table, whose keys a config may set."""
 

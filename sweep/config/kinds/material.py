@@ -133,7 +133,8 @@ def material(values: Given | Pairs, along: bool = False) -> Material:
     `RecordError` if the file of a named one cannot be read.
     """
     given = dict(values)
-    made = Material.model_validate(given if "curve_strain" in given else _completed(given))
+    complete = "curve_strain" in given
+    made = Material.model_validate(_with_constants(given) if complete else _completed(given))
     _check_relaxation(made)
     _check_softening(made)
     _check_law(made)
@@ -143,6 +144,14 @@ def material(values: Given | Pairs, along: bool = False) -> Material:
 def relaxes(given: Given) -> bool:
     """Whether these values of a material make its stress depend on time."""
     return given.get("loss") is not None or bool(given.get("relaxation_times"))
+
+
+def _with_constants(given: dict[str, Any]) -> dict[str, Any]:
+    """The values of a complete material, to which a change may have added a memory."""
+    usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in given else {}
+    if relaxes(given) and "reference_time" not in given:
+        usual["reference_time"] = read_record(locate(given["name"])).reference_time
+    return usual | given
 
 
 def _completed(inputs: Given) -> dict[str, Any]:

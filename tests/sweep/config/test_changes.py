@@ -84,3 +84,17 @@ def test_walls_stay_if_their_mass_is_taken_away():
     heavy = Case.of(lattice=HEAVY)
     walls = heavy.changed(lattice=dict(mass=None, imperfection=0.02)).lattice
     assert (walls.mass, walls.wall_thickness) == (None, heavy.lattice.wall_thickness)
+
+
+def test_a_memory_that_a_change_adds_has_its_constants():
+    """As the file of the material has them."""
+    case = Case.of(loading=dict(mode="displacement"))
+    relaxing = case.changed(material={"loss": 0.4})
+    assert (
+        relaxing.material.reference_time == Case.of(material=dict(loss=0.4)).material.reference_time
+    )
+    softening = case.changed(material={"softening_r": 1.5, "softening_m": 1e5})
+    assert softening.material.softening_beta == 0.1
+    assert (
+        case.changed(material={"loss": 0.4}).changed(material={"loss": None}).material.loss is None
+    )
