@@ -86,11 +86,11 @@ def _other_array(file: str, result: Result) -> str:
 
     from sweep.store.read import read_frames, read_history
 
-    curves = read_history(file, result.case_id)
-    stored = {name: curves[name].to_numpy() for name in curves}
-    stored |= read_frames(file, result.case_id)
-    for name, array in (*result.history.items(), *result.frames.items()):
-        new, old = np.asarray(array, float), np.asarray(stored.get(name, np.nan), float)
+    curves, shapes = read_history(file, result.case_id), read_frames(file, result.case_id)
+    pairs = [(name, new, curves.get(name, np.nan)) for name, new in result.history.items()]
+    pairs += [(name, new, shapes.get(name, np.nan)) for name, new in result.frames.items()]
+    for name, computed, stored in pairs:
+        new, old = np.asarray(computed, float), np.asarray(stored, float)
         size = np.nanmax(np.abs(new), initial=0.0)
         near = {"rtol": ROUNDED, "atol": ROUNDED * size, "equal_nan": True}
         if new.shape != old.shape or not np.allclose(new, old, **near):

@@ -46,7 +46,7 @@ cells = 1
 [loading]
 strain = 0.1
 [solver]
-load_steps = 5
+load_steps = 60
 """
 
 
