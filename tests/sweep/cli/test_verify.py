@@ -59,7 +59,7 @@ def moved(file):
     file["points/values/position_m"][-1] += 1e-4
 
 
-@pytest.mark.parametrize(("change", "named"), [(swapped, "work_in_J"), (moved, "position_m")])
+@pytest.mark.parametrize(("change", "named"), [(swapped, "strain"), (moved, "position_m")])
 def test_curves_and_shapes_that_a_tool_has_changed_are_named(
     capsys, tmp_path, monkeypatch, change, named
 ):
