@@ -14,7 +14,7 @@ from sweep.config.kinds.table import Given, Pairs, RefusedError, chosen, given_o
 # A million rows of history take 120 MB, and a million steps of one square cell half a minute.
 MAX_STEPS = 1_000_000
 LOAD_STEPS = 200
-BY_ACCURACY = {"load_steps": 128, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
+BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
 TIME_STEP = 1e-4  # s
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
 STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back

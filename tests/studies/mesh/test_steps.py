@@ -14,7 +14,7 @@ def test_every_design_in_every_setting():
     ids = {case.case_id for case in cases.values()}
     assert len(ids) == len(cases) == 2 * 48 * (len(steps.SETTINGS) + 2)
     solvers = {name: case.solver for (_, _, name), case in cases.items()}
-    assert (solvers["1.0%"].accuracy, solvers["1.0%"].load_steps) == (0.01, 128)
+    assert (solvers["1.0%"].accuracy, solvers["1.0%"].load_steps) == (0.01, 400)
     assert (solvers["25"].accuracy, solvers["25"].load_steps) == (None, 25)
 
 

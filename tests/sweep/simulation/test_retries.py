@@ -71,7 +71,7 @@ def test_the_last_retry_has_another_imperfection_and_the_steps_asked_for(monkeyp
 def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch):
     answers(monkeypatch, *[STOPS] * 3)
     result = simulate_again(CRUSH)
-    tried = "solver.load_steps = 512; lattice.imperfection = 0.015"
+    tried = "solver.load_steps = 1600; lattice.imperfection = 0.015"
     assert result.message == result.summary["message"] == f"{WHY} (tried without success: {tried})"
     assert result.summary["retry"] == ""
 
@@ -89,7 +89,7 @@ def test_advice_that_was_followed_is_not_given(monkeypatch, advice, kept):
 def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch):
     answers(monkeypatch, STOPS, LOADS, STOPS)
     result = simulate_again(CRUSH)
-    assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 512")
+    assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 1600")
     assert "tried without success" in result.message
 
 
@@ -125,7 +125,7 @@ def test_all_together_keep_the_time_limit(monkeypatch):
     limited = CRUSH.changed(solver={"time_limit": 60.0})
     result = simulate_again(limited)
     assert limits == [60.0, 20.0]
-    assert result.message.endswith("(tried without success: solver.load_steps = 512)")
+    assert result.message.endswith("(tried without success: solver.load_steps = 1600)")
 
 
 def test_the_switch_is_no_part_of_the_id():
