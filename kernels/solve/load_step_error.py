@@ -5,16 +5,16 @@ With F the reaction at the driven coordinate, d its move in the step, and d0 the
     work = (F0 + F1) d / 2,    error = |F'' d^3 / 12| + |(r1 - r0) . u| / 2
 
 The first part is the error of the trapezoidal rule, with the second derivative F'' of the quadratic
-through the last three reactions, 2 (s1 - s0) / (d + d0) with slopes s = dF / d. The second part is
-due to friction: its normal forces are those of the start of a step, so that its forces r lag by a
-step, in which the coordinates move by u.
+through the last three reactions, 2 (s1 - s0) / (d + d0) with slopes s = dF / d. The second part
+bounds the error of friction, whose normal forces are estimated before the step (`march`): its
+forces r are off by no more than their change in a step, in which the coordinates move by u.
 """
 
 from kernels.compile.jit import jit_exact
 
 
 @jit_exact
-def _lag(state, found):
+def _of_friction(state, found):
     """Return |(r1 - r0) . u| / 2 in J, with the gradients r of friction after two steps."""
     before, work = state.gradients.friction, 0.0
     for i in range(found.u.size):
@@ -34,7 +34,7 @@ def ratio(problem, state, found, work, progress):
         return 0.0
     problem.reduce(found.g, work.residual)
     before, after = state.totals[0].reaction, work.residual[driven]
-    error = _lag(state, found)
+    error = _of_friction(state, found)
     if progress.move != 0.0:
         bend = ((after - before) / move - progress.slope) / (move + progress.move)
         error += abs(bend * move**3) / 6.0

@@ -26,6 +26,7 @@ from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import TABLES, Table
 from sweep.config.materials.material_file import available
 from sweep.config.question import QUESTION
+from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
     "lattice": (Cells, Sliced, CustomStructure),
@@ -168,9 +169,8 @@ def _words(schema: dict[str, Any]) -> str:
         return "true or false"
     if schema["type"] == "string":
         return "text"
-    unit = f" {schema['unit']}" if schema.get("unit", "1") != "1" else ""
     bounds = [
-        f"{words} {schema[name]:g}{unit if schema[name] else ''}"
+        f"{words} {_bound(schema[name], schema)}"
         for name, words in _BOUNDS.items()
         if name in schema
     ]
@@ -179,3 +179,11 @@ def _words(schema: dict[str, Any]) -> str:
     nouns = [noun] if schema.get("bare") or "unit" not in schema else []
     nouns += [QUANTITIES[schema["unit"]]] if "unit" in schema else []
     return ", ".join([" or ".join(nouns), *bounds])
+
+
+def _bound(value: float, schema: dict[str, Any]) -> str:
+    """A bound in the unit in which the value has to be given."""
+    unit = schema.get("unit", "1")
+    if unit == "1" and "unit" in schema and not schema.get("bare"):
+        return f"{in_unit(value, '%'):g} %" if value else "0"
+    return f"{value:g} {unit}" if value and unit != "1" else f"{value:g}"

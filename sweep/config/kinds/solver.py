@@ -47,7 +47,7 @@ class Static(_Solver):
     """Equilibria after steps of a load or a platen.
 
     `accuracy`: error of the work that is allowed in a step, as a share of it; a step then spans up
-    to eight of `load_steps` equal ones. Without it, steps are equal.
+    to four of `load_steps` equal ones. Without it, steps are equal.
     """
 
     because: ClassVar[str] = "the crush is quasi-static"

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from sweep.running.beside.error_bars import companions
 from sweep.running.sweep import run_sweep
-from sweep.store.read import read_history, read_summary
+from sweep.store.read import read_summary
 from tests.studies.mesh.certainty import covered
-from tests.studies.mesh.crushes import cases_of, compare, usual, without_contact
+from tests.studies.mesh.crushes import cases_of, compare, curve, usual, without_contact
 from tests.studies.mesh.orders import by_order, finer
 from tests.studies.mesh.tables import by_column, by_design, by_group
 from tests.studies.rankings.orders import cases_of as cases_of_sweeps
@@ -47,12 +47,6 @@ def main(folder):
     )
     sheets.append(by_order(*tables))
     publish(sheets, folder / "mesh.md")
-
-
-def curve(file, case_id):
-    """Strain and work of a crush, (rows,) each."""
-    history = read_history(file, case_id)
-    return history["strain"].to_numpy(), history["work_in_J"].to_numpy()
 
 
 if __name__ == "__main__":

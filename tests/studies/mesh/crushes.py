@@ -9,6 +9,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.mesh import nodes_of
 from sweep.design.lattice import build_network
 from sweep.result import Status
+from sweep.store.read import read_history
 from tests.studies.rankings.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
@@ -61,14 +62,20 @@ def slenderness(case):
     return float(np.median(np.linalg.norm(end - start, axis=1) / network.wall_thickness))
 
 
-def parted(curve, other):
+def curve(file, case_id):
+    """Strain and work of a crush in a results file, (rows,) each."""
+    history = read_history(file, case_id)
+    return history["strain"].to_numpy(), history["work_in_J"].to_numpy()
+
+
+def parted(path, other):
     """The strain at which two crushes part, and stay apart for `LASTING` windows; else NaN.
 
-    curves: strain and work, (rows,) each. Compared are mean forces over windows of strain, so that
-    a snap that is a little later is no other path.
+    path, other: strain and work, (rows,) each. Compared are mean forces over windows of strain, so
+    that a snap that is a little later is no other path.
     """
-    edges = np.arange(0.0, min(curve[0][-1], other[0][-1]) + 0.5 * WINDOW, WINDOW)
-    force, beside = (np.diff(np.interp(edges, *each)) for each in (curve, other))
+    edges = np.arange(0.0, min(path[0][-1], other[0][-1]) + 0.5 * WINDOW, WINDOW)
+    force, beside = (np.diff(np.interp(edges, *each)) for each in (path, other))
     apart = np.abs(force - beside) > APART * np.fmax(np.abs(force), np.abs(beside))
     lasting = np.lib.stride_tricks.sliding_window_view(apart, LASTING).all(axis=1)
     return float(edges[lasting.argmax()]) if lasting.any() else np.nan

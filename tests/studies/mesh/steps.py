@@ -12,8 +12,8 @@ import numpy as np
 
 from sweep.report.tables.sheet import Sheet
 from sweep.running.sweep import run_sweep
-from sweep.store.read import read_history, read_summary
-from tests.studies.mesh.crushes import COLUMNS, DESIGNS, parted, usual
+from sweep.store.read import read_summary
+from tests.studies.mesh.crushes import COLUMNS, DESIGNS, curve, parted, usual
 from tests.studies.rankings.spread import crush, nine_of_ten
 from tests.studies.tables import publish
 
@@ -98,15 +98,9 @@ def main(folder):
     file, cases = folder / "steps.h5", cases_of()
     run_sweep(list({case.case_id: case for case in cases.values()}.values()), file)
     rows = read_summary(file).set_index("case_id")
-    curves = {case.case_id: _curve(file, case.case_id) for case in cases.values()}
+    curves = {case.case_id: curve(file, case.case_id) for case in cases.values()}
     sheets = [sheet(compare(cases, rows, curves, loss), loss) for loss in LOSSES]
     publish(sheets, folder / "steps.md")
-
-
-def _curve(file, case_id):
-    """Strain and work of a crush, (rows,) each."""
-    history = read_history(file, case_id)
-    return history["strain"].to_numpy(), history["work_in_J"].to_numpy()
 
 
 if __name__ == "__main__":
