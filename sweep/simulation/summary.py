@@ -234,7 +234,7 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     """Columns from the force-displacement curve of the loading; only a crush can pack."""
     force, work = transmitted(case, loading), loading["work_in_J"]
-    until = {
+    until = {  # of the rows, as it is read from the stored curve for any other force
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
     }

@@ -248,8 +248,8 @@ function doubtful(row) {
 }
 
 // A group of designs that the page leaves out, as a row at least as good as that of each member:
-// selection.py. which: "any" member, or those to be trusted, "sound". A panel takes more specimens of the
-// smallest member than of the largest one.
+// selection.py. which: "any" member, or those to be trusted, "sound". A panel takes more specimens of
+// the smallest member than of the largest one.
 function bestOf(data, group, question, which) {
   const count = (outer) => (question.panel ? panelOf(question.panel, { ...group, outer }, data.beside).specimens : 1);
   const best = group[which];
@@ -263,9 +263,9 @@ function bestOf(data, group, question, which) {
   return row;
 }
 
-// How many of the placed rows are surely the first among all designs, those that the page leaves out
-// too, which may share their places within errors; and whether one of the latter may be better than the first, meet what no design to be
-// trusted meets, come nearer to it, or be lighter.
+// How many of the placed rows are surely the first among all designs; designs that the page leaves
+// out may share their places within errors. And whether one of these may be better than the first, or,
+// where no design to be trusted has a place, meet what is required, come nearer to it, or be lighter.
 function certainty(data, question, { placed, nearest, lightestMeeting }) {
   const scene = data.scenes[question.scene];
   if (!scene.others.length) return { certain: placed.length, better: false };
