@@ -75,7 +75,7 @@ mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4
 steps: setup  ## measure how long load steps may be; kept in results/steps/ (10 min)
 	@$(PYTHON) -m tests.studies.mesh.steps results/steps
 
-rammed: setup  ## ram a panel with three fronts; the table of README.md and its picture (10 min)
+rammed: setup  ## ram a panel with three fronts; the table of README.md and its picture (25 min)
 	@$(PYTHON) -m sweep run configs/rammed.toml | tee results/rammed.txt
 	@$(PYTHON) -m sweep show results/rammed.h5 8445 --out results/rammed
 	@cp results/rammed/shapes.png docs/pictures/rammed.png

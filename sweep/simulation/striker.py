@@ -22,6 +22,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.striker import Struck
 from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
@@ -96,26 +97,42 @@ def work_on_lattice(case: Case, history: Curves) -> Floats:
     return history["work_in_J"]
 
 
-def impact_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
-    """The columns `MEASURES`; NaN without a striker.
-
-    stroke_left_m: the stroke that closes all voids, minus the greatest stroke; bottomed_out:
-    whether nothing is left of it.
+def striker_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
+    """The columns `MEASURES`: the stroke left of any striker but a platen, others of an impact;
+    NaN for the rest.
     """
     loading = case.loading
-    if not isinstance(loading, Impact):
-        return dict.fromkeys(MEASURES, nan)
-    outer, thrown = case.lattice.outer_size, rebound(loading, history)
+    columns = dict.fromkeys(MEASURES, nan)
+    shaped = isinstance(loading, Struck) and loading.striker != "flat"
+    if shaped or isinstance(loading, Impact):
+        columns |= stroke_columns(case, scene, history)
+    return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
+
+
+def stroke_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
+    """stroke_left_m: the stroke that closes all voids, minus the greatest stroke; bottomed_out:
+    whether nothing is left of it.
+    """
+    outer = case.lattice.outer_size
     height = case.height if case.along else outer[1]
     voids = (1.0 - relative_density(scene.network, outer)) * height
-    left = voids - history["top_displacement_m"].max()
-    share = max(thrown.energy, 0.0) / loading.relative_energy
+    left = float(voids - history["top_displacement_m"].max())
+    return {"stroke_left_m": left, "bottomed_out": float(left <= 0.0)}
+
+
+def hit_columns(loading: Impact, history: Curves) -> dict[str, float]:
+    """Deceleration and rebound of a striker that flies."""
+    thrown = rebound(loading, history)
     peak = history["deceleration_m_per_s2"].max()
     time, velocity = history["time_s"], -history["striker_speed_m_per_s"]
     pushed = against_falling(loading, time, velocity)
     filtered = filtered_peak(time, pushed, loading.filter_class)
-    measured = peak, filtered, left, left <= 0.0, thrown.speed, share
-    return dict(zip(MEASURES, map(float, measured), strict=True))
+    return {
+        "peak_deceleration_m_per_s2": float(peak),
+        "peak_deceleration_filtered_m_per_s2": float(filtered),
+        "rebound_speed_m_per_s": thrown.speed,
+        "rebound_share": max(thrown.energy, 0.0) / loading.relative_energy,
+    }
 
 
 def rebound(loading: Impact, history: Curves) -> Rebound:

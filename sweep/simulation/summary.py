@@ -41,8 +41,8 @@ from sweep.simulation.shape_checks import (
 )
 from sweep.simulation.striker import (
     brought,
-    impact_columns,
     rebound,
+    striker_columns,
     striker_curves,
     work_on_lattice,
 )
@@ -169,7 +169,7 @@ def summarise(
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **columns_of_cycles(cycles, history["work_in_J"], transmitted(case, history)),
-        **impact_columns(case, scene, history),
+        **striker_columns(case, scene, history),
         **base_columns(case, history),
         **crush_columns(case, loading),
         **_shape_columns(case, scene, frames, strains, loading),

@@ -4,7 +4,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.table import Count, Duration, Length, Share, Table
+from sweep.config.kinds.table import Count, Duration, Length, Strain, Table
 
 ARCS = "arc_length"
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
@@ -54,7 +54,7 @@ class Static(_Solver):
 
     integrator: Literal["static"] = "static"
     load_steps: Count = 200
-    accuracy: Share | None = None
+    accuracy: Strain | None = None
 
 
 class Arcs(_Solver):

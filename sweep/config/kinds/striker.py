@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sweep.design.profile import Profile
 
 Tip = Annotated[float, Field(ge=0, json_schema_extra={"unit": "m"})]
-Place = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
+Place = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1", "bare": True})]
 Radius = Annotated[float, Field(gt=0, le=10, json_schema_extra={"unit": "m"})]
 LEAST_ANGLE, MOST_ANGLE = pi / 18, 17 * pi / 18
 REACH = 4.0  # flanks are as long as the lattice is wide and high together, times this

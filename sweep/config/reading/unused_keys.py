@@ -132,14 +132,20 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
         return _reason_in_lattice(key, case)
     if ARCS in (name, case.solver.integrator) and table in ("contact", "solver", "loading"):
         return f'solver.integrator is "{case.solver.integrator}"'
-    if key == "solver.load_steps":
+    if key == "solver.load_steps" or (key == "solver.accuracy" and not _is_crush(case)):
         return case.loading.because
+    if key == "solver.accuracy":
+        return f'solver.integrator is "{case.solver.integrator}"'
     if isinstance(kind, NoDamping):
         return _why_no_damping(given, case)
     rubs = not case.loading.quasi_static and isinstance(kind, Barrier)
     if rubs and key == "contact.slip_speed" and kind.friction == 0.0:
         return "contact.friction is 0"
     return str(kind.because)
+
+
+def _is_crush(case: Case) -> bool:
+    return isinstance(case.loading, Crush)
 
 
 def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:

@@ -8,6 +8,7 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING
 
+from sweep.columns import TIED_SIDES
 from sweep.modes import MODES, has, mode_of
 from sweep.numbers import energy_text, in_unit, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from sweep.ranking.requirements import Outcome
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
+ONE_SPECIMEN = "panel N: force of the panel, which is one specimen of {} mm."
 PANEL = (
     "panel N: force of the {} separate specimens of a panel together. Its true size is {} mm.\n"
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
@@ -58,8 +60,13 @@ def required(ranking: Ranking, modes: Iterable[str]) -> str:
 
 
 def of_one(rows: DataFrame) -> str:
-    """What masses and forces are of: the part that is printed, or a specimen of a tiled panel."""
-    return "one specimen" if "panel_specimens" in rows else "the part"
+    """What masses and forces are of: the part that is printed, a specimen of a tiled panel, or a
+    period.
+    """
+    if "panel_specimens" in rows:
+        return "one specimen"
+    tied = rows["sides"].str.startswith(TIED_SIDES)
+    return "one period" if len(tied) and tied.all() else "the part"
 
 
 def of_which(ranking: Ranking) -> str:
@@ -245,4 +252,6 @@ def panel_note(rows: DataFrame) -> list[str]:
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     struck = [STRUCK_PANEL] if has(rows, "struck").any() else []
+    if most == 1:
+        return [ONE_SPECIMEN.format(size)]
     return [PANEL.format(least if least == most else f"{least} to {most}", size), *struck]

@@ -80,7 +80,7 @@ def table(rows):
         lines,
         notes=(
             f"To {100 * STRAIN:g} % and back. 48 cells: ratio of the processor time. 3 free, 3 "
-            "tied: by how much the energy per gram exceeds the energy of 3 cells, with free and "
+            "tied: by how much more energy per gram they absorb than 3 cells, with free and "
             "with tied sides, in %. -: not simulated, or stopped.",
             f"{len(rows) - len(failed)} of {len(rows)} crushes converge.",
             *(named if failed else ()),

@@ -312,3 +312,20 @@ def test_the_usual_integrator_of_an_impact_errs_less():
     assert struck(damping=SEED).solver.integrator == "bdf2"
     truth = left("bdf2", 4000)
     assert abs(left("bdf2") - truth) < 0.1 * abs(left(EULER) - truth)
+
+
+def test_the_stroke_left_below_a_tooth_is_known_in_a_crush_too():
+    """And marks it as untrustworthy where it goes through the solid, as that of an impact."""
+
+    def pressed(**loading):
+        lattice = dict(cells_x=6, cells_y=3, width=25e-3, height=12.5e-3)
+        loading = dict(mode="displacement", strain=0.2, unload=False) | loading
+        case = Case.of(lattice=lattice, loading=loading)
+        return run(case).summary, case.lattice.outer_size[1]
+
+    tooth, height = pressed(striker="round")
+    voids = (1.0 - tooth["relative_density"]) * height
+    assert tooth["stroke_left_m"] == pytest.approx(voids - 0.2 * 12.5e-3)
+    assert tooth["bottomed_out"] == 0.0
+    assert np.isnan(tooth["rebound_share"])
+    assert np.isnan(pressed()[0]["stroke_left_m"])

@@ -32,6 +32,12 @@ IDLE = {
         'loading.hold_time = "3 s": as loading.mode is "impact"'
     ),
     '[loading]\nmode = "impact"\ncycles = 2': ('loading.cycles = 2: as loading.mode is "impact"'),
+    '[loading]\nmode = "impact"\n[solver]\naccuracy = "1 %"': (
+        'solver.accuracy = "1 %": as loading.mode is "impact"'
+    ),
+    PRESSED + 'speed = "1 m/s"\n[solver]\nintegrator = "newmark"\naccuracy = 0.01': (
+        'solver.accuracy = 0.01: as solver.integrator is "newmark"'
+    ),
     PRESSED + '[damping]\nmass = "5 1/s"': f'damping.mass = "5 1/s": {STATIC}',
     PRESSED + '[damping]\nmodel = "kelvin_voigt"': f'damping.model = "kelvin_voigt": {STATIC}',
     PRESSED + '[solver]\ntime_step = "1 ms"': f'solver.time_step = "1 ms": {STATIC}',

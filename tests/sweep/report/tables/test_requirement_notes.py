@@ -72,3 +72,16 @@ def test_quantities_are_those_of_a_maker():
     assert quantity("max_deceleration", 80 * 9.80665) == "80 g0"
     assert quantity("max_mass", 0.0567) == "56.7 g"
     assert quantity("max_force", 12345.6, digits=3) == "12300 N"
+
+
+def test_a_panel_of_one_specimen_has_no_neighbours():
+    table = CRUSHES.assign(outer_width_m=50e-3, depth_m=50e-3)
+    words = legend(ranked(table, panel=("50 mm", "50 mm")))
+    assert "which is one specimen of" in words
+    assert "neighbours" not in words
+
+
+def test_masses_of_tied_sides_are_of_one_period():
+    words = legend(ranked(CRUSHES.assign(sides="tied, fixed period")))
+    assert "mass: of one period" in words
+    assert "of the part" not in words
