@@ -20,9 +20,9 @@ GUARD = -0.7
 
 
 @jit
-def _piece(knots, strain):
+def piece(law, strain):
     """Return the index of the cubic at ``strain``; beyond the ends, of the first or last one."""
-    low, high = 0, knots.size - 1
+    knots, low, high = law.knots, 0, law.knots.size - 1
     while high - low > 1:
         middle = (low + high) // 2
         if knots[middle] <= strain:
@@ -35,7 +35,7 @@ def _piece(knots, strain):
 @jit
 def curve(law, strain):
     """Return W, sigma and its tangent on the measured part, continued by tangents."""
-    i = _piece(law.knots, strain)
+    i = law.piece(strain)
     inside = min(max(strain, law.knots[0]), law.knots[-1])
     s = inside - law.knots[i]
     c = law.coefficients[i]
@@ -95,6 +95,7 @@ class ElasticCurve(NamedTuple):
     energy: np.ndarray
     modulus: float
 
+    piece = piece
     respond = respond
     least = least
 
@@ -107,6 +108,7 @@ class FibreCurve(NamedTuple):
     energy: np.ndarray
     modulus: float
 
+    piece = piece
     respond = respond_fibre
     least = least_of_fibre
 

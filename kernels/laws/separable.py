@@ -23,17 +23,55 @@ Ericksen, 1954). The measured tension is reproduced exactly. Compression, mostly
 
 with r = `LEAST` of the slope at rest. Knots have equal ratios, so that y / 2 and 2 y are knots.
 
+The piece of such a knot follows from the logarithm of its size, without a search.
+
 S must be known for all x. Where the curve ends, it is continued in compression by
 S + S' (1 - exp(x_end - x)), as that of a neo-Hookean material, so that a fibre vanishes only at
 infinite stress; in tension by the tangent of the nominal stress.
 """
 
+import math
+from typing import NamedTuple
+
 import numpy as np
+
+from kernels.compile.jit import jit
+from kernels.laws.elastic import least_of_fibre, respond_fibre
 
 TERMS = 60
 OCTAVE = 16  # knots between y and 2 y
 FIRST, OCTAVES = 2.0**-10, 12  # knots from 0.001 to 4 in |x|, a stretch of 55
 LEAST = 0.02
+
+
+@jit
+def piece(law, x):
+    """Return the index of the cubic at ``x``; beyond the ends, of the first or last one.
+
+    The knots are those of `rising`. A logarithm that is rounded to the next piece is corrected.
+    """
+    knots, half, size = law.knots, law.knots.size // 2, abs(x)
+    if not size >= FIRST:
+        return half if x >= 0.0 else half - 1
+    place = OCTAVE * math.log2(size / FIRST)
+    step = int(place) if place < half - 2 else half - 2
+    i = half + 1 + step if x >= 0.0 else half - 2 - step
+    if x < knots[i] and i > 0:
+        return i - 1
+    return i + 1 if x >= knots[i + 1] and i < knots.size - 2 else i
+
+
+class OctaveCurve(NamedTuple):
+    """h over x; fields as in `elastic.FibreCurve`, knots as of `rising`."""
+
+    knots: np.ndarray
+    coefficients: np.ndarray
+    energy: np.ndarray
+    modulus: float
+
+    piece = piece
+    respond = respond_fibre
+    least = least_of_fibre
 
 
 def continued(nominal, least, x):

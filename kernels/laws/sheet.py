@@ -31,7 +31,6 @@ import numpy as np
 
 from kernels.compile.jit import jit
 from kernels.laws import separable
-from kernels.laws.elastic import FibreCurve
 
 EQUAL = 1e-5  # r / p below which the slope of a chord is the mean of the slopes at its ends
 
@@ -126,7 +125,7 @@ def of_stretch(law, x):
 
 
 class Sheet(NamedTuple):
-    """curve: `elastic.FibreCurve` of h over x. shear_modulus: mu = Y / 3 at rest, Pa."""
+    """curve: `separable.OctaveCurve` of h over x. shear_modulus: mu = Y / 3 at rest, Pa."""
 
     curve: object
     shear_modulus: float
@@ -138,7 +137,7 @@ class Sheet(NamedTuple):
 
 def neo_hookean(modulus):
     """Return the sheet of a linear material; modulus: Y in Pa."""
-    flat = FibreCurve(np.array([-1.0, 1.0]), np.zeros((1, 4)), np.zeros(2), 0.0)
+    flat = separable.OctaveCurve(np.array([-1.0, 1.0]), np.zeros((1, 4)), np.zeros(2), 0.0)
     return Sheet(flat, modulus / 3.0, True)
 
 
@@ -150,4 +149,4 @@ def measured(nominal, least, modulus):
     """
     x, value, slope = separable.rising(nominal, least)
     rows, energy = separable.cubics(x, value, slope)
-    return Sheet(FibreCurve(x, rows, energy, modulus), modulus / 3.0, False)
+    return Sheet(separable.OctaveCurve(x, rows, energy, modulus), modulus / 3.0, False)

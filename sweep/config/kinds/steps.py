@@ -15,6 +15,7 @@ from sweep.config.kinds.table import Given, Pairs, RefusedError, chosen, given_o
 MAX_STEPS = 1_000_000
 LOAD_STEPS = 200
 BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
+BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
 TIME_STEP = 1e-4  # s
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
 STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back
@@ -66,7 +67,8 @@ def _steps(
 ) -> InTime | Static:
     if loading.quasi_static:
         by_accuracy = isinstance(loading, Crush) and "load_steps" not in settings
-        made = (BY_ACCURACY if by_accuracy else {}) | chosen(settings, Static)
+        usual = BY_ACCURACY_ALONG if loading.along else BY_ACCURACY
+        made = (usual if by_accuracy else {}) | chosen(settings, Static)
         if "accuracy" in made and not isinstance(loading, Crush):
             allowed = "none for loads of a file, which grow in equal load_steps"
             raise RefusedError("solver.accuracy", made["accuracy"], allowed)

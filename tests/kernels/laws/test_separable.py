@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.laws import separable
-from tests.support.kernels.sheets import LEAST, MODULUS, nominal, rubber
+from tests.support.kernels.sheets import LEAST, MODULUS, measured, nominal, rubber
 
 MATERIALS = ["ninjaflex", "ultimaker_tpu95a", "filaflex_60a"]
 
@@ -94,3 +94,15 @@ def test_cubics_have_their_values_slopes_and_integral():
     rows, energy = separable.cubics(x, x**3 - x, 3 * x**2 - 1)
     np.testing.assert_allclose(rows[:, 3], 1.0, rtol=1e-12)
     np.testing.assert_allclose(energy, x**4 / 4 - x**2 / 2, atol=1e-14)
+
+
+def test_the_piece_of_a_stretch_needs_no_search():
+    """At the knots, beside them, between and beyond them."""
+    curve = measured("ninjaflex").curve
+    knots, last = curve.knots, curve.knots.size - 2
+    inner = np.random.default_rng(3).uniform(1.1 * knots[0], 1.1 * knots[-1], 400)
+    x = np.concatenate([knots, np.nextafter(knots, -9.0), np.nextafter(knots, 9.0), inner])
+    x = np.concatenate([x, 1e-3 * inner, [0.0, -0.0, 1e-300, -1e-300]])
+    expected = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, last)
+    assert [separable.piece(curve, at) for at in x] == expected.tolist()
+    assert 0 <= separable.piece(curve, np.nan) <= last
