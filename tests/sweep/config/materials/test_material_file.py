@@ -28,7 +28,7 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
     [
         ("strain,stress_Pa\n0.01,1\n0.1,2\n", "needs the lines # density_kg_m3"),
         ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
-        (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
+        (HEADER.replace("_Pa", "_bar") + "0.01,1\n", "first row must read .*units: strain_perc"),
         (HEADER + "0.01,1,3\n", "two numbers"),
         (HEADER + "0.01,soft\n0.1,2\n", "two numbers, but one is .0.01,soft."),
         (HEADER + "0.01,nan\n0.1,2\n", "finite"),
@@ -37,7 +37,12 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
         (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
         (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
         (HEADER, "reach a strain"),
-        (HEADER + "1,6e5\n35,8e6\n", "a curve to a strain of 35: is it in percent"),
+        (HEADER + "0.1,6e5\n35,8e6\n", "strain of 35, which is 3500 %: .*write strain_percent"),
+        (HEADER + "0.02,0.5\n0.1,1.6\n", "modulus of 17.5 Pa; .*in MPa. write stress_MPa"),
+        (HEADER + "0.02,5e11\n0.1,2e12\n", "modulus of .* Pa; allowed: 0.1 MPa to 1000 GPa$"),
+        (HEADER.replace("1200", "1.2") + CURVE, "density: 1.2 .* in g/cm3. write # density_g_cm3"),
+        ("# modulus_Pa: 17 .. 21\n" + HEADER + CURVE, "modulus: 17 .* write # modulus_MPa"),
+        ("# density_g_cm3: 1.2\n" + HEADER + CURVE, "density is stated twice; needed: once"),
         (
             "# loss: 38\n" + HEADER + CURVE,
             "# loss: 38; allowed: above 0, at most 0.8; 38 % is 0.38",
@@ -49,6 +54,18 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
 def test_unusable_records_are_refused_by_name(own_record, text, message):
     with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
         read_record(own_record(text))
+
+
+def test_heads_may_name_their_unit(own_record):
+    """The same curve in percent and MPa, with its density in g/cm3, as data sheets have them."""
+    pairs = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (1.5, 6e6)]
+    text = "# density_g_cm3: 1.2 (1.19 .. 1.22)\n# poisson: 0.48\n# modulus_MPa: 19 +- 2\n"
+    for head, size in (("stress_MPa", 1e6), ("stress_kPa", 1e3), ("stress_GPa", 1e9)):
+        rows = "".join(f"{100 * e:g},{s / size:.9g}\n" for e, s in pairs)
+        record = read_record(own_record(f"{text}strain_percent,{head}\n{rows}"))
+        assert list(zip(record.strain, record.stress, strict=True)) == pairs
+    assert (record.density, record.modulus) == (1200.0, 19e6)
+    assert record.ranges == {"density": (1190.0, 1220.0), "modulus": (17e6, 21e6)}
 
 
 def test_the_modulus_is_the_secant_between_one_and_four_percent(own_record):
