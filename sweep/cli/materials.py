@@ -138,7 +138,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
 
 def _answers(arguments: Namespace) -> Answers:
     """What the options say of a record."""
-    from sweep.coupon.answers import Answers, by_quantity
+    from sweep.coupon.answers import Answers
 
     return Answers(
         gauge=_size(arguments.gauge, "m"),
@@ -146,9 +146,21 @@ def _answers(arguments: Namespace) -> Answers:
         speed=_size(arguments.speed, "m/s"),
         test=arguments.test,
         zero=arguments.zero,
-        columns=by_quantity(arguments.columns, "columns"),
-        units=by_quantity(arguments.units, "units"),
+        columns=_by_quantity(arguments.columns, "columns"),
+        units=_by_quantity(arguments.units, "units"),
     )
+
+
+def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
+    """Words such as "force=kN" of an option, by what is measured."""
+    from sweep.coupon.unit import SI
+
+    pairs = [word.partition("=") for word in words or []]
+    for quantity, _, value in pairs:
+        if quantity not in SI or not value:
+            allowed = ", ".join(f"{name}=..." for name in SI)
+            raise MaterialsError(f"--{option} {quantity}; allowed: {allowed}")
+    return {quantity: value for quantity, _, value in pairs}
 
 
 def _size(text: str | None, unit: str) -> float | None:

@@ -1,10 +1,7 @@
-"""What a user says of a record, where its file does not, and the options for it."""
+"""What a user says of a record, where its file does not."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-
-from sweep.config.faults import MisfitError
-from sweep.coupon.unit import SI
 
 
 @dataclass(frozen=True)
@@ -22,12 +19,3 @@ class Answers:
     zero: str | None = None
     columns: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
-
-
-def by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
-    """Words such as "force=kN" of an option, by what is measured."""
-    pairs = [word.partition("=") for word in words or []]
-    for quantity, _, value in pairs:
-        if quantity not in SI or not value:
-            raise MisfitError(f"--{option} {quantity}; allowed: {'=..., '.join(SI)}=...")
-    return {quantity: value for quantity, _, value in pairs}

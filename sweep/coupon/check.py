@@ -6,11 +6,12 @@ from numpy.typing import NDArray
 from sweep.config.faults import MisfitError
 from sweep.config.materials.material_file import SECANT
 from sweep.config.materials.plausibility import in_percent, suspicion, unit_meant
+from sweep.coupon.unit import size_in_si
 from sweep.numbers import text_in, to_si, with_unit
 
 Floats = NDArray[np.float64]
 
-FORCES = {"kPa": "kN"}  # unit of a stress that is meant -> of the force over the area
+FORCE = "kN"  # that is recorded as N at times
 
 
 def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
@@ -20,9 +21,11 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
     their units, by what was measured.
     """
     found = []
+    if strain.min() <= -1.0 and not in_percent(np.abs(strain).tolist()):
+        raise MisfitError("a strain of -1 or less; allowed: above -1")
     strain = strain if strain.max() > -strain.min() else -strain
     most = float(strain.max())
-    if in_percent([most]):
+    if in_percent(strain.tolist()):
         wrong = f"strains up to {most:.4g} would be {text_in(most, '%')}"
         if "strain" not in words:
             raise MisfitError(f"{wrong}; needed: another --gauge, or --units displacement=...")
@@ -31,8 +34,6 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
     if strain.max() < SECANT[1]:
         wrong = f"strains up to {strain.max():.3g}; needed: at least {SECANT[1]:g}"
         raise MisfitError(f"{wrong}; are the gauge length and the unit of the strain right?")
-    if strain.min() <= -1.0:
-        raise MisfitError("a strain of -1 or less; allowed: above -1")
     modulus = coarse_modulus(strain, np.abs(stress))
     if modulus <= 0.0:
         span = " to ".join(f"{end:g}" for end in SECANT)
@@ -44,9 +45,11 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
 
 def _of_stress(modulus: float, why: str, words: dict[str, str]) -> str:
     """The option for the unit of a stress or a force."""
-    meant = unit_meant("curve_modulus", modulus)
     quantity = "stress" if "stress" in words else "force"
-    unit = meant if quantity == "stress" else FORCES.get(str(meant))
+    unit = unit_meant("curve_modulus", modulus)
+    if quantity == "force":
+        larger = modulus * (size_in_si(FORCE, "force") or 1.0)
+        unit = None if suspicion("curve_modulus", larger) else FORCE
     wrong = f"a modulus of {with_unit(modulus, 'Pa')}; allowed: {why.split(';')[0]}"
     if unit is None:
         raise MisfitError(f"{wrong}; are the units and the size of the specimen right?")

@@ -1,7 +1,7 @@
 """Which column of a machine's table is time, displacement, strain, force or stress, and its unit.
 
 The words of a head say what it may be, its unit which of it. Of several columns that may be the
-same, the user is asked, unless they are in proportion.
+same, the user is asked, unless their numbers are the same.
 """
 
 import re
@@ -23,21 +23,26 @@ WORDS = {
     "time": "time zeit temps tiempo tempo t 时间 時間",
     "force": "force load kraft charge last carga fuerza forza f 力 试验力 試験力 負荷 载荷",
     "displacement": "displacement extension crosshead travel stroke position disp weg traverse "
-    "course deplacement extensometer elongation allongement deformation deform verformung "
-    "desplazamiento spostamento 位移 变形 変位 ストローク",
-    "strain": "strain dehnung stauchung deformation deform elongation extension extensometer "
-    "allongement 应变 ひずみ",
+    "course deplacement extensometer elongation allongement deformation deformacion deform "
+    "verformung desplazamiento spostamento 位移 变形 変位 ストローク",
+    "strain": "strain dehnung stauchung deformation deformacion deform elongation extension "
+    "extensometer allongement 应变 ひずみ",
     "stress": "stress spannung contrainte tension 应力 応力",
 }
 """Words in a head, without accents -> what it may be."""
-ENDS = {"time": "zeit", "force": "kraft", "displacement": "weg", "stress": "spannung"}
+ENDS = {
+    "time": ("zeit",),
+    "force": ("kraft",),
+    "displacement": ("weg", "wegaufnehmer"),
+    "stress": ("spannung",),
+}
 """Ends of words in German."""
 OTHERS = (
     "rate speed velocity true max maximum peak lateral transverse transversal width breite "
     "temperature command target setpoint work energy modulus break count cycles"
 )
 """Words of what else a machine records."""
-PROPORTIONAL = 0.01  # of the range of a column: it tells nothing else than another one
+EQUAL = 0.01  # of the range of a column: it tells nothing else than another one
 LONGEST = 40  # characters of a head that are shown
 MOST_HEADS = 8  # heads that a message lists
 EXAMPLES = {"time": "s", "displacement": "mm", "strain": "%", "force": "N", "stress": "MPa"}
@@ -68,7 +73,7 @@ def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]
         candidates = _candidates(table, quantity, units.get(quantity))
         if quantity in chosen:
             candidates = _named(table, chosen[quantity])
-        elif len(candidates) > 1 and not _same(table.values[:, candidates]):
+        elif len(candidates) > 1 and not _are_same(table, quantity, candidates):
             heads = " or ".join(f'{quantity}="{_name(table, k)}"' for k in candidates)
             found.questions.append(f"--columns {heads}: which is it?")
             found.undecided.add(quantity)
@@ -77,24 +82,29 @@ def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]
             _add(found, table, quantity, candidates[0], units.get(quantity))
         elif quantity in units:
             raise MisfitError(f"--units {quantity} has no effect; {heads_of(table)}")
+    _ask_for_units(found)
     return found
 
 
+def _ask_for_units(found: Columns) -> None:
+    """Ask for the units of all columns that state none, or another one, at once."""
+    if unknown := [quantity for quantity in found.words if quantity not in found.values]:
+        words = " ".join(f"{quantity}={EXAMPLES[quantity]}" for quantity in unknown)
+        heads = ", ".join(found.words[quantity] for quantity in unknown)
+        found.questions.append(f"--units {words}, or other units: none are known of {heads}")
+        found.undecided.update(unknown)
+
+
 def _add(found: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
-    """Add a column in SI, or the question of its unit."""
+    """Add a column in SI; its words alone, if its unit is not known."""
     head, unit = table.heads[k], given or table.units[k]
     if head == quantity == "strain" and not unit:
         unit = "1"
     size = size_in_si(unit, quantity) if unit else None
     name = shown(head) or f"column {k + 1}"
     found.words[quantity] = f"{name} [{shown(unit)}]" if unit else name
-    if size is None:
-        wrong = f"{shown(unit)} is no unit of it" if unit else "its unit is not stated"
-        example = f"--units {quantity}={EXAMPLES[quantity]}"
-        found.questions.append(f"{example} or the like: of {name}, {wrong}")
-        found.undecided.add(quantity)
-        return
-    found.values[quantity] = size * table.values[:, k]
+    if size is not None:
+        found.values[quantity] = size * table.values[:, k]
 
 
 def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
@@ -126,8 +136,8 @@ def _may_be(head: str, unit: str, quantity: str) -> bool:
 
 
 def _is_called(words: list[str], quantity: str) -> bool:
-    known, end = words_of(WORDS[quantity]), ENDS.get(quantity)
-    return any(word in known or (end is not None and word.endswith(end)) for word in words)
+    known, ends = words_of(WORDS[quantity]), ENDS.get(quantity, ())
+    return any(word in known or word.endswith(ends) for word in words)
 
 
 def words_of(head: str) -> list[str]:
@@ -137,13 +147,13 @@ def words_of(head: str) -> list[str]:
     return re.findall(r"[^\W\d_]+", letters)
 
 
-def _same(values: Floats) -> bool:
-    """Whether columns (n, k) are in proportion, from the first row on."""
+def _are_same(table: Table, quantity: str, columns: list[int]) -> bool:
+    """Whether columns have the same numbers in SI, from the first row on."""
+    sizes = [size_in_si(table.units[k], quantity) or 1.0 for k in columns]
+    values = table.values[:, columns] * sizes
     moved = values - values[0]
-    spans = np.nanmax(np.abs(moved), axis=0)
-    first = moved[:, 0] / spans[0]
-    apart = [np.nanmax(np.abs(first - moved[:, k] / spans[k])) for k in range(1, spans.size)]
-    return max(apart) < PROPORTIONAL
+    apart = np.nanmax(np.abs(moved - moved[:, :1]))
+    return bool(apart < EQUAL * np.nanmax(np.abs(moved)))
 
 
 def _named(table: Table, name: str) -> list[int]:
@@ -166,7 +176,7 @@ def heads_of(table: Table) -> str:
     """The heads of a table, in words."""
     heads = [shown(head) for head in table.heads if head]
     if not heads:
-        return f"it has {len(table.heads)} columns without heads"
+        return f"its {len(table.heads)} columns have no heads, so that --units are needed too"
     more = f" and {len(heads) - MOST_HEADS} more" if len(heads) > MOST_HEADS else ""
     return f"its heads: {', '.join(heads[:MOST_HEADS])}{more}"
 

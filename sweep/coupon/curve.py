@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from kernels.laws.one_point import stresses
 from sweep.config.kinds.material import Material, material
+from sweep.config.materials.material_file import SECANT
 from sweep.coupon import legs
 from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.coupon.uncertainty import covariance
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
 
 STRAINS = np.array(
@@ -42,6 +44,7 @@ class Loading:
         self.points = _sure_points(reached, stress)
         self.fitting = np.linalg.pinv(_hats(reached, self.points))
         self.record = _rising(self.fitting @ stress)
+        self.modulus_error = _modulus_error(reached, stress, self.points)
         first = np.maximum.accumulate(self.sign * coupon.strain[: rows[1] + 1])
         self.reference_time = float(np.interp(MIDDLE, first, coupon.time[: rows[1] + 1]))
 
@@ -130,6 +133,15 @@ def _sure_points(strain: Floats, stress: Floats) -> Floats:
         if points.size <= FEWEST or unsure.max() < UNSURE:
             return points
         points = np.delete(points, int(np.argmax(unsure[:-1])))
+
+
+def _modulus_error(strain: Floats, stress: Floats, points: Floats) -> float:
+    """Standard error of the secant between 1 and 4 % over that secant."""
+    hats = _hats(strain, points)
+    fitted = np.linalg.pinv(hats) @ stress
+    secant = np.subtract(*_hats(np.array(SECANT[::-1]), points))
+    variance = secant @ covariance(hats, stress - hats @ fitted) @ secant
+    return float(np.sqrt(variance) / max(secant @ fitted, RISE * fitted.max()))
 
 
 def _hats(strain: Floats, points: Floats) -> Floats:

@@ -7,20 +7,20 @@ from numpy.typing import NDArray
 
 from sweep.config.faults import MisfitError
 from sweep.coupon.answers import Answers
-from sweep.coupon.columns import Columns, heads_of
+from sweep.coupon.columns import Columns, heads_of, shown
 from sweep.coupon.specimen import stated_size
 from sweep.coupon.table import FEWEST, Table
-from sweep.numbers import text_in
+from sweep.numbers import counted, with_unit
 
 Floats = NDArray[np.float64]
 
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
 """What a size of the specimen makes of what is measured."""
 NEEDED = {
-    "gauge": '"50 mm", free length of the strip or height of the puck, over which the strain is',
-    "area": '"8 mm^2", section of the specimen, over which the stress is',
+    "gauge": '"50 mm", free length of a strip or height of a puck: the strain, over it, is',
+    "area": '"8 mm^2", section of the specimen: the stress, over it, is',
 }
-SHOWN = {"gauge": "mm", "area": "mm2"}
+UNITS = {"gauge": "m", "area": "m^2"}
 
 
 class Measured(NamedTuple):
@@ -56,18 +56,20 @@ def _over(
             raise MisfitError(f"--{size} has no effect, as there is a column of {ready}")
         columns.words.pop(raw, None)
         return columns.values[ready], True
-    if raw not in columns.values:
-        if not columns.undecided & {ready, raw}:
-            words = f"--columns {ready}=... or {raw}=..., a head or a number"
-            columns.questions.append(f"{words}; {heads_of(table)}")
+    if raw not in columns.values and not columns.undecided & {ready, raw}:
+        words = f"--columns {ready}=..., or {raw}=... with --{size}: a head or a number"
+        columns.questions.append(f"{words}; {heads_of(table)}")
         return None
     columns.words.pop(ready, None)
     if given is None and (stated := stated_size(table, size)):
         given, label = stated
-        value = text_in(given, SHOWN[size])
-        columns.notes.append(f"{size} {value}, from the line {label} above the heads")
-    if given is None:
-        columns.questions.append(f"--{size} {NEEDED[size]} {columns.words[raw]}")
+        value = with_unit(given, UNITS[size])
+        columns.notes.append(f"{size} {value}, from the line {shown(label)} above the heads")
+    if given is None and ready not in columns.undecided:
+        head = columns.words.get(raw, raw)
+        columns.questions.append(f"--{size} {NEEDED[size]} {head}")
+    if raw not in columns.values:
+        return None
     return columns.values[raw] / (given or 1.0), given is not None
 
 
@@ -98,7 +100,8 @@ def _complete_rows(columns: Columns, raw: Measured) -> Measured:
     whole = np.isfinite(raw.time) & np.isfinite(raw.strain) & np.isfinite(raw.stress)
     time = raw.time[whole]
     if time.size < FEWEST:
-        raise MisfitError(f"{time.size} rows have all numbers; needed: at least {FEWEST}")
+        rows = counted(int(time.size), "complete row")
+        raise MisfitError(f"{rows} of time, strain and stress; needed: at least {FEWEST}")
     steps = np.diff(time)
     later = np.r_[True, steps > 0.0]
     if (steps < 0.0).any() or later.sum() < FEWEST:
@@ -108,7 +111,7 @@ def _complete_rows(columns: Columns, raw: Measured) -> Measured:
             "rounded, or are there several tests?"
         )
     if left_out := int(np.sum(~whole)):
-        columns.notes.append(f"{left_out} rows without a number are left out")
+        columns.notes.append(f"without a number and left out: {counted(left_out, 'row')}")
     if repeated := int(np.sum(~later)):
-        columns.notes.append(f"{repeated} rows at the time of the row before are left out")
+        columns.notes.append(f"at the time of the row before, left out: {counted(repeated, 'row')}")
     return Measured(time[later], raw.strain[whole][later], raw.stress[whole][later], raw.to_scale)

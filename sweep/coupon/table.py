@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from sweep.config.faults import MisfitError
 from sweep.config.reading.text import foreign_text, rows_of
 from sweep.coupon.unit import is_unit, unit_in_head
+from sweep.numbers import counted
 
 Row = list[str]
 
@@ -72,16 +73,16 @@ def read_table(path: Path) -> Table:
     for k, row in enumerate(block):
         values[k, : len(row)] = [nan if (v := number(text, decimal)) is None else v for text in row]
     form = f"{WORDS[separator]} between values, decimal {'commas' if decimal == ',' else 'points'}"
-    notes = [f"{len(block)} rows of {width} columns, {form}"]
+    notes = [f"{counted(len(block), 'row')} of {counted(width, 'column')}, {form}"]
     if later := sum(numeric[last:]):
-        notes.append(f"{later} further rows of numbers, below other lines, are not read")
+        notes.append(f"below other lines, not read: {counted(later, 'further row')} of numbers")
     return Table(heads, units, values, rows[:first], decimal, tuple(notes))
 
 
 def _too_few(count: int) -> str:
     if not count:
         return "no rows of numbers; needed: columns such as time_s, strain, stress_Pa"
-    return f"{count} rows are too few for a curve; needed: at least {FEWEST}"
+    return f"{counted(count, 'row')} of numbers: too few for a curve; needed: at least {FEWEST}"
 
 
 def number(text: str, decimal: str) -> float | None:

@@ -15,6 +15,8 @@ Path = tuple[Floats, Floats, Floats]
 
 CHOICES = ("first", "line")
 OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
+NO_STRAIN = 1e-4
+UNLOADED = 0.002  # of the greatest stress
 SLACK = 0.005  # strain
 SLACK_SHARE = 0.03  # of the greatest strain, if that is not known
 WINDOW = 0.02, 0.08  # of the greatest stress: the line goes through the rows between
@@ -45,14 +47,17 @@ def doubt(strain: Floats, stress: Floats, to_scale: bool) -> str | None:
 
 
 def begins_at_zero(strain: Floats, stress: Floats) -> bool:
-    """Whether a record begins unloaded, both set to zero."""
-    most = float(np.abs(stress).max())
-    return abs(strain[0]) <= OFFSET[0] and abs(stress[0]) <= OFFSET[1] * most
+    """Whether a record begins at zero, or at a small strain with the stress of that."""
+    share = abs(float(stress[0])) / float(np.abs(stress).max())
+    if abs(strain[0]) <= NO_STRAIN:
+        return share <= OFFSET[1]
+    return abs(strain[0]) <= OFFSET[0] and UNLOADED < share <= OFFSET[1]
 
 
 def from_first(time: Floats, strain: Floats, stress: Floats) -> tuple[Path, str]:
     """Time, strain and stress (n,) from the first row, and a sentence."""
-    begin = f"a strain of {strain[0]:.3g} and {with_unit(float(stress[0]), 'Pa')}"
+    at = with_unit(float(stress[0]), "Pa") if stress[0] else "no stress"
+    begin = f"a strain of {strain[0]:.3g} and {at}"
     note = f"the record begins at {begin}, which are both set to zero"
     return (time, strain - strain[0], stress - stress[0]), note
 

@@ -25,8 +25,8 @@ class Range(NamedTuple):
 
 _STRESSES = (("MPa", 1e6), ("kPa", 1e3), ("GPa", 1e9))
 RANGES = {
-    "modulus": Range(1e3, 1e12, "1 kPa to 1000 GPa", _STRESSES, (1e6, 1e10)),
-    "curve_modulus": Range(1e5, 1e12, "0.1 MPa to 1000 GPa", _STRESSES, (1e6, 1e10)),
+    "modulus": Range(1e3, 1e12, "1 kPa to 1000 GPa", _STRESSES, (1e6, 5e9)),
+    "curve_modulus": Range(1e5, 1e12, "0.1 MPa to 1000 GPa", _STRESSES, (1e6, 5e9)),
     "yield_stress": Range(1e5, 1e10, "0.1 MPa to 10 GPa", _STRESSES, (5e6, 2e9)),
     "density": Range(50.0, 25e3, "50 to 25,000 kg/m3", (("g/cm3", 1e3),), (200.0, 25e3)),
 }
