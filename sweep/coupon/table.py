@@ -126,13 +126,14 @@ def _is_numeric(row: Row, decimal: str) -> bool:
 
 def _longest_run(numeric: Sequence[bool], comments: Sequence[bool]) -> tuple[int, int]:
     """First and last + 1 of the longest run of rows of numbers; comments do not end it."""
-    best, start = (0, 0), 0
-    for k in range(len(numeric) + 1):
-        if k < len(numeric) and (numeric[k] or (comments[k] and k > start)):
-            continue
-        if sum(numeric[start:k]) > sum(numeric[slice(*best)]):
-            best = (start, k)
-        start = k + 1
+    best, most, start, count = (0, 0), 0, 0, 0
+    for k in range(len(numeric)):
+        if numeric[k]:
+            count += 1
+        elif not comments[k] or not count:
+            start, count = k + 1, 0
+        if count > most:
+            best, most = (start, k + 1), count
     return best
 
 

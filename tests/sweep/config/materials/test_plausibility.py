@@ -58,4 +58,4 @@ def test_shipped_curves_are_plausible(name):
 def test_configs_are_checked(refused, line, words):
     key = "material.modulus" if "19 Pa" in line else "material.density"
     value = "19 Pa" if "19 Pa" in line else "1.2 kg/m^3"
-    refused(f"[material]\n{line}", f'{key} = "{value}"', *words)
+    assert refused(f"[material]\n{line}", f'{key} = "{value}"', *words)
