@@ -10,7 +10,7 @@ would have to be told all of this.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import nan
+from math import isnan, nan
 from pathlib import Path
 
 import numpy as np
@@ -62,16 +62,19 @@ def read_table(path: Path) -> Table:
     lines = [line for line in lines if line.strip()]
     separator, decimal = _form(lines)
     rows = [_cells(line, separator) for line in lines]
-    numeric = [not row[0].startswith("#") and _is_numeric(row, decimal) for row in rows]
-    first, last = _longest_run(numeric, [row[0].startswith("#") for row in rows])
-    block = [row for row in rows[first:last] if not row[0].startswith("#")]
+    comments = [row[0].startswith("#") for row in rows]
+    numbers = [
+        [] if comment else _numbers(row, decimal)
+        for row, comment in zip(rows, comments, strict=True)
+    ]
+    numeric = [_is_numeric(row, values) for row, values in zip(rows, numbers, strict=True)]
+    first, last = _longest_run(numeric, comments)
+    block = [values for values in numbers[first:last] if values]
     if len(block) < FEWEST:
         raise MisfitError(_too_few(len(block)))
     width = max(map(len, block))
     heads, units = _heads(rows[:first], width, decimal)
-    values = np.full((len(block), width), nan)
-    for k, row in enumerate(block):
-        values[k, : len(row)] = [nan if (v := number(text, decimal)) is None else v for text in row]
+    values = np.array([row + [nan] * (width - len(row)) for row in block])
     form = f"{WORDS[separator]} between values, decimal {'commas' if decimal == ',' else 'points'}"
     notes = [f"{counted(len(block), 'row')} of {counted(width, 'column')}, {form}"]
     if later := sum(numeric[last:]):
@@ -87,12 +90,18 @@ def _too_few(count: int) -> str:
 
 def number(text: str, decimal: str) -> float | None:
     """The number of a cell; None if it is none."""
-    text = text.replace("\N{MINUS SIGN}", "-")
     if not NUMBERS[decimal].fullmatch(text):
-        if not GROUPED[decimal].fullmatch(text):
+        text = text.replace("\N{MINUS SIGN}", "-")
+        if GROUPED[decimal].fullmatch(text):
+            text = text.replace("." if decimal == "," else ",", "")
+        elif not NUMBERS[decimal].fullmatch(text):
             return None
-        text = text.replace("." if decimal == "," else ",", "")
     return float(text.replace(",", "."))
+
+
+def _numbers(row: Row, decimal: str) -> list[float]:
+    """The numbers of a row, NaN for what is none."""
+    return [nan if (value := number(text, decimal)) is None else value for text in row]
 
 
 def _form(lines: Sequence[str]) -> tuple[str, str]:
@@ -102,8 +111,9 @@ def _form(lines: Sequence[str]) -> tuple[str, str]:
     def more_numbers_than_texts(form: tuple[str, str]) -> int:
         separator, decimal = form
         rows = [_cells(line, separator) for line in sample if not line.startswith("#")]
-        cells = [text for row in rows if _is_numeric(row, decimal) for text in row if text]
-        return sum(-1 if number(text, decimal) is None else 1 for text in cells)
+        pairs = [(row, _numbers(row, decimal)) for row in rows]
+        values = [v for row, numbers in pairs if _is_numeric(row, numbers) for v in numbers]
+        return sum(-1 if isnan(value) else 1 for value in values)
 
     return max(FORMS, key=more_numbers_than_texts)
 
@@ -117,11 +127,10 @@ def _cells(line: str, separator: str) -> Row:
     return row or [""]
 
 
-def _is_numeric(row: Row, decimal: str) -> bool:
+def _is_numeric(row: Row, numbers: list[float]) -> bool:
     """Whether at least two values of a row, and half of those that it has, are numbers."""
-    present = [text for text in row if text.lower() not in MISSING]
-    numbers = sum(number(text, decimal) is not None for text in present)
-    return numbers > 1 and 2 * numbers >= len(present)
+    found = len(numbers) - sum(map(isnan, numbers))
+    return found > 1 and 2 * found >= sum(text.lower() not in MISSING for text in row)
 
 
 def _longest_run(numeric: Sequence[bool], comments: Sequence[bool]) -> tuple[int, int]:

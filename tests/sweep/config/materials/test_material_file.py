@@ -2,6 +2,7 @@
 
 import pytest
 
+from sweep.config.case import Case
 from sweep.config.materials.material_file import (
     FOLDER,
     RecordError,
@@ -10,6 +11,7 @@ from sweep.config.materials.material_file import (
     read_record,
     stress_at,
 )
+from sweep.simulation.simulate import simulate
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -66,6 +68,25 @@ def test_heads_may_name_their_unit(own_record):
         assert list(zip(record.strain, record.stress, strict=True)) == pairs
     assert (record.density, record.modulus) == (1200.0, 19e6)
     assert record.ranges == {"density": (1190.0, 1220.0), "modulus": (17e6, 21e6)}
+
+
+DATA_SHEET = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (0.2, 2.2e6), (0.4, 2.9e6), (0.8, 4e6)]
+
+
+@pytest.mark.parametrize(
+    ("heads", "sizes", "density"),
+    [
+        ("strain,stress_Pa", (1.0, 1.0), "density_kg_m3: 1200"),
+        ("strain_percent,stress_MPa", (0.01, 1e6), "density_g_cm3: 1.2"),
+    ],
+)
+def test_a_lattice_absorbs_the_same_in_the_units_of_a_data_sheet(own_record, heads, sizes, density):
+    pairs = [*DATA_SHEET, (1.5, 6e6)]
+    rows = "".join(f"{e / sizes[0]:.9g},{s / sizes[1]:.9g}\n" for e, s in pairs)
+    path = own_record(f"# {density}\n# poisson: 0.48\n{heads}\n{rows}")
+    result = simulate(Case.of(material={"name": str(path)}, loading={"mode": "displacement"}))
+    mass, energy = (result.summary[key] for key in ("mass_kg", "absorbed_energy_until_packed_J"))
+    assert 1e-3 * energy / mass == pytest.approx(0.109, abs=0.001)
 
 
 def test_the_modulus_is_the_secant_between_one_and_four_percent(own_record):
