@@ -167,6 +167,7 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials plot cheetah mine.csv --out two.png     two of them
   crumple materials fit coupon.csv --out mine.csv           curve, loss and softening
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
+  crumple materials fit puck.csv --gauge "10 mm" --area "314 mm^2" --test pressed --units force=kN
 """
 
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran

@@ -14,7 +14,8 @@ from sweep.numbers import text_in
 
 Floats = NDArray[np.float64]
 
-SIGNS = {"pulled": 1.0, "pressed": -1.0}
+SIGNS = {"pulled": (1.0, 1.0), "pressed": (-1.0, -1.0)}
+"""Signs of strain and stress in a test."""
 PRESSED = re.compile(r"compress|stauch|druckversuch|druckspannung|écrasement", re.IGNORECASE)
 PULLED = re.compile(r"tensile|tension test|zugversuch|traction", re.IGNORECASE)
 GROWTH = 0.1  # of the stiffness in the first loading, from which pulling is doubtful
@@ -31,7 +32,8 @@ def stated_test(texts: Iterable[str]) -> str | None:
 def directed(strain: Floats, stress: Floats, test: str) -> tuple[Floats, Floats]:
     """Strain and stress (n,) with the signs of a test: both negative if pressed."""
     sides = sides_of(strain, stress)
-    return SIGNS[test] * sides[0] * strain, SIGNS[test] * sides[1] * stress
+    sign, _ = SIGNS[test]
+    return sign * sides[0] * strain, sign * sides[1] * stress
 
 
 def sides_of(strain: Floats, stress: Floats) -> tuple[float, float]:
@@ -48,10 +50,14 @@ def doubt(strain: Floats, stress: Floats, said: str | None, to_scale: bool) -> s
     for a factor.
     """
     sides = sides_of(strain, stress)
+    if said == "pressed" or (said and sides[0] != sides[1]):
+        return None
     if sides[0] != sides[1]:
         return "force and travel, or stress and strain, have opposite signs"
+    if sides == SIGNS["pressed"]:
+        return "the file has words of pulling, and negative numbers" if said else None
     growth = _growth(np.abs(strain - strain[0]), np.abs(stress - stress[0]), to_scale)
-    if sides[0] < 0.0 or said == "pulled" or growth <= GROWTH:
+    if said or growth <= GROWTH:
         return None
     return (
         f"the numbers are positive, but the stiffness grows by {text_in(growth, '%', 2)} in the "

@@ -17,8 +17,8 @@ Floats = NDArray[np.float64]
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
 """What a size of the specimen makes of what is measured."""
 NEEDED = {
-    "gauge": '"50 mm", free length of a strip or height of a puck: the strain, over it, is',
-    "area": '"8 mm^2", section of the specimen: the stress, over it, is',
+    "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
+    "area": '"8 mm^2" (section of the specimen), to make a stress of',
 }
 UNITS = {"gauge": "m", "area": "m^2"}
 

@@ -84,14 +84,16 @@ def _directed(raw: Measured, columns: Columns, answers: Answers, texts: Iterable
     """What was measured, with the signs of the test, or the question which test it is."""
     stated = direction.stated_test(texts)
     doubt = direction.doubt(raw.strain, raw.stress, stated, raw.to_scale)
-    test = answers.test or (stated if doubt else None)
-    if test is None:
-        if doubt:
-            columns.questions.append(f"--test pulled or --test pressed: {doubt}")
+    if doubt and answers.test is None:
+        columns.questions.append(f"--test pulled or --test pressed: {doubt}")
+        return raw
+    test = answers.test or stated
+    if test is None or direction.sides_of(raw.strain, raw.stress) == direction.SIGNS[test]:
         return raw
     strain, stress = direction.directed(raw.strain, raw.stress, test)
-    if answers.test is None:
-        columns.notes.append(f"{test}, as the file says: {doubt}")
+    columns.notes.append(
+        f"{test}, as {'--test' if answers.test else 'the file'} says, not its signs"
+    )
     return raw._replace(strain=strain, stress=stress)
 
 
@@ -101,7 +103,7 @@ def _zeroed(raw: Measured, columns: Columns, answers: Answers) -> tuple[Floats, 
     if answers.zero is None:
         if doubt := zero.doubt(raw.strain, raw.stress, raw.to_scale):
             columns.questions.append(f"--zero first or --zero line: {doubt}")
-            return path
+            return zero.from_first(*path)[0]
         if zero.begins_at_zero(raw.strain, raw.stress):
             return path
     shift = zero.from_line if answers.zero == "line" else zero.from_first

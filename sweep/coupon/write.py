@@ -121,15 +121,15 @@ def doubts(fit: Fit, record: Record) -> Iterator[str]:
     rate = abs(float(coupon.strain[turn])) / float(coupon.time[turn])
     low, high = USUAL_RATES
     if not low <= rate <= high:
-        unit = "milliseconds" if rate < low else "minutes"
+        unit = "ms" if rate < low else "min"
         yield (
             f"Warning: the first loading is at {rate:.2g} 1/s, usual are {low:g} to {high:g} "
-            f"1/s: is time_s in {unit}? needed: seconds."
+            f"1/s: is the time in {unit}? --units time={unit}"
         )
     if record.modulus < SOFT:
         yield (
             f"Warning: printed TPU usually has a modulus above {text_in(SOFT, 'MPa')}: is the "
-            "strain in percent (needed: 0.1 for 10 %), or the gauge length or the area wrong?"
+            "strain in percent (--units strain=%), or the gauge length or the area wrong?"
         )
     if fit.misfit > POOR:
         yield (

@@ -167,8 +167,15 @@ def test_a_puck_is_pressed_whatever_its_sign_or_it_is_asked_for(tmp_path, sign):
     assert found.stress == pytest.approx(-np.abs(rows.stress), rel=1e-4, abs=1e2)
 
 
-def test_a_puck_whose_file_says_that_it_is_pressed_is_not_asked_for(tmp_path):
-    content = text(["Compression test 3", *OURS], measured(puck(1.0)))
-    found = read_coupon(stored(tmp_path, "puck", content), Answers(**PUCK))
+@pytest.mark.parametrize(("rows", "sizes"), [(puck(1.0), PUCK), (ROWS, SIZES)])
+def test_a_test_whose_file_says_that_it_is_pressed_is_not_asked_for(tmp_path, rows, sizes):
+    content = text(["Compression test 3", *OURS], measured(rows))
+    found = read_coupon(stored(tmp_path, "puck", content), Answers(**sizes))
     assert found.sign == -1.0
-    assert any("pressed, as the file says" in note for note in found.notes)
+    assert found.notes[-1] == "pressed, as the file says, not its signs"
+
+
+def test_a_position_and_a_preload_are_one_question(tmp_path):
+    way = [ROWS.time, ROWS.displacement - 794.864, ROWS.force + 5.0]
+    with pytest.raises(CouponError, match=r"needed: --zero first or --zero line: .* 9 %"):
+        read_coupon(stored(tmp_path, "strip", text(OURS, way)), Answers(**SIZES))

@@ -90,8 +90,8 @@ def test_what_was_found_is_told(own_record, both):
 @pytest.mark.parametrize(
     ("scales", "noise", "wrong"),
     [
-        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s.* time_s in milliseconds"),
-        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s.* time_s in minutes"),
+        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s.* --units time=ms$"),
+        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s.* --units time=min$"),
         ((1.0, 9.0, 1.0), 0.0, "above 5 MPa: .*percent"),
         ((1.0, 1.0, 1.0), 0.05, "more than 3 %.*picture"),
         ((1.0, 1.0, 1.0), 0.0, None),
