@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from sweep.config.faults import MisfitError
 from sweep.config.materials.material_file import SECANT
 from sweep.config.materials.plausibility import in_percent, suspicion, unit_meant
-from sweep.coupon.unit import size_in_si
+from sweep.config.units import in_si
 from sweep.numbers import text_in, to_si, with_unit
 
 Floats = NDArray[np.float64]
@@ -48,7 +48,7 @@ def _of_stress(modulus: float, why: str, words: dict[str, str]) -> str:
     quantity = "stress" if "stress" in words else "force"
     unit = unit_meant("curve_modulus", modulus)
     if quantity == "force":
-        larger = modulus * (size_in_si(FORCE, "force") or 1.0)
+        larger = modulus * in_si(f"1 {FORCE}", "N")
         unit = None if suspicion("curve_modulus", larger) else FORCE
     wrong = f"a modulus of {with_unit(modulus, 'Pa')}; allowed: {why.split(';')[0]}"
     if unit is None:
