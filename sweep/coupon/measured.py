@@ -36,6 +36,9 @@ class Measured(NamedTuple):
 
 def measured(table: Table, columns: Columns, answers: Answers) -> Measured | None:
     """What was measured; None if it is not known what. Adds to notes and questions of columns."""
+    for name in (*SIZES, "speed"):
+        if (given := getattr(answers, name)) is not None and not given > 0.0:
+            raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
     known = {size: _over(size, table, columns, answers) for size in SIZES}
     strain, stress = (None if pair is None else pair[0] for pair in known.values())
     time = _time(table, columns, answers, strain)

@@ -82,6 +82,8 @@ def test_rows_without_numbers_and_of_the_same_time_are_left_out():
     [
         ([UP, UP, UP], Answers(area=1.0), "--area has no effect, as there is a column of stress"),
         ([UP, UP, UP], Answers(speed=1.0), "--speed has no effect, as there is a column of time"),
+        ([UP, UP, UP], Answers(gauge=0.0), "--gauge: 0 in SI; allowed: above 0"),
+        ([UP, UP, UP], Answers(speed=-1.0), "--speed: -1 in SI; allowed: above 0"),
         ([UP[::-1], UP, UP], Answers(), "does not increase from row 1 to row 2"),
         ([UP // 0.2, UP, UP], Answers(), "does not increase from row 1 to row 2"),
         (
