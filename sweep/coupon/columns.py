@@ -151,9 +151,11 @@ def _are_same(table: Table, quantity: str, columns: list[int]) -> bool:
     """Whether columns have the same numbers in SI, from the first row on."""
     sizes = [size_in_si(table.units[k], quantity) or 1.0 for k in columns]
     values = table.values[:, columns] * sizes
+    values = values[np.isfinite(values).all(axis=1)]
+    if not values.size:
+        return False
     moved = values - values[0]
-    apart = np.nanmax(np.abs(moved - moved[:, :1]))
-    return bool(apart < EQUAL * np.nanmax(np.abs(moved)))
+    return bool(np.abs(moved - moved[:, :1]).max() < EQUAL * np.abs(moved).max())
 
 
 def _named(table: Table, name: str) -> list[int]:

@@ -37,6 +37,7 @@ GROUPED = {
     ",": re.compile(r"[+-]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d+)?", re.ASCII),
 }
 """Numbers with a sign between thousands, by their decimal sign."""
+LARGE = 1e30  # no measured number
 MISSING = ("", "-", "--", "---", "nan", "n/a", "null")
 
 
@@ -96,7 +97,8 @@ def number(text: str, decimal: str) -> float | None:
             text = text.replace("." if decimal == "," else ",", "")
         elif not NUMBERS[decimal].fullmatch(text):
             return None
-    return float(text.replace(",", "."))
+    value = float(text.replace(",", "."))
+    return value if abs(value) < LARGE else None
 
 
 def _numbers(row: Row, decimal: str) -> list[float]:

@@ -48,6 +48,11 @@ def test_of_several_columns_the_user_is_asked_unless_they_are_the_same():
     heads = ("Extension/mm", "Tensile extension/um", "Load/N", "Time/s")
     same = columns_of(table(*heads, c1=1e3 * UP + 7.0), {}, {})
     assert same.values["displacement"][-1] == 1e-3
+    holes = np.where(UP < 0.1, np.nan, 1e3 * UP)
+    assert columns_of(table(*heads, c1=holes), {}, {}).undecided == set()
+    apart = np.where(UP < 0.5, np.nan, UP)
+    lost = np.where(UP < 0.5, UP, np.nan)
+    assert columns_of(table(*heads, c0=lost, c1=apart), {}, {}).undecided == {"displacement"}
     other = columns_of(table(*heads), {}, {})
     assert other.undecided == {"displacement"}
     (question,) = other.questions
