@@ -157,8 +157,9 @@ MATERIALS = """Without WORD: a table of the materials that come with Crumple. Wi
 your own .csv files: all that their files state, with sources. With the word plot: their curves of
 stress over strain, in materials.png. With the word fit: the material of your own test of a printed
 strip or puck, loaded, unloaded and loaded again, as a .csv file for material.name, with a picture.
-The file has the columns time_s, strain and stress_Pa; or displacement_mm and force_N in place of
-strain and stress_Pa, with --gauge and --area. configs/materials/README.md says how to test."""
+The file is the export of a testing machine as it is: time, strain or displacement (with --gauge),
+stress or force (with --area). What it does not say is asked for, with the option that says it.
+configs/materials/README.md says how to test."""
 MATERIALS_EXAMPLES = """examples:
   crumple materials                                         all of them, as a table
   crumple materials cheetah                                 one in full
@@ -166,6 +167,7 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials plot cheetah mine.csv --out two.png     two of them
   crumple materials fit coupon.csv --out mine.csv           curve, loss and softening
   crumple materials fit pull.csv --gauge "33 mm" --area "8 mm^2" --density "1210 kg/m^3"
+  crumple materials fit puck.csv --gauge "10 mm" --area "314 mm^2" --test pressed --units force=kN
 """
 
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
@@ -451,9 +453,27 @@ def _add_materials(verbs: Any) -> None:
     )
     offer(words, material_words)
     materials.add_argument("--out", type=_path, metavar="FILE", help="of plot: .png; of fit: .csv")
-    materials.add_argument("--gauge", metavar="LENGTH", help="of displacement_mm: strain's length")
-    materials.add_argument("--area", metavar="AREA", help='of force_N: section, such as "8 mm^2"')
-    materials.add_argument("--density", metavar="DENSITY", help="of a fit; assumed if not given")
+    fit = materials.add_argument_group("of fit", "what the file of the test does not say")
+    fit.add_argument("--gauge", metavar="LENGTH", help="free length of a strip, height of a puck")
+    fit.add_argument("--area", metavar="AREA", help='section of the specimen: "8 mm^2"')
+    fit.add_argument("--density", metavar="DENSITY", help="assumed if not given")
+    fit.add_argument("--speed", metavar="SPEED", help='of the travel, without times: "150 mm/min"')
+    fit.add_argument("--test", choices=("pulled", "pressed"), help="whatever the signs in the file")
+    fit.add_argument(
+        "--zero",
+        choices=("first", "line"),
+        help="strain and stress begin at the first row, or where the first line meets zero stress",
+    )
+    fit.add_argument(
+        "--units", nargs="+", action="extend", metavar="OF=UNIT", help="force=kN strain=%% time=s"
+    )
+    fit.add_argument(
+        "--columns",
+        nargs="+",
+        action="extend",
+        metavar="OF=HEAD",
+        help='which column it is: force="Load 2", or its number: displacement=3',
+    )
 
 
 def _add_helpers(verbs: Any) -> None:

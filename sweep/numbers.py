@@ -20,6 +20,7 @@ NOTHING = "–"
 LARGE = 1e9  # from here on, numbers have an exponent
 SCALES = {
     "m": ((1e3, "mm"), (1e6, "um")),
+    "m^2": ((1e6, "mm2"),),
     "s": ((1.0, "s"), (1e3, "ms"), (1e6, "us")),
     "m/s": ((1.0, "m/s"), (1e3, "mm/s")),
     "kg": ((1e3, "g"),),

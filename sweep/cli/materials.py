@@ -16,11 +16,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from sweep.config.materials.material_file import Record
+    from sweep.coupon.answers import Answers
 
 PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
 UNBROKEN = 0.1  # strain to which a plastic is drawn that states no break
 PICTURE = "materials.png"
-OF_A_FIT = ("gauge", "area", "density")
+OF_A_FIT = ("gauge", "area", "density", "speed", "test", "zero", "units", "columns")
 
 
 class MaterialsError(ValueError):
@@ -121,7 +122,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     out = Path(arguments.out or file.with_name(f"{file.stem}_material.csv"))
     if out.suffix != ".csv" or out.resolve() == file.resolve():
         raise MaterialsError(f"--out {out}; allowed: another file, whose name ends in .csv")
-    coupon = read_coupon(file, _size(arguments.gauge, "m"), _size(arguments.area, "m^2"))
+    coupon = read_coupon(file, _answers(arguments))
     law = fit(coupon)
     with writing(out.parent, out):
         out.write_text(material_text(law, _size(arguments.density, "kg/m^3")), encoding="utf-8")
@@ -133,6 +134,33 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     acts = '; its loss and softening act with material.memory = "measured"'
     say(f"{out}: for material.name{acts if law.memory else ''}")
     say(picture)
+
+
+def _answers(arguments: Namespace) -> Answers:
+    """What the options say of a record."""
+    from sweep.coupon.answers import Answers
+
+    return Answers(
+        gauge=_size(arguments.gauge, "m"),
+        area=_size(arguments.area, "m^2"),
+        speed=_size(arguments.speed, "m/s"),
+        test=arguments.test,
+        zero=arguments.zero,
+        columns=_by_quantity(arguments.columns, "columns"),
+        units=_by_quantity(arguments.units, "units"),
+    )
+
+
+def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
+    """Words such as "force=kN" of an option, by what is measured."""
+    from sweep.coupon.unit import SI
+
+    pairs = [word.partition("=") for word in words or []]
+    for quantity, _, value in pairs:
+        if quantity not in SI or not value:
+            allowed = ", ".join(f"{name}=..." for name in SI)
+            raise MaterialsError(f"--{option} {quantity}; allowed: {allowed}")
+    return {quantity: value for quantity, _, value in pairs}
 
 
 def _size(text: str | None, unit: str) -> float | None:

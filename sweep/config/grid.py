@@ -16,14 +16,14 @@ from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
-from sweep.config.materials.material_header import KEYS
+from sweep.config.materials.material_header import UNITS
 from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
 
 MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
-OF_A_FILE = frozenset(f"material.{name}" for name in KEYS.values())
+OF_A_FILE = frozenset(f"material.{name}" for name in UNITS)
 ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values in [grid]"
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 

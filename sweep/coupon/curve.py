@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from kernels.laws.one_point import stresses
 from sweep.config.kinds.material import Material, material
+from sweep.config.materials.material_file import SECANT
 from sweep.coupon import legs
 from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.coupon.uncertainty import standard_errors
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
 
 STRAINS = np.array(
@@ -42,6 +44,7 @@ class Loading:
         self.points = _sure_points(reached, stress)
         self.fitting = np.linalg.pinv(_hats(reached, self.points))
         self.record = _rising(self.fitting @ stress)
+        self.modulus_error = _modulus_error(reached, stress)
         first = np.maximum.accumulate(self.sign * coupon.strain[: rows[1] + 1])
         self.reference_time = float(np.interp(MIDDLE, first, coupon.time[: rows[1] + 1]))
 
@@ -130,6 +133,17 @@ def _sure_points(strain: Floats, stress: Floats) -> Floats:
         if points.size <= FEWEST or unsure.max() < UNSURE:
             return points
         points = np.delete(points, int(np.argmax(unsure[:-1])))
+
+
+def _modulus_error(strain: Floats, stress: Floats) -> float:
+    """Standard error of the slope between 1 and 4 % over that slope, by a line through the rows."""
+    least, most = SECANT
+    beyond = np.sort(strain[strain >= least])
+    rows = (strain >= least) & (strain <= max(most, beyond[min(FEWEST, beyond.size - 1)]))
+    line = np.column_stack([strain[rows], np.ones(int(rows.sum()))])
+    fitted = np.linalg.pinv(line) @ stress[rows]
+    error = standard_errors(line, stress[rows] - line @ fitted)[0]
+    return float(error / max(fitted[0], RISE * stress.max() / strain.max()))
 
 
 def _hats(strain: Floats, points: Floats) -> Floats:

@@ -4,7 +4,8 @@ Loss and softening (r, m, beta) are those of least squares between the record an
 through the same test (`Loading.follow`). What the record does not show is left out: without
 unloading there is no loss, without reloading no softening, and unless a second cycle is larger than
 the first one only m + beta W is known, W being the greatest energy: beta is then an assumption. Of
-the laws that are as good as the best, the one with the fewest numbers is chosen.
+the laws that are as good as the best, the one with the fewest numbers is chosen. Standard errors
+follow from the Jacobian of the least squares (`uncertainty`).
 """
 
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ import numpy as np
 from sweep.coupon import legs
 from sweep.coupon.curve import Loading
 from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.coupon.uncertainty import standard_errors
 from sweep.numbers import text_in
 
 BETA = 0.1  # assumed where the record does not show it
@@ -38,6 +40,7 @@ class Fit:
     """A material that follows a coupon.
 
     strain, stress (k,): curve at ``reference_time`` (s) after loading. memory: loss and softening.
+    errors: standard errors of these numbers that are fitted, and of the modulus over the modulus.
     model (n,): stress of the law in every row, Pa. misfit: root mean square of record - law over
     the greatest stress. worst: the greatest of it, with its row. shares: lost share of the work of
     the first cycle and of the second, None where there is none.
@@ -49,6 +52,7 @@ class Fit:
     stress: Floats
     reference_time: float
     memory: dict[str, float]
+    errors: dict[str, float]
     knows_beta: bool
     model: Floats
     misfit: float
@@ -66,8 +70,12 @@ def fit(coupon: Coupon) -> Fit:
     grows = len(rows) > 3 and _peak(coupon, rows[3]) > LARGER * _peak(coupon, rows[1])
     scale = legs.work(coupon, 0, rows[1])
     fits = [_fitted(coupon, loading, names, scale) for names in _laws(rows, grows)]
-    least = min(misfit for _, misfit in fits)
-    memory = next(m for m, misfit in fits if misfit <= AS_GOOD[0] * least + AS_GOOD[1])
+    least = min(misfit for *_, misfit in fits)
+    memory, errors = next(
+        (memory, errors)
+        for memory, errors, misfit in fits
+        if misfit <= AS_GOOD[0] * least + AS_GOOD[1]
+    )
     at_points, model = loading.follow(memory)
     strain, stress = loading.curve(at_points)
     apart = _apart(coupon, model)
@@ -79,6 +87,7 @@ def fit(coupon: Coupon) -> Fit:
         stress=stress,
         reference_time=loading.reference_time,
         memory=memory,
+        errors={"modulus": loading.modulus_error, **errors},
         knows_beta=grows,
         model=model,
         misfit=float(np.sqrt(np.mean(apart**2))),
@@ -127,22 +136,24 @@ def _laws(rows: list[int], grows: bool) -> list[tuple[str, ...]]:
 
 def _fitted(
     coupon: Coupon, loading: Loading, names: tuple[str, ...], scale: float
-) -> tuple[dict[str, float], float]:
-    """The memory of least squares with these numbers, and its misfit."""
+) -> tuple[dict[str, float], dict[str, float], float]:
+    """The memory of least squares with these numbers, its standard errors, and its misfit."""
 
     def apart(numbers: Floats) -> Floats:
         memory = _memory(dict(zip(names, numbers.tolist(), strict=True)), scale)
         return _apart(coupon, loading.follow(memory)[1])
 
     if not names:
-        return {}, float(np.sqrt(np.mean(apart(np.empty(0)) ** 2)))
+        return {}, {}, float(np.sqrt(np.mean(apart(np.empty(0)) ** 2)))
     from scipy.optimize import least_squares
 
     start = np.array([START[name] for name in names])
     bounds = np.array([BOUNDS[name] for name in names]).T
     done = least_squares(apart, start, bounds=bounds, diff_step=STEP, x_scale=start, ftol=1e-6)
-    memory = _memory(dict(zip(names, done.x.tolist(), strict=True)), scale)
-    return memory, float(np.sqrt(np.mean(done.fun**2)))
+    found = dict(zip(names, done.x.tolist(), strict=True))
+    errors = dict(zip(names, standard_errors(done.jac, done.fun).tolist(), strict=True))
+    misfit = float(np.sqrt(np.mean(done.fun**2)))
+    return _memory(found, scale), _errors(found, errors, scale), misfit
 
 
 def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
@@ -153,6 +164,15 @@ def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
         memory["softening_m"] = scale * numbers["width"]
         memory["softening_beta"] = numbers.get("softening_beta", BETA)
     return memory
+
+
+def _errors(numbers: dict[str, float], errors: dict[str, float], scale: float) -> dict[str, float]:
+    """Standard errors of the keys of `_memory`, from the errors of the fitted numbers."""
+    found = {key: error for key, error in errors.items() if key in ("loss", "softening_beta")}
+    if numbers.get("softening", 0.0) > 0.0:
+        found["softening_r"] = errors["softening"] / numbers["softening"] ** 2
+        found["softening_m"] = scale * errors["width"]
+    return found
 
 
 def _apart(coupon: Coupon, model: Floats) -> Floats:

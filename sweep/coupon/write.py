@@ -1,17 +1,20 @@
 """Writes the material of a coupon as a csv file for `material.name`, and says how well it fits."""
 
 from collections.abc import Iterator
+from math import inf
 from textwrap import wrap
 
-from sweep.config.materials.material_file import Record
+from sweep.config.materials.material_file import LIMITS, Record, secant_modulus
 from sweep.coupon.fit import Fit
 from sweep.coupon.legs import leg_name
-from sweep.numbers import text_in
+from sweep.numbers import in_unit, significant, text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
 USUAL_RATES = 2e-4, 1.0  # 1/s, of tests of coupons
 SOFT = 5e6  # Pa
 POOR = 0.03  # root mean square of record - law over the greatest stress
+SURE = 5e-4  # relative: smaller standard errors are not written
+LEAST = 0.01  # of a number: the low end of its range, if that were none
 POISSON = "0.48 (0.45 .. 0.48)"
 
 
@@ -28,12 +31,16 @@ def _header(fit: Fit, density: float | None) -> Iterator[str]:
     yield f"# {coupon.name}: a printed coupon, {pulled}."
     yield "# Marks: [D] derived from the test, [A] an assumption."
     yield "# Source: own coupon: fitted by crumple materials fit [D]."
-    yield from wrap(fit_sentence(fit), 100, initial_indent="#   ", subsequent_indent="#   ")
+    for sentence in (f"{', '.join(coupon.notes)}." if coupon.notes else "", fit_sentence(fit)):
+        yield from wrap(sentence, 100, initial_indent="#   ", subsequent_indent="#   ")
     if "loss" in fit.memory:
         yield "# Curve [D]: at the reference time after loading. The test, in which the material"
         yield '#   relaxes meanwhile, follows from it with material.memory = "measured".'
     if coupon.sign < 0.0:
         yield "# Tension [A]: derived from compression."
+    if fit.errors["modulus"] > SURE:
+        yield "# Modulus [D]: the secant of the curve between 1 and 4 %, with its standard error."
+        yield f"# modulus_Pa: {modulus_range(fit)}"
     yield "# Reference time [D]: in which the test reaches a strain of 2.5 %."
     yield f"# reference_time_s: {fit.reference_time:.4g}"
     if density is None:
@@ -51,14 +58,34 @@ def _memory(fit: Fit) -> Iterator[str]:
     memory = fit.memory
     if "loss" in memory:
         yield "# Loss [D]: share of the work of a cycle that is lost without softening."
-        yield f"# loss: {memory['loss']:.4g}"
+        yield f"# loss: {_with_error(fit, 'loss')}"
     if "softening_r" in memory:
         yield "# Softening on reuse [D]: Ogden and Roxburgh."
-        yield f"# softening_r: {memory['softening_r']:.4g}"
-        yield f"# softening_m_Pa: {memory['softening_m']:.4g}"
+        yield f"# softening_r: {_with_error(fit, 'softening_r')}"
+        yield f"# softening_m_Pa: {_with_error(fit, 'softening_m')}"
         if not fit.knows_beta:
             yield "# Softening beta [A]: the cycles of the test are of one size."
-        yield f"# softening_beta: {memory['softening_beta']:.4g}"
+        yield f"# softening_beta: {_with_error(fit, 'softening_beta')}"
+
+
+def _with_error(fit: Fit, key: str) -> str:
+    """A fitted number with its standard error, within the numbers that a file may have."""
+    value, error = fit.memory[key], fit.errors.get(key, 0.0)
+    if error <= SURE * value:
+        return f"{value:.4g}"
+    above, at_most, _ = LIMITS.get(key, (0.0, inf, ""))
+    low, high = value - error, value + error
+    if above < low and high <= at_most:
+        return f"{value:.4g} +- {error:.2g}"
+    low, high = max(low, above + LEAST * (value - above)), min(high, at_most)
+    return f"{value:.4g} ({low:.4g} .. {high:.4g})"
+
+
+def modulus_range(fit: Fit) -> str:
+    """The range of the modulus, a standard error around the secant of the curve."""
+    modulus = secant_modulus(tuple(fit.strain.tolist()), tuple(fit.stress.tolist()))
+    error = min(fit.errors["modulus"], 1.0 - LEAST)
+    return f"{(1.0 - error) * modulus:.4g} .. {(1.0 + error) * modulus:.4g}"
 
 
 def fit_sentence(fit: Fit) -> str:
@@ -73,7 +100,10 @@ def fit_sentence(fit: Fit) -> str:
 
 def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
     """What was found, a line each; record: the file that was written, read again."""
-    yield f"modulus         {text_in(record.modulus, 'MPa')}, secant from 1 to 4 % strain"
+    yield from (f"read            {note}" for note in fit.coupon.notes)
+    yield f"first loading   {_first_loading(fit)}"
+    modulus = _plus_minus(record.modulus, fit.errors["modulus"] * record.modulus, "MPa", 4)
+    yield f"modulus         {modulus}, secant from 1 to 4 % strain"
     yield f"reference time  {fit.reference_time:.3g} s"
     shares = [share for share in fit.shares if share is not None]
     cycles = " and ".join(text_in(share, "%", 3) for share in shares)
@@ -91,15 +121,15 @@ def doubts(fit: Fit, record: Record) -> Iterator[str]:
     rate = abs(float(coupon.strain[turn])) / float(coupon.time[turn])
     low, high = USUAL_RATES
     if not low <= rate <= high:
-        unit = "milliseconds" if rate < low else "minutes"
+        unit = "ms" if rate < low else "min"
         yield (
             f"Warning: the first loading is at {rate:.2g} 1/s, usual are {low:g} to {high:g} "
-            f"1/s: is time_s in {unit}? needed: seconds."
+            f"1/s: is the time in {unit}? --units time={unit}"
         )
     if record.modulus < SOFT:
         yield (
             f"Warning: printed TPU usually has a modulus above {text_in(SOFT, 'MPa')}: is the "
-            "strain in percent (needed: 0.1 for 10 %), or the gauge length or the area wrong?"
+            "strain in percent (--units strain=%), or the gauge length or the area wrong?"
         )
     if fit.misfit > POOR:
         yield (
@@ -114,7 +144,7 @@ def _memory_lines(fit: Fit) -> Iterator[str]:
         yield "loss            not known, as the record has no unloading: the curve alone is fitted"
         return
     if "loss" in memory:
-        yield f"loss            {memory['loss']:.3g}, without softening"
+        yield f"loss            {_shown(fit, 'loss')}, without softening"
     else:
         yield "loss            none: the law follows the record as well without"
     if len(fit.rows) < 4:
@@ -122,6 +152,31 @@ def _memory_lines(fit: Fit) -> Iterator[str]:
     elif "softening_r" not in memory:
         yield "softening       none: the law follows the record as well without"
     else:
-        numbers = f"r {memory['softening_r']:.3g}, m {text_in(memory['softening_m'], 'MPa', 3)}"
+        m = _plus_minus(memory["softening_m"], fit.errors["softening_m"], "MPa", 3)
+        numbers = f"r {_shown(fit, 'softening_r')}, m {m}"
         doubt = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
-        yield f"softening       {numbers}, beta {memory['softening_beta']:.3g}{doubt}"
+        yield f"softening       {numbers}, beta {_shown(fit, 'softening_beta')}{doubt}"
+
+
+def _first_loading(fit: Fit) -> str:
+    """What the curve is fitted to, in words."""
+    to = f"to a strain of {fit.coupon.strain[fit.rows[1]]:.3g}"
+    loadings = len(fit.rows) // 2
+    if loadings < 2:
+        return f"{to}: the curve"
+    return f"{to}: the curve, of {loadings} loadings; loss and softening are of all of them"
+
+
+def _shown(fit: Fit, key: str) -> str:
+    """A number of a memory with its standard error, if that is fitted."""
+    return _plus_minus(fit.memory[key], fit.errors.get(key, 0.0), "", 3)
+
+
+def _plus_minus(value: float, error: float, unit: str, digits: int) -> str:
+    """A number and its standard error in a unit that people read, as text."""
+    if unit:
+        value, error = in_unit(value, unit), in_unit(error, unit)
+    shown = significant(value, digits)
+    if error > SURE * abs(value):
+        shown += f" \N{PLUS-MINUS SIGN} {significant(error, 2)}"
+    return f"{shown} {unit}".strip()

@@ -16,7 +16,8 @@ from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
 from sweep.config.kinds.table import TABLES
 from sweep.config.load import load_config
-from sweep.config.materials.material_file import COLUMNS as RECORD
+from sweep.config.materials.material_file import STRAINS, STRESSES
+from sweep.config.materials.material_header import KEYS
 from sweep.config.question import QUESTION
 from sweep.config.structures.structure import Structure
 from sweep.config.units import quantity
@@ -159,7 +160,7 @@ def test_columns_exist():
     named = {words for words in quoted if re.fullmatch(r"[a-z_]+_(J|N|g|m|Pa|s|J_per_g)", words)}
     keys = {name.split(".")[1] for name in case_keys()}
     per_gram = {name for name in named if PER_GRAM.fullmatch(name)}
-    known = {*COLUMNS, *RECORD, *Structure.model_fields, *keys, *per_gram}
+    known = {*COLUMNS, *STRAINS, *STRESSES, *KEYS, *Structure.model_fields, *keys, *per_gram}
     assert {"mass_g", "absorbed_energy_J"} <= named <= known
 
 

@@ -4,7 +4,8 @@ A record is a csv file. Its comment lines hold the source and, one per line, `# 
 `density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; `reference_time_s`, the time after
 loading for which the curve holds if the material relaxes; and the measured `loss`, `softening_r`,
 `softening_m_Pa` and `softening_beta`, which act where a config asks for them. Any of them may have
-a range (`material_header`). The columns `strain,stress_Pa` follow
+a range, and most another unit (`material_header`). The columns `strain,stress_Pa` follow, or
+`strain_percent` and `stress_MPa` and the like
 (nominal, tension positive, strains increasing; the origin is implied and may be left out).
 Rows of negative strain, if there are any, are the material's own compression branch.
 
@@ -19,15 +20,24 @@ from math import inf, isfinite
 from pathlib import Path
 
 from sweep.config.faults import MisfitError
-from sweep.config.materials.material_header import Stated, comments, stated
+from sweep.config.materials.material_header import (
+    STRAIN_UNITS,
+    STRESS_UNITS,
+    Stated,
+    comments,
+    stated,
+    with_units,
+)
+from sweep.config.materials.plausibility import in_percent, suspicion, unit_meant
 from sweep.config.reading.text import rows_of, text_of
+from sweep.numbers import text_in
 
 Numbers = tuple[float, ...]
 
 FOLDER = Path(__file__).parents[3] / "configs" / "materials"
-COLUMNS = ["strain", "stress_Pa"]
+STRAINS = with_units("strain", STRAIN_UNITS)
+STRESSES = with_units("stress", STRESS_UNITS)
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
-MOST_STRAIN = 20.0  # no rubber is stretched farther
 REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
@@ -134,6 +144,8 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
     for key, number in numbers.items():
         _check_limits(key, number)
     alone = [key for key, number in numbers.items() if number.value is None]
+    for key, number in numbers.items():
+        _check_plausible(key, number)
     if any(key not in RANGE_ALONE for key in alone):
         raise RecordError(f"{alone[0]} needs a number beside its range")
     if ("softening_r" in numbers) != ("softening_m" in numbers):
@@ -153,6 +165,15 @@ def _check_limits(key: str, number: Stated) -> None:
             raise RecordError(f"# {key}: {value:g}; allowed: {words}")
 
 
+def _check_plausible(key: str, number: Stated) -> None:
+    """Refuse a number, or an end of its range, that no printed material has."""
+    for value in number:
+        if value is not None and (why := suspicion(key, value)):
+            unit = unit_meant(key, value)
+            write = f" write # {key}_{unit.replace('/', '_')}" if unit else ""
+            raise RecordError(f"# {key}: {value:g} in SI; allowed: {why}{write}")
+
+
 def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
     """The checked curve of a record; none if it yields."""
     if not yields:
@@ -167,10 +188,15 @@ def _curve(lines: list[str], yields: bool) -> tuple[Numbers, Numbers]:
 def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
     """Strain and stress below the header."""
     rows = rows_of(line for line in lines if line.strip() and not line.startswith("#"))
-    if not rows or [word.strip() for word in rows[0]] != COLUMNS:
-        wrong = f"the first row must read {','.join(COLUMNS)}"
-        raise RecordError(f"{wrong}, with a comma between the heads")
-    strain, stress = zip(*(_pair(row) for row in rows[1:]), strict=True) if rows[1:] else ((), ())
+    heads = [word.strip() for word in rows[0]] if rows else []
+    if len(heads) != 2 or heads[0] not in STRAINS or heads[1] not in STRESSES:
+        wrong = "the first row must read strain,stress_Pa, with a comma between the heads"
+        raise RecordError(f"{wrong}; in other units: {', '.join([*STRAINS, *STRESSES][1:])}")
+    pairs = [_pair(row) for row in rows[1:]]
+    strain, stress = (
+        tuple(float(f"{size * pair[k]:.15g}") if size != 1.0 else pair[k] for pair in pairs)
+        for k, size in enumerate((STRAINS[heads[0]], STRESSES[heads[1]]))
+    )
     return strain, stress
 
 
@@ -191,13 +217,18 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
         raise RecordError("a curve needs a stress for every strain, all of them finite")
     if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
         raise RecordError("the strains of a curve must increase, from above -1")
-    if max(strain, default=0.0) > MOST_STRAIN:
-        wrong = f"a curve to a strain of {max(strain):g}: is it in percent?"
-        raise RecordError(f"{wrong} allowed: up to {MOST_STRAIN:g}; 10 % is 0.1")
+    if in_percent(strain):
+        wrong = f"a curve to a strain of {max(strain):g}, which is {text_in(max(strain), '%')}"
+        raise RecordError(f"{wrong}: is it in percent? write strain_percent, or 0.1 for 10 %")
     if max(strain, default=0.0) < SECANT[1]:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
     if stress_at(TOE, strain, stress) <= 0.0:
         raise RecordError("the stress of a curve must be positive at 1 % strain")
+    modulus = secant_modulus(strain, stress)
+    if modulus > 0.0 and (why := suspicion("curve_modulus", modulus)):
+        unit = unit_meant("curve_modulus", modulus)
+        write = f" write stress_{unit}" if unit else ""
+        raise RecordError(f"a curve with a modulus of {modulus:.3g} Pa; allowed: {why}{write}")
 
 
 def not_rising(strain: Numbers, stress: Numbers) -> float | None:

@@ -4,31 +4,48 @@
     # poisson: 0.48 (0.45 .. 0.48)       and the range in which it may lie
     # modulus_Pa: 67e6 +- 6e6            the same, for a range around the number
     # modulus_Pa: 19e6 .. 27e6           a range alone; the number is that of the curve
+    # density_g_cm3: 1.21                in another unit, which the key names
     # Density [A]: of another grade.     a comment; [Q] quoted, [D] derived, [A] assumed
 
 A comment goes on in the next line if that begins with "#  ".
 """
 
 import re
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from sweep.config.faults import MisfitError
 
-KEYS = {
-    "density_kg_m3": "density",
-    "poisson": "poisson",
-    "modulus_Pa": "modulus",
-    "reference_time_s": "reference_time",
-    "friction": "friction",
-    "loss": "loss",
-    "softening_r": "softening_r",
-    "softening_m_Pa": "softening_m",
-    "softening_beta": "softening_beta",
-    "yield_stress_Pa": "yield_stress",
-    "hardening_Pa": "hardening",
-    "fracture_strain": "fracture_strain",
+STRESS_UNITS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+STRAIN_UNITS = {"": 1.0, "percent": 1e-2}
+UNITS = {
+    "density": {"kg_m3": 1.0, "g_cm3": 1e3},
+    "poisson": {"": 1.0},
+    "modulus": STRESS_UNITS,
+    "reference_time": {"s": 1.0},
+    "friction": {"": 1.0},
+    "loss": STRAIN_UNITS,
+    "softening_r": {"": 1.0},
+    "softening_m": STRESS_UNITS,
+    "softening_beta": {"": 1.0},
+    "yield_stress": STRESS_UNITS,
+    "hardening": STRESS_UNITS,
+    "fracture_strain": STRAIN_UNITS,
 }
-"""Keys of a header, and what they are called in a case."""
+"""Numbers of a header by their names in a case, and the units that their keys may end in."""
+
+
+def with_units(name: str, units: Mapping[str, float]) -> dict[str, float]:
+    """Heads of a quantity in each unit -> the size of the unit in SI: stress_MPa -> 1e6."""
+    return {"_".join(filter(None, (name, unit))): size for unit, size in units.items()}
+
+
+KEYS = {
+    key: (name, size)
+    for name, units in UNITS.items()
+    for key, size in with_units(name, units).items()
+}
+"""Keys of a header -> what they are called in a case, and the size of their unit in SI."""
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
 ALLOWED = '"1.2", "1.2 +- 0.1", "1.2 (1.1 .. 1.4)" or "1.1 .. 1.4"'
@@ -48,9 +65,23 @@ class Stated(NamedTuple):
 
 
 def stated(lines: list[str]) -> dict[str, Stated]:
-    """The numbers of a header by their names in a case; `MisfitError` if one cannot be read."""
-    matches = [match for line in lines if (match := _LINE.fullmatch(line.strip()))]
-    return {KEYS[match[1]]: _number(match[1], match[2].strip()) for match in matches}
+    """The numbers of a header, in SI, by their names in a case; `MisfitError` if one cannot be
+    read, or is stated twice.
+    """
+    numbers: dict[str, Stated] = {}
+    for match in filter(None, (_LINE.fullmatch(line.strip()) for line in lines)):
+        name, size = KEYS[match[1]]
+        if name in numbers:
+            raise MisfitError(f"# {match[1]}: {name} is stated twice; needed: once")
+        numbers[name] = _in_si(_number(match[1], match[2].strip()), size)
+    return numbers
+
+
+def _in_si(number: Stated, size: float) -> Stated:
+    """A number and its range in SI, rounded to 15 digits."""
+    if size == 1.0:
+        return number
+    return Stated(*(None if value is None else float(f"{size * value:.15g}") for value in number))
 
 
 def _number(key: str, text: str) -> Stated:

@@ -72,3 +72,16 @@ def test_stress_that_does_not_rise_is_made_to():
     flat = Loading(Coupon("flat", strain / RATE, strain, stress), [0, 99])
     assert np.all(np.diff(flat.record) > 0.0)
     assert flat.record[-1] == pytest.approx(1e5, rel=0.02)
+
+
+def test_error_of_the_modulus_is_its_scatter():
+    moduli, errors = [], []
+    for seed in range(40):
+        strain = np.linspace(0.0, 0.5, 201)
+        noise = np.random.default_rng(seed).normal(scale=1e4, size=strain.size)
+        test = Coupon("trial", strain, strain, 2e7 * strain + noise)
+        loading = Loading(test, turns(test))
+        rows = (strain > 0.0099) & (strain < 0.0401)
+        moduli.append(np.polyfit(strain[rows], test.stress[rows], 1)[0])
+        errors.append(loading.modulus_error * moduli[-1])
+    assert np.mean(errors) == pytest.approx(np.std(moduli), rel=0.35)

@@ -19,6 +19,16 @@ def test_loss_and_softening_are_found_again(noise, within):
     assert found.misfit == pytest.approx(noise, abs=1e-3)
 
 
+def test_standard_errors_hold_the_numbers_of_a_noisy_test():
+    found = fit(coupon(0.5, 0.07, 0.5, noise=0.01, **BOTH))
+    assert set(found.errors) == {"modulus", *BOTH}
+    for key, value in BOTH.items():
+        assert abs(found.memory[key] - value) < 3.0 * found.errors[key] < 0.15 * value
+    assert 0.01 < found.errors["modulus"] < 0.1
+    quiet = fit(coupon(0.5, 0.07, 0.5, noise=0.001, **BOTH))
+    assert quiet.errors["loss"] < 0.5 * found.errors["loss"]
+
+
 @pytest.mark.parametrize(("noise", "within"), [(0.0, 0.02), (0.01, 0.1)])
 def test_a_larger_second_cycle_tells_beta(noise, within):
     found = fit(coupon(0.3, 0.05, 0.6, 0.1, 0.6, noise=noise, **GROWING))

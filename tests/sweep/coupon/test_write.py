@@ -1,6 +1,7 @@
 """The file of a fitted material is one that a config can name, and says what was found."""
 
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -38,6 +39,29 @@ def test_material_is_read_with_what_was_fitted(own_record, both):
     assert measured.loss == record.memory["loss"]
 
 
+def test_ranges_are_standard_errors_within_what_a_file_may_state(own_record, both):
+    record = read(own_record, both)
+    low, high = record.ranges["loss"]
+    assert (high - low) / 2.0 == pytest.approx(both.errors["loss"], rel=0.05)
+    wide = replace(
+        both, errors={"modulus": 3.0, "loss": 9.0, "softening_r": 9.0, "softening_m": 9e9}
+    )
+    record = read(own_record, wide)
+    assert 0.0 < record.ranges["loss"][0] < 0.01 < record.ranges["loss"][1] == 0.8
+    assert 1.0 < record.ranges["softening_r"][0] < 1.02
+    assert record.ranges["softening_m"][0] > 0.0
+    assert record.ranges["modulus"][0] > 0.0
+    sure = replace(both, errors={"modulus": 0.0})
+    assert {"modulus", "loss", "softening_r"}.isdisjoint(read(own_record, sure).ranges)
+
+
+def test_how_a_record_was_read_is_in_the_file_and_in_the_words(own_record, both):
+    noted = replace(both, coupon=replace(both.coupon, notes=("401 rows", "force from Load [N]")))
+    assert "\n#   401 rows, force from Load [N].\n" in material_text(noted)
+    lines = [*sentences_on_fit(noted, read(own_record, noted))]
+    assert lines[:2] == ["read            401 rows", "read            force from Load [N]"]
+
+
 def test_density_is_assumed_unless_it_is_given(own_record, both):
     assert read(own_record, both).ranges["density"] == (1190.0, 1220.0)
     weighed = read(own_record, both, 1234.5)
@@ -53,8 +77,12 @@ def test_puck_says_that_its_tension_is_derived(own_record):
 def test_what_was_found_is_told(own_record, both):
     lines = [*sentences_on_fit(both, read(own_record, both))]
     words = "\n".join(lines)
-    assert "loss            0.35, without softening" in words
-    assert "r 2.5, m 0.3 MPa, beta 0.1, which is assumed" in words
+    assert re.search(r"loss            0.35 ± 0.00\d+, without softening", words)
+    assert re.search(r"r 2.5 ± 0.0\d+, m 0.3 ± 0.00\d+ MPa, beta 0.1, which is assumed", words)
+    assert lines[0] == (
+        "first loading   to a strain of 0.5: the curve, of 2 loadings; loss and softening are of "
+        "all of them"
+    )
     assert lines[-1] == fit_sentence(both)
     assert "within 0.0" in lines[-1]
 
@@ -62,8 +90,8 @@ def test_what_was_found_is_told(own_record, both):
 @pytest.mark.parametrize(
     ("scales", "noise", "wrong"),
     [
-        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s.* time_s in milliseconds"),
-        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s.* time_s in minutes"),
+        ((1e3, 1.0, 1.0), 0.0, "at 5e-05 1/s.* --units time=ms$"),
+        ((1 / 60, 1.0, 1.0), 0.0, "at 3 1/s.* --units time=min$"),
         ((1.0, 9.0, 1.0), 0.0, "above 5 MPa: .*percent"),
         ((1.0, 1.0, 1.0), 0.05, "more than 3 %.*picture"),
         ((1.0, 1.0, 1.0), 0.0, None),

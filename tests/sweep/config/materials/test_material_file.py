@@ -2,6 +2,7 @@
 
 import pytest
 
+from sweep.config.case import Case
 from sweep.config.materials.material_file import (
     FOLDER,
     RecordError,
@@ -10,6 +11,7 @@ from sweep.config.materials.material_file import (
     read_record,
     stress_at,
 )
+from sweep.simulation.simulate import simulate
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -28,7 +30,7 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
     [
         ("strain,stress_Pa\n0.01,1\n0.1,2\n", "needs the lines # density_kg_m3"),
         ("# density_kg_m3: 1.2 g/cm^3\n# poisson: 0.4\nstrain,stress_Pa\n0,0\n1,1\n", "density_kg"),
-        (HEADER.replace("_Pa", "_MPa") + "0.01,1\n", "first row must read strain,stress_Pa"),
+        (HEADER.replace("_Pa", "_bar") + "0.01,1\n", "first row must read .*units: strain_perc"),
         (HEADER + "0.01,1,3\n", "two numbers"),
         (HEADER + "0.01,soft\n0.1,2\n", "two numbers, but one is .0.01,soft."),
         (HEADER + "0.01,nan\n0.1,2\n", "finite"),
@@ -37,7 +39,12 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
         (HEADER + "0.01,1\n0.02,2\n", "reach a strain of 0.04"),
         (HEADER + "0.01,-1\n0.5,2\n", "positive at 1 % strain"),
         (HEADER, "reach a strain"),
-        (HEADER + "1,6e5\n35,8e6\n", "a curve to a strain of 35: is it in percent"),
+        (HEADER + "0.1,6e5\n35,8e6\n", "strain of 35, which is 3500 %: .*write strain_percent"),
+        (HEADER + "0.02,0.5\n0.1,1.6\n", "modulus of 17.5 Pa; .*in MPa. write stress_MPa"),
+        (HEADER + "0.02,5e11\n0.1,2e12\n", "modulus of .* Pa; allowed: 0.1 MPa to 1000 GPa$"),
+        (HEADER.replace("1200", "1.2") + CURVE, "density: 1.2 .* in g/cm3. write # density_g_cm3"),
+        ("# modulus_Pa: 17 .. 21\n" + HEADER + CURVE, "modulus: 17 .* write # modulus_MPa"),
+        ("# density_g_cm3: 1.2\n" + HEADER + CURVE, "density is stated twice; needed: once"),
         (
             "# loss: 38\n" + HEADER + CURVE,
             "# loss: 38; allowed: above 0, at most 0.8; 38 % is 0.38",
@@ -49,6 +56,37 @@ CURVE = "0.01,1e5\n0.1,9e5\n"
 def test_unusable_records_are_refused_by_name(own_record, text, message):
     with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
         read_record(own_record(text))
+
+
+def test_heads_may_name_their_unit(own_record):
+    """The same curve in percent and MPa, with its density in g/cm3, as data sheets have them."""
+    pairs = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (1.5, 6e6)]
+    text = "# density_g_cm3: 1.2 (1.19 .. 1.22)\n# poisson: 0.48\n# modulus_MPa: 19 +- 2\n"
+    for head, size in (("stress_MPa", 1e6), ("stress_kPa", 1e3), ("stress_GPa", 1e9)):
+        rows = "".join(f"{100 * e:g},{s / size:.9g}\n" for e, s in pairs)
+        record = read_record(own_record(f"{text}strain_percent,{head}\n{rows}"))
+        assert list(zip(record.strain, record.stress, strict=True)) == pairs
+    assert (record.density, record.modulus) == (1200.0, 19e6)
+    assert record.ranges == {"density": (1190.0, 1220.0), "modulus": (17e6, 21e6)}
+
+
+DATA_SHEET = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (0.2, 2.2e6), (0.4, 2.9e6), (0.8, 4e6)]
+
+
+@pytest.mark.parametrize(
+    ("heads", "sizes", "density"),
+    [
+        ("strain,stress_Pa", (1.0, 1.0), "density_kg_m3: 1200"),
+        ("strain_percent,stress_MPa", (0.01, 1e6), "density_g_cm3: 1.2"),
+    ],
+)
+def test_a_lattice_absorbs_the_same_in_the_units_of_a_data_sheet(own_record, heads, sizes, density):
+    pairs = [*DATA_SHEET, (1.5, 6e6)]
+    rows = "".join(f"{e / sizes[0]:.9g},{s / sizes[1]:.9g}\n" for e, s in pairs)
+    path = own_record(f"# {density}\n# poisson: 0.48\n{heads}\n{rows}")
+    result = simulate(Case.of(material={"name": str(path)}, loading={"mode": "displacement"}))
+    energy, mass = (result.summary[key] for key in ("absorbed_energy_until_packed_J", "mass_g"))
+    assert energy / mass == pytest.approx(0.109, abs=0.001)
 
 
 def test_the_modulus_is_the_secant_between_one_and_four_percent(own_record):

@@ -5,6 +5,7 @@ import pytest
 from sweep.config.faults import ConfigError, MisfitError
 from sweep.config.load import load_config
 from sweep.config.materials.material_file import read_record
+from sweep.config.reading.text import foreign_text
 from sweep.config.structures.structure_file import read_structure
 from sweep.coupon.record import read_coupon
 
@@ -35,7 +36,12 @@ def test_configs(content, why, tmp_path):
 READERS = (read_record, read_coupon, read_structure)
 FILES = [
     *((read, None, "cannot be read (No such file or directory); needed: a") for read in READERS),
-    *((read, "1".encode("utf-16"), "not UTF-8 text; needed: a") for read in READERS),
+    *(
+        (read, "1".encode("utf-16"), "not UTF-8 text; needed: a")
+        for read in (READERS[0], READERS[2])
+    ),
+    (read_coupon, b"PK\x03\x04 of a workbook", "a workbook; needed: a csv file (in the spreadsh"),
+    (read_coupon, b"\x81\x00 and so on", "no text; needed: a csv file"),
     (read_record, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
     (read_coupon, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
     (read_structure, b"[" * 10**5, "not JSON"),
@@ -53,3 +59,20 @@ def test_files(read, content, why, tmp_path):
         read(path)
     assert why in str(refusal.value)
     assert not any(word in str(refusal.value) for word in LIBRARY)
+
+
+@pytest.mark.parametrize(
+    "coding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"]
+)
+def test_text_of_other_programs_may_have_other_codings(coding, tmp_path):
+    path = tmp_path / "export.csv"
+    path.write_bytes("Déplacement [mm] – mm²\n".encode(coding))
+    assert foreign_text(path, "a csv file") == "Déplacement [mm] – mm²\n"
+
+
+def test_text_of_other_programs_is_bounded(tmp_path, monkeypatch):
+    monkeypatch.setattr("sweep.config.reading.text.MOST_BYTES", 3_000_000)
+    path = tmp_path / "export.csv"
+    path.write_bytes(b"1" * 3_000_001)
+    with pytest.raises(MisfitError, match="larger than 3 MB; needed: a csv file"):
+        foreign_text(path, "a csv file")

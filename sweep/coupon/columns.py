@@ -1,0 +1,189 @@
+"""Which column of a machine's table is time, displacement, strain, force or stress, and its unit.
+
+The words of a head say what it may be, its unit which of it. Of several columns that may be the
+same, the user is asked, unless their numbers are the same.
+"""
+
+import re
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.config.faults import MisfitError
+from sweep.coupon.table import Table
+from sweep.coupon.unit import SI, size_in_si
+from sweep.plain_text import plain
+
+Floats = NDArray[np.float64]
+
+WORDS = {
+    "time": "time zeit temps tiempo tempo t 时间 時間",
+    "force": "force load kraft charge last carga fuerza forza f 力 试验力 試験力 負荷 载荷",
+    "displacement": "displacement extension crosshead travel stroke position disp weg traverse "
+    "course deplacement extensometer elongation allongement deformation deformacion deform "
+    "verformung desplazamiento spostamento 位移 变形 変位 ストローク",
+    "strain": "strain dehnung stauchung deformation deformacion deform elongation extension "
+    "extensometer allongement 应变 ひずみ",
+    "stress": "stress spannung contrainte tension 应力 応力",
+}
+"""Words in a head, without accents -> what it may be."""
+ENDS = {
+    "time": ("zeit",),
+    "force": ("kraft",),
+    "displacement": ("weg", "wegaufnehmer"),
+    "stress": ("spannung",),
+}
+"""Ends of words in German."""
+OTHERS = (
+    "rate speed velocity true max maximum peak lateral transverse transversal width breite "
+    "temperature command target setpoint work energy modulus break count cycles"
+)
+"""Words of what else a machine records."""
+EQUAL = 0.01  # of the range of a column: it tells nothing else than another one
+LONGEST = 40  # characters of a head that are shown
+MOST_HEADS = 8  # heads that a message lists
+EXAMPLES = {"time": "s", "displacement": "mm", "strain": "%", "force": "N", "stress": "MPa"}
+
+
+@dataclass
+class Columns:
+    """The columns of a table by what they are, in SI, and what was found on the way.
+
+    words: their heads, with units. notes: sentences on how they were read. questions: what could
+    not be decided, with the option that decides it. undecided: of these, what is asked for already.
+    """
+
+    values: dict[str, Floats] = field(default_factory=dict)
+    words: dict[str, str] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    questions: list[str] = field(default_factory=list)
+    undecided: set[str] = field(default_factory=set)
+
+
+def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]) -> Columns:
+    """The columns of a table.
+
+    chosen: heads, or numbers from 1, that the user has given; units: units likewise.
+    """
+    found = Columns(notes=[*table.notes])
+    for quantity in SI:
+        candidates = _candidates(table, quantity, units.get(quantity))
+        if quantity in chosen:
+            candidates = _named(table, chosen[quantity])
+        elif len(candidates) > 1 and not _are_same(table, quantity, candidates):
+            heads = " or ".join(f'{quantity}="{_name(table, k)}"' for k in candidates)
+            found.questions.append(f"--columns {heads}: which is it?")
+            found.undecided.add(quantity)
+            continue
+        if candidates:
+            _add(found, table, quantity, candidates[0], units.get(quantity))
+        elif quantity in units:
+            raise MisfitError(f"--units {quantity} has no effect; {heads_of(table)}")
+    _ask_for_units(found)
+    return found
+
+
+def _ask_for_units(found: Columns) -> None:
+    """Ask for the units of all columns that state none, or another one, at once."""
+    if unknown := [quantity for quantity in found.words if quantity not in found.values]:
+        words = " ".join(f"{quantity}={EXAMPLES[quantity]}" for quantity in unknown)
+        heads = ", ".join(found.words[quantity] for quantity in unknown)
+        found.questions.append(f"--units {words}, or other units: none are known of {heads}")
+        found.undecided.update(unknown)
+
+
+def _add(found: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
+    """Add a column in SI; its words alone, if its unit is not known."""
+    head, unit = table.heads[k], given or table.units[k]
+    if head == quantity == "strain" and not unit:
+        unit = "1"
+    size = size_in_si(unit, quantity) if unit else None
+    name = shown(head) or f"column {k + 1}"
+    found.words[quantity] = f"{name} [{shown(unit)}]" if unit else name
+    if size is not None:
+        found.values[quantity] = size * table.values[:, k]
+
+
+def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
+    """The columns that may be a quantity, by their words and units; constant ones are left out."""
+    columns = [
+        k
+        for k, (head, unit) in enumerate(zip(table.heads, table.units, strict=True))
+        if _may_be(head, given or unit, quantity) and np.ptp(_known(table.values[:, k])) > 0.0
+    ]
+    own = [k for k in columns if table.heads[k] == quantity]
+    return own if len(own) == 1 else columns
+
+
+def _known(values: Floats) -> Floats:
+    known = values[np.isfinite(values)]
+    return known if known.size else np.zeros(1)
+
+
+def _may_be(head: str, unit: str, quantity: str) -> bool:
+    """Whether words and unit of a head allow that it is a quantity."""
+    words = words_of(head)
+    if set(words) & set(OTHERS.split()):
+        return False
+    if unit:
+        fits = size_in_si(unit, quantity) is not None
+        return fits and (not words or _is_called(words, quantity))
+    called = [name for name in SI if _is_called(words, name)]
+    return bool(called) and called[0] == quantity
+
+
+def _is_called(words: list[str], quantity: str) -> bool:
+    known, ends = words_of(WORDS[quantity]), ENDS.get(quantity, ())
+    return any(word in known or word.endswith(ends) for word in words)
+
+
+def words_of(head: str) -> list[str]:
+    """The words of a head in small letters, without accents and numbers."""
+    plain_letters = unicodedata.normalize("NFKD", head.lower())
+    letters = "".join(c for c in plain_letters if not unicodedata.combining(c))
+    return re.findall(r"[^\W\d_]+", letters)
+
+
+def _are_same(table: Table, quantity: str, columns: list[int]) -> bool:
+    """Whether columns have the same numbers in SI, from the first row on."""
+    sizes = [size_in_si(table.units[k], quantity) or 1.0 for k in columns]
+    values = table.values[:, columns] * sizes
+    values = values[np.isfinite(values).all(axis=1)]
+    if not values.size:
+        return False
+    moved = values - values[0]
+    return bool(np.abs(moved - moved[:, :1]).max() < EQUAL * np.abs(moved).max())
+
+
+def _named(table: Table, name: str) -> list[int]:
+    """The column of a head or a number."""
+    matches = [k for k, head in enumerate(table.heads) if head.lower() == name.strip().lower()]
+    if not matches and name.isdecimal() and 0 < int(name) <= len(table.heads):
+        matches = [int(name) - 1]
+    if len(matches) != 1:
+        raise MisfitError(f"--columns {shown(name)}: no such column; {heads_of(table)}")
+    return matches
+
+
+def _name(table: Table, k: int) -> str:
+    """What names a column alone: its head, or its number if it has none, or others have it too."""
+    head = table.heads[k]
+    return shown(head) if head and table.heads.count(head) == 1 else str(k + 1)
+
+
+def heads_of(table: Table) -> str:
+    """The heads of a table, in words."""
+    heads = [shown(head) for head in table.heads if head]
+    if not heads:
+        return f"its {len(table.heads)} columns have no heads, so that --units are needed too"
+    more = f" and {len(heads) - MOST_HEADS} more" if len(heads) > MOST_HEADS else ""
+    return f"its heads: {', '.join(heads[:MOST_HEADS])}{more}"
+
+
+def shown(text: str) -> str:
+    """A text of a file as a message may show it."""
+    text = plain(text)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."

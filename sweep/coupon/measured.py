@@ -1,0 +1,120 @@
+"""Time, strain and stress of a record, from its columns and what the user says of them."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.config.faults import MisfitError
+from sweep.coupon.answers import Answers
+from sweep.coupon.columns import Columns, heads_of, shown
+from sweep.coupon.specimen import stated_size
+from sweep.coupon.table import FEWEST, Table
+from sweep.numbers import counted, with_unit
+
+Floats = NDArray[np.float64]
+
+SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
+"""What a size of the specimen makes of what is measured."""
+NEEDED = {
+    "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
+    "area": '"8 mm^2" (section of the specimen), to make a stress of',
+}
+UNITS = {"gauge": "m", "area": "m^2"}
+
+
+class Measured(NamedTuple):
+    """Time (n,), s; strain (n,) and stress (n,), Pa; to_scale: false if they are not known but for
+    a factor, as a size of the specimen is asked for.
+    """
+
+    time: Floats
+    strain: Floats
+    stress: Floats
+    to_scale: bool
+
+
+def measured(table: Table, columns: Columns, answers: Answers) -> Measured | None:
+    """What was measured; None if it is not known what. Adds to notes and questions of columns."""
+    for name in (*SIZES, "speed"):
+        if (given := getattr(answers, name)) is not None and not given > 0.0:
+            raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
+    known = {size: _over(size, table, columns, answers) for size in SIZES}
+    strain, stress = (None if pair is None else pair[0] for pair in known.values())
+    time = _time(table, columns, answers, strain)
+    if strain is None or stress is None or time is None:
+        return None
+    to_scale = all(pair is not None and pair[1] for pair in known.values())
+    return _complete_rows(columns, Measured(time, strain, stress, to_scale))
+
+
+def _over(
+    size: str, table: Table, columns: Columns, answers: Answers
+) -> tuple[Floats, bool] | None:
+    """Strain or stress, or what was measured, over a size of the specimen, if that is known."""
+    ready, raw = SIZES[size]
+    given: float | None = getattr(answers, size)
+    if ready in columns.values and (given is None or raw not in columns.values):
+        if given is not None and (size == "area" or answers.speed is None):
+            raise MisfitError(f"--{size} has no effect, as there is a column of {ready}")
+        columns.words.pop(raw, None)
+        return columns.values[ready], True
+    if raw not in columns.values and not columns.undecided & {ready, raw}:
+        words = f"--columns {ready}=..., or {raw}=... with --{size}: a head or a number"
+        columns.questions.append(f"{words}; {heads_of(table)}")
+        return None
+    columns.words.pop(ready, None)
+    if given is None and (stated := stated_size(table, size)):
+        given, label = stated
+        value = with_unit(given, UNITS[size])
+        columns.notes.append(f"{size} {value}, from the line {shown(label)} above the heads")
+    if given is None and ready not in columns.undecided:
+        head = columns.words.get(raw, raw)
+        columns.questions.append(f"--{size} {NEEDED[size]} {head}")
+    if raw not in columns.values:
+        return None
+    return columns.values[raw] / (given or 1.0), given is not None
+
+
+def _time(table: Table, columns: Columns, answers: Answers, strain: Floats | None) -> Floats | None:
+    """The time of each row, or the travel over its speed."""
+    if "time" in columns.values:
+        if answers.speed is not None:
+            raise MisfitError("--speed has no effect, as there is a column of time")
+        return columns.values["time"]
+    if "time" in columns.undecided:
+        return None
+    travel = columns.values.get("displacement")
+    if travel is None and strain is not None and answers.gauge is not None:
+        travel = answers.gauge * strain
+    if answers.speed is None:
+        gauge = "" if "displacement" in columns.values else ' with --gauge "50 mm"'
+        words = f'--speed "150 mm/min" of the travel{gauge}, or --columns time=...'
+        columns.questions.append(f"{words}; {heads_of(table)}")
+        return None
+    if travel is None:
+        raise MisfitError("--speed needs a column of displacement, or --gauge")
+    columns.notes.append("time from the travel and its speed")
+    return np.r_[0.0, np.cumsum(np.abs(np.diff(travel)))] / answers.speed
+
+
+def _complete_rows(columns: Columns, raw: Measured) -> Measured:
+    """The rows with all numbers whose time is later than the one before."""
+    whole = np.isfinite(raw.time) & np.isfinite(raw.strain) & np.isfinite(raw.stress)
+    time = raw.time[whole]
+    if time.size < FEWEST:
+        rows = counted(int(time.size), "complete row")
+        raise MisfitError(f"{rows} of time, strain and stress; needed: at least {FEWEST}")
+    steps = np.diff(time)
+    later = np.r_[True, steps > 0.0]
+    if (steps < 0.0).any() or later.sum() < FEWEST:
+        row = int(np.argmax(steps < 0.0 if (steps < 0.0).any() else steps <= 0.0)) + 1
+        raise MisfitError(
+            f"the time does not increase from row {row} to row {row + 1} of the numbers: is it "
+            "rounded, or are there several tests?"
+        )
+    if left_out := int(np.sum(~whole)):
+        columns.notes.append(f"without a number and left out: {counted(left_out, 'row')}")
+    if repeated := int(np.sum(~later)):
+        columns.notes.append(f"at the time of the row before, left out: {counted(repeated, 'row')}")
+    return Measured(time[later], raw.strain[whole][later], raw.stress[whole][later], raw.to_scale)

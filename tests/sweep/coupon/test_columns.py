@@ -1,0 +1,99 @@
+"""Columns by the words and units of their heads, and what is asked of the user."""
+
+import numpy as np
+import pytest
+
+from sweep.config.faults import MisfitError
+from sweep.coupon.columns import columns_of, heads_of, words_of
+from sweep.coupon.table import Table
+
+UP = np.linspace(0.0, 1.0, 30)
+
+
+def table(*heads, **values):
+    """A table of columns that rise, by heads with units after a slash."""
+    names, units = zip(*(head.partition("/")[::2] for head in heads), strict=True)
+    columns = [values.get(f"c{k}", (k + 1) * UP) for k in range(len(heads))]
+    return Table(names, units, np.column_stack(columns), [], ".", ("read",))
+
+
+@pytest.mark.parametrize(
+    ("heads", "quantities"),
+    [
+        (["time/s", "displacement/mm", "force/N"], "time displacement force"),
+        (["Prüfzeit/s", "Standardweg/mm", "Standardkraft/N"], "time displacement force"),
+        (["Temps/s", "Course standard/mm", "Force/kN"], "time displacement force"),
+        (["Tiempo/s", "Deformación/%", "Tensión/MPa"], "time strain stress"),
+        (["t/s", "Extension/%", "Tensile stress/MPa"], "time strain stress"),
+        (["时间/s", "位移/mm", "力/kN"], "time displacement force"),
+        (["時間/s", "ひずみ/%", "応力/MPa"], "time strain stress"),
+        (["Time/s", "True strain/%", "Strain rate/1/s", "Width/mm"], "time"),
+        (["/s", "/mm", "/N"], "time displacement force"),
+    ],
+)
+def test_words_and_units_say_what_a_column_is(heads, quantities):
+    found = columns_of(table(*heads), {}, {})
+    assert [*found.values] == quantities.split()
+    assert found.questions == []
+
+
+def test_columns_are_in_si():
+    found = columns_of(table("time/ms", "strain/%", "stress/MPa"), {}, {})
+    assert [values[-1] for values in found.values.values()] == pytest.approx([1e-3, 0.02, 3e6])
+    assert found.words["stress"] == "stress [MPa]"
+    assert columns_of(table("strain", "x/s"), {}, {}).values["strain"][-1] == 1.0
+
+
+def test_of_several_columns_the_user_is_asked_unless_they_are_the_same():
+    heads = ("Extension/mm", "Tensile extension/um", "Load/N", "Time/s")
+    same = columns_of(table(*heads, c1=1e3 * UP + 7.0), {}, {})
+    assert same.values["displacement"][-1] == 1e-3
+    holes = np.where(UP < 0.1, np.nan, 1e3 * UP)
+    assert columns_of(table(*heads, c1=holes), {}, {}).undecided == set()
+    apart = np.where(UP < 0.5, np.nan, UP)
+    lost = np.where(UP < 0.5, UP, np.nan)
+    assert columns_of(table(*heads, c0=lost, c1=apart), {}, {}).undecided == {"displacement"}
+    other = columns_of(table(*heads), {}, {})
+    assert other.undecided == {"displacement"}
+    (question,) = other.questions
+    assert question.startswith(
+        '--columns displacement="Extension" or displacement="Tensile extension"'
+    )
+    chosen = columns_of(table(*heads), {"displacement": "tensile EXTENSION"}, {})
+    assert chosen.values["displacement"][-1] == pytest.approx(2e-6)
+    assert (
+        columns_of(table("Load/N", "Load/N", c1=UP**2), {}, {})
+        .questions[0]
+        .startswith('--columns force="1" or force="2"')
+    )
+
+
+def test_constant_columns_are_no_candidates():
+    found = columns_of(table("Force/N", "Force 2/N", c1=0.0 * UP), {}, {})
+    assert found.questions == []
+
+
+def test_units_that_are_not_known_are_asked_for_at_once():
+    heads = ("Time", "Strain", "Stress/bananas")
+    (question,) = columns_of(table(*heads), {}, {}).questions
+    assert question.startswith("--units time=s strain=%, or other units: none are known of Time")
+    given = columns_of(table(*heads), {"stress": "3"}, {"time": "s", "strain": "%", "stress": "Pa"})
+    assert [*given.values] == ["time", "strain", "stress"]
+
+
+@pytest.mark.parametrize(
+    ("chosen", "units", "wrong"),
+    [
+        ({"force": "9"}, {}, "--columns 9: no such column; its heads: Time, Load"),
+        ({"force": "load"}, {"strain": "%"}, "--units strain has no effect"),
+    ],
+)
+def test_answers_that_fit_no_column_are_refused(chosen, units, wrong):
+    with pytest.raises(MisfitError, match=wrong):
+        columns_of(table("Time/s", "Load/N"), chosen, units)
+
+
+def test_heads_of_others_are_shown_short_and_plain():
+    words = heads_of(table("a\x1b[2J", "b" * 90, *"cdefghij"))
+    assert words == f"its heads: a\\x1b[2J, {'b' * 40}..., c, d, e, f, g, h and 2 more"
+    assert words_of("C_1_Déplacement 2") == ["c", "deplacement"]

@@ -1,0 +1,98 @@
+"""Time, strain and stress from columns, sizes and speed; rows without numbers."""
+
+import numpy as np
+import pytest
+
+from sweep.config.faults import MisfitError
+from sweep.coupon.answers import Answers
+from sweep.coupon.columns import Columns, columns_of
+from sweep.coupon.measured import measured
+from sweep.coupon.table import Table
+
+UP = np.linspace(0.0, 1.0, 41)
+RAW = (("time", "displacement", "force"), ("s", "mm", "N"))
+READY = (("time", "strain", "stress"), ("s", "", "Pa"))
+
+
+def read(heads, values, answers, preamble=()):
+    """What was measured, and the columns with notes and questions."""
+    table = Table(*heads, np.column_stack(values), [*map(list, preamble)], ".", ())
+    columns: Columns = columns_of(table, {}, {})
+    return measured(table, columns, answers), columns
+
+
+def test_raw_columns_are_over_the_sizes():
+    found, columns = read(RAW, [UP, 50.0 * UP, 16.0 * UP], Answers(gauge=0.05, area=8e-6))
+    assert found.strain == pytest.approx(UP)
+    assert found.stress == pytest.approx(2e6 * UP)
+    assert (found.to_scale, columns.questions) == (True, [])
+
+
+def test_sizes_that_are_not_stated_are_asked_for():
+    found, columns = read(RAW, [UP, UP, UP], Answers())
+    assert not found.to_scale
+    assert [question[:7] for question in columns.questions] == ["--gauge", "--area "]
+
+
+def test_sizes_of_the_file_are_used_and_told():
+    lines = [("Section", "8", "mm2"), ("Gage length", "50", "mm")]
+    found, columns = read(RAW, [UP, 50.0 * UP, 16.0 * UP], Answers(), lines)
+    assert found.stress == pytest.approx(2e6 * UP)
+    assert columns.notes == [
+        "gauge 50 mm, from the line Gage length above the heads",
+        "area 8 mm2, from the line Section above the heads",
+    ]
+    other, _ = read(RAW, [UP, 50.0 * UP, 16.0 * UP], Answers(area=16e-6), lines)
+    assert other.stress == pytest.approx(1e6 * UP)
+
+
+def test_a_column_goes_before_what_is_divided_unless_a_size_is_given():
+    heads = (("time", "strain", "stress", "displacement"), ("s", "1", "Pa", "mm"))
+    values = [UP, 2.0 * UP, 1e6 * UP, 50.0 * UP]
+    assert read(heads, values, Answers())[0].strain == pytest.approx(2.0 * UP)
+    assert read(heads, values, Answers(gauge=0.05))[0].strain == pytest.approx(UP)
+
+
+def test_time_follows_from_the_speed():
+    zigzag = np.r_[UP, UP[::-1][1:]]
+    heads = (("displacement", "force"), ("mm", "N"))
+    sizes = {"gauge": 0.05, "area": 8e-6}
+    found, columns = read(heads, [zigzag, zigzag], Answers(**sizes, speed=1e-3))
+    assert found.time[-1] == pytest.approx(2.0)
+    assert columns.notes == ["time from the travel and its speed"]
+    missing, columns = read(heads, [zigzag, zigzag], Answers(**sizes))
+    assert missing is None
+    assert columns.questions[0].startswith('--speed "150 mm/min" of the travel, or --columns')
+    strained, _ = read((("strain", "stress"), ("", "Pa")), [UP, UP], Answers(gauge=0.05, speed=0.1))
+    assert strained.time[-1] == pytest.approx(0.5)
+
+
+def test_rows_without_numbers_and_of_the_same_time_are_left_out():
+    time = UP.copy()
+    time[5], holed = time[4], UP.copy()
+    holed[9] = np.nan
+    found, columns = read(READY, [time, holed, 1e6 * UP], Answers())
+    assert found.time.size == UP.size - 2
+    assert np.isfinite(found.strain).all()
+    assert [note.rpartition(": ")[2] for note in columns.notes] == ["1 row", "1 row"]
+
+
+@pytest.mark.parametrize(
+    ("values", "answers", "wrong"),
+    [
+        ([UP, UP, UP], Answers(area=1.0), "--area has no effect, as there is a column of stress"),
+        ([UP, UP, UP], Answers(speed=1.0), "--speed has no effect, as there is a column of time"),
+        ([UP, UP, UP], Answers(gauge=0.0), "--gauge: 0 in SI; allowed: above 0"),
+        ([UP, UP, UP], Answers(speed=-1.0), "--speed: -1 in SI; allowed: above 0"),
+        ([UP[::-1], UP, UP], Answers(), "does not increase from row 1 to row 2"),
+        ([UP // 0.2, UP, UP], Answers(), "does not increase from row 1 to row 2"),
+        (
+            [np.where(UP > 0.4, np.nan, UP), UP, UP],
+            Answers(),
+            "complete rows of .*; needed: at least 20",
+        ),
+    ],
+)
+def test_what_contradicts_the_columns_is_refused(values, answers, wrong):
+    with pytest.raises(MisfitError, match=wrong):
+        read(READY, values, answers)
