@@ -50,10 +50,11 @@ class Stated(NamedTuple):
 def stated(lines: list[str]) -> dict[str, Stated]:
     """The numbers of a header by their names in a case; `MisfitError` if one cannot be read."""
     matches = [match for line in lines if (match := _LINE.fullmatch(line.strip()))]
-    return {KEYS[match[1]]: _number(match[1], match[2].strip()) for match in matches}
+    return {KEYS[match[1]]: number_with_range(match[1], match[2].strip()) for match in matches}
 
 
-def _number(key: str, text: str) -> Stated:
+def number_with_range(key: str, text: str) -> Stated:
+    """A number, with its range if it has one; `MisfitError` with the key if it cannot be read."""
     if match := _AROUND.fullmatch(text):
         middle, half = float(match[1]), match[2]
         if half is None:
