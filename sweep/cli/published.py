@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 OF_ADD = ("measure", "measured", "source")
 RESULTS = "results/published"
 USUAL = "absorbed_energy_J"
+COLUMN_LIST = "docs/results.md lists them"
 
 
 def published(arguments: Namespace) -> int:
@@ -144,12 +145,14 @@ def _add(arguments: Namespace, mine: Path) -> None:
 
 def _question(arguments: Namespace, mine: Path, text: str) -> tuple[Row, str]:
     """The row that is asked for, and the number of a measured value, in whose unit the row is."""
-    from sweep.columns import describe_column, in_words
+    from sweep.columns import describe_column, in_words, is_grid_key
     from sweep.published.predict import cases_of
     from sweep.published.quantity import split_quantity
     from sweep.published.table import Row
 
     measure = arguments.measure or USUAL
+    if is_grid_key(measure):
+        raise ArgumentError(f"--measure {measure}; allowed: a column of results ({COLUMN_LIST})")
     units = describe_column(measure).units
     number, unit, per = split_quantity(text, units) if text else ("", units, 1.0)
     noun = in_words(measure).removesuffix(f", in {units}")

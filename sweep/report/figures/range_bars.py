@@ -35,8 +35,8 @@ def range_bars(ax: Axes, comparisons: Sequence[Comparison]) -> None:
         ax.barh(place, max(high - low, THIN), left=low, height=0.6, color=color)
         scatter = row.measured.high / middle - 1.0
         ax.errorbar(1.0, place, xerr=scatter, fmt="o", ms=4, color="black", capsize=3)
-    ax.barh([], [], color=BLUE, label="predicted range, inside")
-    ax.barh([], [], color=VERMILION, label="outside")
+    ax.plot([], [], lw=6.0, color=BLUE, label="predicted range, inside")
+    ax.plot([], [], lw=6.0, color=VERMILION, label="outside")
     ax.errorbar([], [], xerr=[], fmt="o", ms=4, color="black", label="measured, with scatter")
     ax.axvline(1.0, color=GREY, lw=0.8, zorder=0)
     ax.set_yticks(range(len(rows)), [f"{row.source}: {row.quantity}" for row in rows],
