@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from textwrap import wrap
 
 from sweep.config.materials.material_file import Record
+from sweep.coupon.derived_tension import tension_lines
 from sweep.coupon.fit import Fit
 from sweep.coupon.legs import leg_name
 from sweep.numbers import text_in
@@ -33,7 +34,7 @@ def _header(fit: Fit, density: float | None) -> Iterator[str]:
         yield "# Curve [D]: at the reference time after loading. The test, in which the material"
         yield '#   relaxes meanwhile, follows from it with material.memory = "measured".'
     if coupon.sign < 0.0:
-        yield "# Tension [A]: derived from compression."
+        yield from tension_lines(fit.strain, fit.stress)
     yield "# Reference time [D]: in which the test reaches a strain of 2.5 %."
     yield f"# reference_time_s: {fit.reference_time:.4g}"
     if density is None:
