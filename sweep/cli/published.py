@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 OF_ADD = ("measure", "measured", "source")
 RESULTS = "results/published"
 USUAL = "absorbed_energy_J"
+AFTERWARDS = "its config has changed since a measured value was entered: no prediction any more"
 COLUMN_LIST = "docs/results.md lists them"
 
 
@@ -134,6 +135,8 @@ def _add(arguments: Namespace, mine: Path) -> None:
     text = arguments.measured or ""
     row, number = _question(arguments, mine, "" if text.endswith(".csv") else text)
     row, summary = _predicted(row, mine, arguments.workers)
+    if any(old.name == row.name and old.measured and old.ids != row.ids for old in rows):
+        hint([f"{row.name}: {AFTERWARDS}"])
     with writing(mine.parent, mine):
         write_table(mine, rows := with_row(rows, row))
     say(f"{mine}: {row.name}: predicted {row.low} to {row.high}")

@@ -80,6 +80,13 @@ def test_own_crush_is_predicted_before_its_value_is_entered(capsys, folder):
     assert "18 of 21 inside" in out
 
 
+def test_a_config_that_changes_after_the_value_is_told(capsys, folder):
+    words = ["published", "mine", "--add", "mine.toml", "--measured", "1 J"]
+    assert crumple(capsys, *words)[2].count("has changed since") == 0
+    (folder / "mine.toml").write_text(CONFIG.replace("20 MPa", "30 MPa"))
+    assert crumple(capsys, *words)[2].count("has changed since") == 1
+
+
 def test_a_measured_curve_becomes_a_value(capsys, folder):
     rows = [f"{0.02 * n},{5.0}" for n in range(20)]
     (folder / "curve.csv").write_text("\n".join(["displacement_mm,force_N", *rows]))
