@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank warm test stock mutants verify validate elements continuum accuracy mesh steps pictures rammed \
-        bars spread effort search sides wide memory stability torture scale plates plates_solid bench experiment along figures lint clean
+        bars spread effort search sides wide memory stability torture scale plates plates_solid bench published experiment along figures lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -124,6 +124,9 @@ pictures: setup  ## draw the pictures of README.md again, from results/infills.h
 	@$(PYTHON) -m sweep rank results/infills.h5 --out results/infills
 	@cp results/infills/winners.png docs/pictures/collapse.png
 	@cp results/infills/patterns.png docs/pictures/patterns.png
+
+published: setup  ## predict published crushes again, beside the measured values; goes to results/published/ (20 min)
+	@OMP_NUM_THREADS=1 $(PYTHON) -m sweep published --run --out results/published
 
 experiment: setup  ## predict a measured crush and its sensitivities; goes to results/experiment/
 	@$(PYTHON) -m tests.studies.khatri_egan.across results/experiment

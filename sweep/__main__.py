@@ -47,6 +47,7 @@ EXAMPLES = """examples:
   crumple report results/armor.h5               one page with sliders: results/armor.html
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
+  crumple published                             predictions beside what was measured
   crumple completion bash                       let the shell complete words: see its --help
 
 armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
@@ -170,6 +171,25 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit puck.csv --gauge "10 mm" --area "314 mm^2" --test pressed --units force=kN
 """
 
+PUBLISHED = """Print predictions of published crushes, and of your own, beside the measured values:
+what is open, the predicted range over it, the measured value with its scatter, inside or not. The
+predictions are stored; --run simulates them again, into results/published/, and says which do not
+come out (exit status 1; also if a case has not converged). ROW: words of rows that are meant, such
+as a name of a source; then also the config and the measure of each row are printed.
+With --add: put your own crush into a table of your own, published.csv. CONFIG varies in its [grid]
+what you do not know, such as friction. Its prediction is stored first; the measured value, with a
+unit, may be given now or by the same command later. Of a curve, a csv file with the columns
+displacement_mm and force_N, the measure is taken up to the simulated stroke."""
+PUBLISHED_EXAMPLES = """examples:
+  crumple published                                         the table
+  crumple published ding                                    one source
+  crumple published --out results/published                 also as a picture and as Markdown
+  crumple published --run square                            simulate some rows again
+  crumple published --add mine.toml                         predict your own crush
+  crumple published --add mine.toml --measured "0.12 +- 0.02 J" --source "my press"
+  crumple published --add mine.toml --measure plateau_stress_iso_Pa --measured curve.csv
+"""
+
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
 as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
 
@@ -233,6 +253,7 @@ def parser() -> Parser:
     _add_export(verbs)
     _add_report(verbs)
     _add_materials(verbs)
+    _add_published(verbs)
     _add_helpers(verbs)
     return main
 
@@ -476,6 +497,33 @@ def _add_materials(verbs: Any) -> None:
     )
 
 
+def _add_published(verbs: Any) -> None:
+    """Add the verb that compares predictions with what was measured."""
+    published = verbs.add_parser(
+        "published",
+        help="predictions beside what was measured",
+        description=PUBLISHED,
+        epilog=PUBLISHED_EXAMPLES,
+        formatter_class=AS_WRITTEN,
+    )
+    published.add_argument(
+        "rows", metavar="ROW", nargs="*", help="words of the rows that are meant"
+    )
+    published.add_argument("--run", action="store_true", help="simulate the predictions again")
+    add = published.add_argument("--add", type=_path, metavar="CONFIG", help="your own crush")
+    offer(add, configs)
+    published.add_argument("--measured", metavar="VALUE", help='"0.12 +- 0.02 J", or curve.csv')
+    published.add_argument("--measure", metavar="COLUMN", help="default: absorbed_energy_J")
+    published.add_argument("--source", metavar="TEXT", help="of the measured value")
+    published.add_argument(
+        "--table", type=_table, metavar="F.csv", default="published.csv", help="your own rows"
+    )
+    published.add_argument(
+        "--out", type=_folder, metavar="DIR", help="folder for a picture and the table"
+    )
+    published.add_argument("--workers", type=_count, metavar="N", help=THREADS)
+
+
 def _add_helpers(verbs: Any) -> None:
     """Add the verbs that write a first config, and what a shell needs to complete words."""
     new = verbs.add_parser("new", help="write a first config", description=NEW)
@@ -581,6 +629,11 @@ def _folder(text: str) -> str:
 def _results(text: str) -> str:
     """A path that may become a results file."""
     return _named(text, ".h5")
+
+
+def _table(text: str) -> str:
+    """A path that may become a table."""
+    return _named(text, ".csv")
 
 
 def _page(text: str) -> str:

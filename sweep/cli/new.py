@@ -30,7 +30,7 @@ depth = "50 mm"                      # its other length, along the walls, out of
 
 [material]
 name = "ninjaflex"                   # crumple materials lists them; or your own .csv
-# loss = 0.4                         # share of the work of a cycle that the material takes
+# loss = 0.3                         # of the work of a cycle of a strip: assumed, 0.2 to 0.4
 
 [loading]
 """

@@ -14,6 +14,7 @@ REFUSALS = {
     f"{HOME}.cli.optimize": "OptimizeError",
     f"{HOME}.cli.find_case": "CaseError",
     f"{HOME}.cli.new": "NewError",
+    f"{HOME}.published.table": "PublishedError",
     f"{HOME}.store.read": "StoreError",
     f"{HOME}.export.errors": "ExportError",
     f"{HOME}.running.cluster": "ClusterError",

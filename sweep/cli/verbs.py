@@ -221,6 +221,13 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
+def published(arguments: Namespace) -> int:
+    """Print predictions of crushes beside what was measured."""
+    from sweep.cli.published import published as compare
+
+    return SOME_FAILED if compare(arguments) else DONE
+
+
 def new(arguments: Namespace) -> int:
     """Write a first config."""
     from sweep.cli.new import new as write
@@ -240,7 +247,7 @@ def completion(arguments: Namespace) -> int:
 
 ALL = (
     *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
-    *(materials, new, completion),
+    *(materials, published, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}
 

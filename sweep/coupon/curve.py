@@ -15,6 +15,7 @@ from kernels.laws.one_point import stresses
 from sweep.config.kinds.material import Material, material
 from sweep.config.materials.material_file import SECANT
 from sweep.coupon import legs
+from sweep.coupon.hyperelastic import rubber
 from sweep.coupon.record import Coupon, CouponError, Floats
 from sweep.coupon.uncertainty import standard_errors
 from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
@@ -101,13 +102,27 @@ class Loading:
 
 
 def tension(strain: Floats, stress: Floats) -> Floats:
-    """Stress in tension of a material whose compression is known: the mean of `scene.material` the
-    other way, of stress odd in nominal strain and Cauchy stress odd in log strain. It gives back a
-    tension from its compression to 5 % up to 10 % strain, to 20 % up to 30 %.
+    """Stress in tension of a material whose compression is known: of the `rubber` that follows it,
+    else the `tension_by_rules`.
     """
+    law = rubber(strain, stress)
+    return tension_by_rules(strain, stress) if law is None else law.at(strain)
+
+
+def tension_by_rules(strain: Floats, stress: Floats) -> Floats:
+    """The mean of `scene.material` the other way, of stress odd in nominal strain and Cauchy stress
+    odd in log strain. It gives back a tension from its compression to 5 % up to 10 % strain, to
+    20 % up to 30 %.
+    """
+    return _rising(LOWER_WEIGHT * stress + UPPER_WEIGHT * cauchy_odd(strain, stress))
+
+
+def cauchy_odd(strain: Floats, stress: Floats) -> Floats:
+    """Stress in tension whose Cauchy stress is odd in log strain."""
     stretch = 1.0 + strain
     cauchy = np.interp(strain / stretch, np.r_[0.0, strain], np.r_[0.0, stress])
-    return _rising(LOWER_WEIGHT * stress + UPPER_WEIGHT * cauchy / stretch**2)
+    odd: Floats = cauchy / stretch**2
+    return odd
 
 
 def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:

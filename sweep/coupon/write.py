@@ -5,6 +5,7 @@ from math import inf
 from textwrap import wrap
 
 from sweep.config.materials.material_file import LIMITS, Record, secant_modulus
+from sweep.coupon.derived_tension import tension_lines
 from sweep.coupon.fit import Fit
 from sweep.coupon.legs import leg_name
 from sweep.numbers import in_unit, significant, text_in
@@ -37,7 +38,7 @@ def _header(fit: Fit, density: float | None) -> Iterator[str]:
         yield "# Curve [D]: at the reference time after loading. The test, in which the material"
         yield '#   relaxes meanwhile, follows from it with material.memory = "measured".'
     if coupon.sign < 0.0:
-        yield "# Tension [A]: derived from compression."
+        yield from tension_lines(fit.strain, fit.stress)
     if fit.errors["modulus"] > SURE:
         yield "# Modulus [D]: the secant of the curve between 1 and 4 %, with its standard error."
         yield f"# modulus_Pa: {modulus_range(fit)}"

@@ -26,7 +26,7 @@ FLOORS = [
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.modes",
     "sweep.design", "sweep.config", "sweep.columns", "sweep.result", "sweep.scene",
     "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
-    "sweep.export", "sweep.running", "sweep.cli", "sweep.__main__",
+    "sweep.export", "sweep.running", "sweep.published", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",
@@ -114,7 +114,7 @@ TESTED_ELSEWHERE = {
 # Quantities are converted for people in `sweep.numbers`: elsewhere nothing is multiplied by these.
 FACTORS = {1e-9, 1e-6, 1e-3, 1e2, 1e3, 1e6, 1e9}
 SHOWING = ("sweep.ranking", "sweep.report", "sweep.running", "sweep.cli", "sweep.export")
-SHOWING += ("sweep.coupon", "sweep.simulation", "sweep.result", "sweep.store")
+SHOWING += ("sweep.published", "sweep.coupon", "sweep.simulation", "sweep.result", "sweep.store")
 NO_UNIT = {"sweep.running.searching.search": "seeds", "sweep.export.slicer": "a key of a 3MF"}
 HEAVY = ["numba", "kernels", "dask", "distributed", "scipy", "pandas", "matplotlib", "h5py"]
 

@@ -67,8 +67,8 @@ def _steps(
 ) -> InTime | Static:
     if loading.quasi_static:
         by_accuracy = isinstance(loading, Crush) and "load_steps" not in settings
-        usual = BY_ACCURACY_ALONG if loading.along else BY_ACCURACY
-        made = (usual if by_accuracy else {}) | chosen(settings, Static)
+        steps = BY_ACCURACY_ALONG if loading.along else BY_ACCURACY
+        made = (steps if by_accuracy else {}) | chosen(settings, Static)
         if "accuracy" in made and not isinstance(loading, Crush):
             allowed = "none for loads of a file, which grow in equal load_steps"
             raise RefusedError("solver.accuracy", made["accuracy"], allowed)

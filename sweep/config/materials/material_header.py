@@ -73,7 +73,7 @@ def stated(lines: list[str]) -> dict[str, Stated]:
         name, size = KEYS[match[1]]
         if name in numbers:
             raise MisfitError(f"# {match[1]}: {name} is stated twice; needed: once")
-        numbers[name] = _in_si(_number(match[1], match[2].strip()), size)
+        numbers[name] = _in_si(number_with_range(match[1], match[2].strip()), size)
     return numbers
 
 
@@ -84,7 +84,8 @@ def _in_si(number: Stated, size: float) -> Stated:
     return Stated(*(None if value is None else float(f"{size * value:.15g}") for value in number))
 
 
-def _number(key: str, text: str) -> Stated:
+def number_with_range(key: str, text: str) -> Stated:
+    """A number, with its range if it has one; `MisfitError` with the key if it cannot be read."""
     if match := _AROUND.fullmatch(text):
         middle, half = float(match[1]), match[2]
         if half is None:
