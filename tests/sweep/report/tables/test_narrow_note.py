@@ -1,14 +1,31 @@
 """What is said of narrow lattices."""
 
-from sweep.report.tables.narrow_note import narrow_note
+import re
+from pathlib import Path
+
+from sweep.report.tables.narrow_note import OF_THREE, narrow_note
+
+DOCS = Path(__file__).parents[4] / "docs" / "accuracy.md"
+ROW = re.compile(r"\| (\w+) \| (glued|loose) \|(?: [\d.]+ \|){3} ([+-][\d.]+) / ")
 
 
 def test_only_the_patterns_of_the_ranking_are_told_with_their_numbers():
-    (words,) = narrow_note(("diamond", "circle"))
+    (words,) = narrow_note(("diamond", "wavy"))
     assert "fewer than 8 cells" in words
-    assert "+52 % (diamond)" in words
+    glued, loose = OF_THREE["diamond"]
+    assert f"diamond {glued} / {loose} %" in words
     assert "hex" not in words
 
 
 def test_nothing_is_said_of_wide_lattices():
     assert list(narrow_note(())) == []
+
+
+def test_the_numbers_are_those_of_the_table_of_make_sides():
+    found = {}
+    for kind, platen, change in ROW.findall(DOCS.read_text("utf-8")):
+        found.setdefault(kind, {})[platen] = float(change)
+    assert found.keys() == OF_THREE.keys()
+    for kind, (glued, loose) in OF_THREE.items():
+        assert abs(found[kind]["glued"] - glued) <= 0.51
+        assert abs(found[kind]["loose"] - loose) <= 0.51
