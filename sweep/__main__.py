@@ -193,6 +193,7 @@ PUBLISHED_EXAMPLES = """examples:
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
 as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
 
+STORED = "results file; of a sweep also NAME or NAME.toml"
 AREA = "area to fill with specimens"
 THREADS = "threads (default: one per core, up to 8)"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
@@ -209,6 +210,14 @@ class Parser(argparse.ArgumentParser):
         """Print what is wrong, and how to get help."""
         shown = "examples" if self.epilog else "what it takes"
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
+
+    def check_verb(self, word: str) -> None:
+        """Refuse a word that is no verb, with the nearest."""
+        if word.startswith("-") or word in self.verbs:
+            return
+        near = get_close_matches(word, self.verbs, 1)
+        hint = f"; the nearest is {near[0]}" if near else ""
+        self.error(f"{word}: no verb{hint}; allowed: {', '.join(self.verbs)}")
 
     def refuse(self, words: Sequence[str]) -> NoReturn:
         """Refuse words that the verb does not take; of an option, name the nearest."""
@@ -357,7 +366,7 @@ def _add_accuracy(verbs: Any) -> None:
 def _add_status(verbs: Any) -> None:
     """Add the verb that counts cases and failures."""
     status = verbs.add_parser("status", help="what is done, and what failed and why")
-    offer(status.add_argument("file", type=_path, metavar="F.h5"), results)
+    offer(status.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     status.add_argument("--json", action="store_true", help="as json on stdout")
 
 
@@ -366,7 +375,7 @@ def _add_verify(verbs: Any) -> None:
     verify = verbs.add_parser(
         "verify", help="whether a file is whole, and its numbers come out again", description=VERIFY
     )
-    offer(verify.add_argument("file", type=_path, metavar="F.h5"), results)
+    offer(verify.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     verify.add_argument(
         "--again",
         type=_number,
@@ -380,7 +389,9 @@ def _add_merge(verbs: Any) -> None:
     """Add the verb that brings results files together."""
     merge = verbs.add_parser("merge", help="bring results files together", description=MERGE)
     merge.add_argument("out", type=_results, metavar="OUT.h5", help="is made, or gets more rows")
-    offer(merge.add_argument("files", type=_path, nargs="+", metavar="F.h5"), results)
+    offer(
+        merge.add_argument("files", type=_stored, nargs="+", metavar="F.h5", help=STORED), results
+    )
 
 
 def _add_rank(verbs: Any) -> None:
@@ -392,7 +403,7 @@ def _add_rank(verbs: Any) -> None:
         epilog=RANK_EXAMPLES,
         formatter_class=AS_WRITTEN,
     )
-    offer(rank.add_argument("file", type=_path, metavar="F.h5"), results)
+    offer(rank.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_question(rank)
     rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
     shape = rank.add_mutually_exclusive_group()
@@ -419,7 +430,7 @@ def _add_show(verbs: Any) -> None:
         epilog=SHOW_EXAMPLES,
         formatter_class=AS_WRITTEN,
     )
-    offer(show.add_argument("file", type=_path, metavar="F.h5"), results)
+    offer(show.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_case(show, nargs="?")
     show.add_argument(
         "--out", type=_folder, metavar="DIR", help="folder of the pictures (default: beside F.h5)"
@@ -435,7 +446,7 @@ def _add_export(verbs: Any) -> None:
         epilog=EXPORT_EXAMPLES,
         formatter_class=AS_WRITTEN,
     )
-    offer(export.add_argument("file", type=_path, metavar="F.h5"), results)
+    offer(export.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_case(export, "area to fill with specimens, ranked by and written")
     export.add_argument(
         "--to",
@@ -454,7 +465,7 @@ def _add_report(verbs: Any) -> None:
     report = verbs.add_parser(
         "report", help="one HTML page", description=REPORT, formatter_class=AS_WRITTEN
     )
-    report.add_argument("file", type=_path, metavar="F.h5")
+    report.add_argument("file", type=_stored, metavar="F.h5", help=STORED)
     report.add_argument(
         "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
     )
@@ -626,6 +637,13 @@ def _folder(text: str) -> str:
     return text
 
 
+def _stored(text: str) -> str:
+    """The path of a results file, which the name or the config of a sweep may stand for."""
+    from sweep.cli.named_files import results_file
+
+    return results_file(_path(text))
+
+
 def _results(text: str) -> str:
     """A path that may become a results file."""
     return _named(text, ".h5")
@@ -652,7 +670,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
     argument_parser = parser()
     complete(argument_parser)
-    arguments, unknown = argument_parser.parse_known_args(argv)
+    words = sys.argv[1:] if argv is None else argv
+    if not words:
+        argument_parser.print_help()
+        return 0
+    argument_parser.check_verb(words[0])
+    arguments, unknown = argument_parser.parse_known_args(words)
     if unknown:
         argument_parser.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs

@@ -3,6 +3,7 @@
 import re
 import tomllib
 from dataclasses import replace
+from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,7 @@ def load_config(path: str | PathLike[str]) -> Config:
 def _document(path: Path) -> dict[str, Any]:
     """The TOML of a file."""
     try:
-        text = text_of(path, f"a TOML file, or an example: {', '.join(examples())}")
+        text = text_of(path, f"a TOML file, or an example, such as {_nearest_examples(path)}")
         document = tomllib.loads(text)
         if document:
             return document
@@ -51,6 +52,11 @@ def _document(path: Path) -> dict[str, Any]:
     except (ValueError, RecursionError):
         wrong = "not TOML (a number too long, or nested too deeply)"
     raise ConfigError([Fault("path", f"{path}: {wrong}")])
+
+
+def _nearest_examples(path: Path) -> str:
+    """The examples whose names are nearest, or the usual ones."""
+    return ", ".join(get_close_matches(path.stem, examples(), 3) or ("armor", "infills", "smoke"))
 
 
 def _quoted_line(message: str, text: str) -> str:

@@ -111,7 +111,7 @@ def test_panel_holds_its_numbers():
     assert wide.lattice.cells_y == 3
     summary = simulate(wide).summary
     assert summary["status"] == "converged"
-    assert summary["absorbed_energy_until_packed_J"] == pytest.approx(7.402, rel=1e-3)
+    assert summary["absorbed_energy_until_packed_J"] == pytest.approx(7.556, rel=1e-3)
 
 
 def test_rammed_holds_its_numbers():
@@ -120,7 +120,7 @@ def test_rammed_holds_its_numbers():
     assert (case.lattice.cells_x, case.lattice.cells_y) == (17, 3)
     summary = simulate(case).summary
     assert summary["status"] == "converged"
-    assert summary["peak_force_N"] == pytest.approx(5869.8, rel=1e-3)
+    assert summary["peak_force_N"] == pytest.approx(4318.6, rel=1e-3)
     assert summary["target_speed_m_per_s"] == pytest.approx(3.3195, rel=1e-3)
 
 
@@ -158,7 +158,7 @@ def test_slicer_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["printed_mass_g"] == pytest.approx(24.0, rel=1e-9)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
-    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(6005, rel=2e-3)
+    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(6709, rel=2e-3)
 
 
 def test_drop_holds_its_numbers():
@@ -172,9 +172,9 @@ def test_drop_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["impact_energy_J"] == pytest.approx(0.5 * 9.80665 * 0.5)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
-    assert summary["peak_force_N"] == pytest.approx(354.3, rel=2e-3)
+    assert summary["peak_force_N"] == pytest.approx(346.6, rel=2e-3)
     filtered = "peak_deceleration_filtered_m_per_s2"
-    assert summary[filtered] / 9.80665 == pytest.approx(65.10, rel=2e-3)
+    assert summary[filtered] / 9.80665 == pytest.approx(57.2, rel=2e-3)
 
 
 def test_search_holds_its_number():

@@ -13,8 +13,15 @@ def examples() -> list[str]:
 
 
 def find_config(name: str | PathLike[str]) -> Path:
-    """The file at this path, or else the example of this name if there is one."""
+    """The file at this path, or with this name and the end .toml, or else the example.
+
+    The name of a results file stands for that of its config.
+    """
     path = Path(name)
-    if path.is_file() or path.as_posix() not in examples():
+    if path.is_file() and path.suffix != ".h5":
         return path
-    return FOLDER / f"{path.as_posix()}.toml"
+    bare = path.name.removesuffix(".h5") if path.suffix == ".h5" else path.as_posix()
+    own = Path(f"{bare}.toml")
+    if own.is_file():
+        return own
+    return FOLDER / own if bare in examples() else path
