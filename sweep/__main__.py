@@ -112,7 +112,8 @@ RANK_EXAMPLES = """examples:
   crumple rank F.h5 --out results/armor --drop-height "1 m" cushion curves too
 """
 NEW = """Write a config with comments that runs as it is: a crush, a drop of a rigid striker, or a
-dead load. An existing file is not overwritten."""
+dead load. An existing file is not overwritten. Beside it is written crumple.schema.json, the JSON
+schema of all keys, which its first line names: editors that know TOML complete and mark keys."""
 COMPLETION = """Print what a shell needs to complete the words of crumple: verbs, options, examples,
 results files, columns and ids. To use it:
   bash   eval "$(crumple completion bash)"             in ~/.bashrc

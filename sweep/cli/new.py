@@ -1,5 +1,6 @@
 """The verb `new`: writes a config with comments, to be changed by its user."""
 
+import json
 import re
 from pathlib import Path
 from textwrap import wrap
@@ -12,6 +13,7 @@ KINDS = ("crush", "drop", "load")
 WIDTH, COMMENT = 99, 37  # columns at which a line ends and a comment begins
 
 HEAD = """\
+#:schema {schema}
 # {title}
 #
 #   crumple run {file} --dry-run          how many cases, how long
@@ -75,12 +77,18 @@ TITLES = {
 }
 
 
+SCHEMA = "crumple.schema.json"
+
+
 class NewError(ValueError):
     """A file that cannot be written; the text is one line."""
 
 
 def new(name: str, kind: str, out: str | None) -> Path:
-    """Write the config of a kind of loading; return its path. An existing file is refused."""
+    """Write the config of a kind of loading; return its path. An existing file is refused.
+
+    The schema that it names, for editors, is written beside it.
+    """
     name = name.removesuffix(".toml")
     if not NAME.fullmatch(name):
         raise NewError(
@@ -92,6 +100,7 @@ def new(name: str, kind: str, out: str | None) -> Path:
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(template(name, kind, path))
+        path.with_name(SCHEMA).write_text(schema_text(), encoding="utf-8")
     except FileExistsError:
         raise NewError(f"{path} already exists; allowed: another name, or --out") from None
     except OSError as error:
@@ -99,10 +108,17 @@ def new(name: str, kind: str, out: str | None) -> Path:
     return path
 
 
+def schema_text() -> str:
+    """The keys of a config as a JSON schema."""
+    from sweep.config.json_schema import json_schema
+
+    return json.dumps(json_schema(), indent=1) + "\n"
+
+
 def template(name: str, kind: str, path: Path) -> str:
     """The text of a config."""
     words: dict[str, Any] = {"name": name, "file": path, "results": f"results/{name}.h5"}
     others = "or " + ", ".join(family for family in families() if family != "square")
     kinds = f"\n{' ' * COMMENT}# ".join(wrap(others, WIDTH - COMMENT - 2))
-    head = HEAD.format(title=TITLES[kind], kinds=kinds, **words)
+    head = HEAD.format(title=TITLES[kind], kinds=kinds, schema=SCHEMA, **words)
     return head + LOADINGS[kind] + TAIL.format(budget="12 g")

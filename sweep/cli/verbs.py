@@ -234,6 +234,7 @@ def new(arguments: Namespace) -> int:
 
     path = quote(str(write(arguments.name, arguments.kind, arguments.out)))
     say(f"{path}: change it, then: crumple run {path} --dry-run")
+    hint(["crumple.schema.json, beside it, lets an editor complete and mark its keys"])
     return DONE
 
 
@@ -256,9 +257,10 @@ def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
     from sweep.cli.cell_size import cell_sentences
     from sweep.config.load import load_config
+    from sweep.config.reading.examples import FOLDER as EXAMPLES
 
     config = load_config(name)
-    if config.path != Path(name):
+    if config.path and config.path.is_relative_to(EXAMPLES):
         hint([f"example {name}: {config.path} (copy it to change it)"])
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])

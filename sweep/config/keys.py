@@ -88,8 +88,8 @@ class Key:
     """One key of a config.
 
     targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out, of
-    numbers up to ``bare_most``. allowed: the accepted values in words. adapter: checks a value in
-    SI.
+    numbers up to ``bare_most``. allowed: the accepted values in words. schema: JSON schema of a
+    value in SI, or of one in a list. adapter: checks a value in SI.
     """
 
     targets: tuple[str, ...]
@@ -98,6 +98,7 @@ class Key:
     bare_most: float
     is_list: bool
     allowed: str
+    schema: dict[str, Any]
     adapter: TypeAdapter[Any]
 
 
@@ -142,7 +143,7 @@ def _key(name: str, kind: Any, schema: dict[str, Any] | None = None) -> Key:
     if name == "loading.preset":
         allowed = drop_tests.in_words()
     unit, bare, most = item.get("unit"), item.get("bare", False), item.get("bare_most", inf)
-    return Key((name,), unit, bare, most, is_list, allowed, adapter)
+    return Key((name,), unit, bare, most, is_list, allowed, item, adapter)
 
 
 def _plain(schema: dict[str, Any]) -> dict[str, Any]:

@@ -69,7 +69,7 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
         status, out, err = crumple(capsys, "new", *words)
         assert (status, out) == (2, "")
         assert why in err
-    assert [path.name for path in tmp_path.iterdir()] == ["pad.toml"]
+    assert {path.name for path in tmp_path.iterdir()} == {"pad.toml", "crumple.schema.json"}
 
 
 def test_every_family_is_offered(monkeypatch):
