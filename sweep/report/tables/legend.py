@@ -41,6 +41,9 @@ walls that are not elastic also in the material, or is still stored as they rela
 SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""
+FIRST_LOADING = """\
+Along the cells: of walls as drawn, at their first loading. Printed ones that have been pressed
+before may be several times softer."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
 =: a tie: the errors may reverse the order. Errors common to all designs do not count.
@@ -103,7 +106,8 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
     period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
     shaped = [SHAPED] if _is_shaped(rows) else []
-    return [*_meanings(rows, mode), *shaped, *period]
+    upright = [FIRST_LOADING] if rows["solid_strain"].notna().any() else []
+    return [*_meanings(rows, mode), *shaped, *upright, *period]
 
 
 def _is_shaped(rows: DataFrame) -> bool:

@@ -85,3 +85,8 @@ def test_masses_of_tied_sides_are_of_one_period():
     words = legend(ranked(CRUSHES.assign(sides="tied, fixed period")))
     assert "mass: of one period" in words
     assert "of the part" not in words
+
+
+def test_along_the_cells_it_is_said_that_walls_are_at_their_first_loading():
+    assert "at their first loading" in legend(ranked(CRUSHES.assign(solid_strain=0.7)))
+    assert "first loading" not in legend(ranked(CRUSHES))
