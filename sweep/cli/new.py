@@ -112,7 +112,7 @@ def schema_text() -> str:
     """The keys of a config as a JSON schema."""
     from sweep.config.json_schema import json_schema
 
-    return json.dumps(json_schema(), indent=1) + "\n"
+    return json.dumps(json_schema(), separators=(",", ":")) + "\n"
 
 
 def template(name: str, kind: str, path: Path) -> str:
