@@ -27,6 +27,7 @@ from sweep.report.tables.legend import (
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
+    FELT,
     panel_column,
     panel_size,
     requirement_columns,
@@ -231,6 +232,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
     shown |= {DECELERATION} if "decel. g0" in columns else set()
+    shown |= {column for head, (_, column) in FELT.items() if head in columns}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:

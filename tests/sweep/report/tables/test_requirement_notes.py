@@ -90,3 +90,10 @@ def test_masses_of_tied_sides_are_of_one_period():
 def test_along_the_cells_it_is_said_that_walls_are_at_their_first_loading():
     assert "at their first loading" in legend(ranked(CRUSHES.assign(solid_strain=0.7)))
     assert "first loading" not in legend(ranked(CRUSHES))
+
+
+def test_the_base_pressure_that_sorts_is_shown_once():
+    struck = IMPACTS.assign(peak_base_pressure_Pa=[2e5, 3e5])
+    (sheet,) = ranking_sheets(ranked(struck, by="peak_base_pressure_Pa"), struck)
+    assert sheet.heads[-1] == "base kPa"
+    assert "peak_base_pressure_Pa" not in sheet.heads
