@@ -24,7 +24,6 @@ from sweep.config.materials.material_file import (
     not_rising,
     read_record,
 )
-from sweep.config.materials.plausibility import suspicion
 
 BY_NUMBERS = "by numbers"
 SOFTENING_BETA = 0.1
@@ -136,7 +135,6 @@ def material(values: Given | Pairs, along: bool = False) -> Material:
     given = dict(values)
     complete = "curve_strain" in given
     made = Material.model_validate(_with_constants(given) if complete else _completed(given))
-    _check_plausible(made)
     _check_relaxation(made)
     _check_softening(made)
     _check_law(made)
@@ -198,14 +196,6 @@ def _of_record(record: Record, given: dict[str, Any], inputs: Given) -> dict[str
         record_values |= {"curve_strain": record.strain, "curve_stress": record.stress}
     uncertain = _uncertain(record, inputs, {**record_values, **given})
     return {**record_values, **given, "name": record.name, "uncertain": uncertain}
-
-
-def _check_plausible(made: Material) -> None:
-    """Refuse a number that no printed material has."""
-    for key in ("modulus", "density", "yield_stress"):
-        value = getattr(made, key)
-        if value is not None and (why := suspicion(key, value)):
-            raise RefusedError(f"material.{key}", value, why)
 
 
 def _check_relaxation(made: Material) -> None:

@@ -23,6 +23,7 @@ from sweep.config.materials.material_file import (
     locate,
     read_record,
 )
+from sweep.config.materials.plausibility import suspicion
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import meant, present_choice, with_words
 from sweep.config.structures.structure_file import StructureError, read_structure
@@ -286,11 +287,15 @@ class Reader:
             raise MisfitError("a list, which belongs in [grid]")
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
-            return key.adapter.validate_python(tuple(value) if many else value)
+            checked = key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:
             kind = error.errors()[0]["type"]
             wrong_type = "wrong type" if kind.endswith("_type") else "out of range"
             raise MisfitError(_REASONS.get(kind, wrong_type)) from None
+        table, _, name = key.targets[0].partition(".")
+        if table == "material" and (why := suspicion(name, checked)):
+            raise MisfitError(f"no printed material has this; {why}")
+        return checked
 
     def _in_si(self, key: Key, raw: Any) -> Any:
         """One value without its unit, if its key has one."""

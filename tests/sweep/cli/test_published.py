@@ -24,7 +24,8 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("folder")
-def test_the_table_has_all_rows_and_fits_a_terminal(capsys):
+def test_the_table_has_all_rows_and_fits_a_terminal(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
     status, out, err = crumple(capsys, "published")
     assert (status, err) == (0, "")
     lines = out.splitlines()
