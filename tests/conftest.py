@@ -2,8 +2,12 @@
 
 import os
 from importlib import import_module
+from pathlib import Path
 
 import pytest
+
+TOGETHER = ("kernels/plates", "kernels/planar", "kernels/solve", "kernels/terms")
+"""Folders whose files compile the same kernels: of two processes, one does it once."""
 
 # Pictures are drawn into files: no test needs a screen, whatever the user's settings say.
 os.environ["MPLBACKEND"] = "Agg"
@@ -30,3 +34,11 @@ def config(tmp_path, monkeypatch):
     path = tmp_path / "trial.toml"
     path.write_text(CONFIG.format(values=[0.006, 0.007, 0.008]))
     return str(path)
+
+
+def pytest_collection_modifyitems(items):
+    """Keep the tests of a file in one process, and those of a folder of `TOGETHER`."""
+    for item in items:
+        path = item.path.relative_to(Path(__file__).parent).as_posix()
+        shared = (folder for folder in TOGETHER if path.startswith(f"{folder}/"))
+        item.add_marker(pytest.mark.xdist_group(next(shared, path)))

@@ -25,7 +25,7 @@ from tests.support.results.questions import (
 from tests.support.results.specimens import summary, there_and_back, write
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
-SWEEPS, QUESTIONS = 8, 52
+SWEEPS, QUESTIONS = 5, 48
 DIGITS = 1e-3  # relative: of what the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 ASK = """
