@@ -8,6 +8,21 @@ import pytest
 
 TOGETHER = ("kernels/plates", "kernels/planar", "kernels/solve", "kernels/terms")
 """Folders whose files compile the same kernels: of two processes, one does it once."""
+SLOW = {
+    "kernels/compile/test_choice.py",
+    "physics/test_folds.py",
+    "project/test_wheel.py",
+    "studies/bench/test_bench_starts.py",
+    "studies/continuum/test_continuum.py",
+    "studies/rankings/test_search.py",
+    "studies/scale/test_scale.py",
+    "studies/validation/test_elements.py",
+    "sweep/report/page/test_selection.py",
+    "sweep/running/searching/test_search.py",
+    "sweep/running/test_dask_graph.py",
+    "sweep/running/test_renew.py",
+}
+"""Files that `make test` leaves to `make slow`."""
 
 # Pictures are drawn into files: no test needs a screen, whatever the user's settings say.
 os.environ["MPLBACKEND"] = "Agg"
@@ -37,8 +52,10 @@ def config(tmp_path, monkeypatch):
 
 
 def pytest_collection_modifyitems(items):
-    """Keep the tests of a file in one process, and those of a folder of `TOGETHER`."""
+    """Keep the tests of a file in one process, and those of a folder of `TOGETHER`; mark `SLOW`."""
     for item in items:
         path = item.path.relative_to(Path(__file__).parent).as_posix()
         shared = (folder for folder in TOGETHER if path.startswith(f"{folder}/"))
         item.add_marker(pytest.mark.xdist_group(next(shared, path)))
+        if path in SLOW:
+            item.add_marker(pytest.mark.slow)
