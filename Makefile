@@ -44,13 +44,13 @@ warm: setup
 # Kernels that both processes need are compiled before, once.
 test: setup  ## check style and types, then run the tests, in two processes
 	@$(MAKE) --no-print-directory -j 2 lint warm
-	$(PYTHON) -m pytest -m "not slow" -n 2 --dist loadgroup --no-loadscope-reorder
+	$(PYTHON) -m pytest -m "not slow" -n 2 --dist loadfile --no-loadscope-reorder
 
 slow: setup  ## run the slow tests that make test leaves out (3 min)
-	$(PYTHON) -m pytest -m slow -n 2 --dist loadgroup --no-loadscope-reorder
+	$(PYTHON) -m pytest -m slow -n 2 --dist loadfile --no-loadscope-reorder
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
-	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest -n 2 --dist loadgroup --no-loadscope-reorder
+	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 mutants: setup  ## flip signs in the kernels and see which test turns red; goes to results/mutants/
 	@$(PYTHON) -m tests.studies.mutants results/mutants

@@ -6,8 +6,6 @@ from pathlib import Path
 
 import pytest
 
-TOGETHER = ("kernels/plates", "kernels/planar", "kernels/solve", "kernels/terms")
-"""Folders whose files compile the same kernels: of two processes, one does it once."""
 SLOW = {
     "kernels/compile/test_choice.py",
     "physics/test_folds.py",
@@ -52,10 +50,7 @@ def config(tmp_path, monkeypatch):
 
 
 def pytest_collection_modifyitems(items):
-    """Keep the tests of a file in one process, and those of a folder of `TOGETHER`; mark `SLOW`."""
+    """Mark the tests of the files in `SLOW`."""
     for item in items:
-        path = item.path.relative_to(Path(__file__).parent).as_posix()
-        shared = (folder for folder in TOGETHER if path.startswith(f"{folder}/"))
-        item.add_marker(pytest.mark.xdist_group(next(shared, path)))
-        if path in SLOW:
+        if item.path.relative_to(Path(__file__).parent).as_posix() in SLOW:
             item.add_marker(pytest.mark.slow)
