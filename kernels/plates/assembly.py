@@ -58,12 +58,12 @@ def _add_free(matrix, layout, i, j, part, top, left, width):
 
 @jit
 def _add_following(matrix, layout, pull, i, j, part, top, left, width):
-    """Add the entries of ``part`` in pairs of which a coordinate follows another one."""
+    """Add the entries of ``part`` in pairs of which a coordinate follows a platen or is driven."""
     for r in range(width):
         c = PER_NODE * i + r
         for s in range(r + 1 if i == j else width):
             d = PER_NODE * j + s
-            if layout.leader[c] != c or layout.leader[d] != d:
+            if layout.slot[c] < 0 or layout.slot[d] < 0:
                 add_entry(matrix, layout, pull, c, d, part[top + r, left + s])
 
 
@@ -78,6 +78,8 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
         for b in range(a + 1):
             j, top, left = nodes[b], width * a, width * b
             _add_free(matrix, layout, i, j, part, top, left, width)
+            if a != b and layout.block[i] == layout.block[j]:  # a node and its image
+                _add_free(matrix, layout, j, i, part, left, top, width)
             if layout.follows[i] or layout.follows[j]:
                 _add_following(matrix, layout, pull, i, j, part, top, left, width)
 

@@ -19,11 +19,12 @@ class Layout(NamedTuple):
     """Constraints of n coordinates, and their places in the matrix of nb blocks and u unknowns.
 
     leader (n,): the coordinate itself if it is free, that of a platen if it is tied to it, -1 if
-    held. ratio (n,): move divided by that of the leader. driven: coordinate with a prescribed
-    value, -1 if none. unknown (n,): number of the unknown that is the leader, -1 if none is.
-    slot (n,): place of a free coordinate in the block of its node, else -1. follows (n_nodes,):
-    whether a coordinate of a node follows another one. block (n_nodes,): of each node, -1 if it has
-    no free coordinate. size (nb,): unknowns of each block, the last of which is that of a platen
+    held; that of an image is the coordinate of its original. ratio (n,): move divided by that of
+    the leader. driven: coordinate with a prescribed value, -1 if none. unknown (n,): number of the
+    unknown that is the leader, -1 if none is. slot (n,): place of a free coordinate in the block of
+    its node, else -1. follows (n_nodes,): whether a coordinate of a node follows a platen or is
+    driven. block (n_nodes,): of each node, -1 if it has no free coordinate. An image has block and
+    slots of its original. size (nb,): unknowns of each block, the last of which is that of a platen
     that is free. point (nb, 3): of each block at rest, m. By unknown, (u,): scale: stiffness, N/m
     or N m, beside which a pivot is zero; weight: 1 for positions, m^2 for rotations, in the shift
     of a Hessian that is not positive; is_length: whether it is in m.

@@ -80,7 +80,7 @@ def _is_in(at, box):
 
 
 @jit_exact
-def _near_triangle(x, triangles, k, radius, grid, bins, scratch, found):
+def _near_triangle(x, original, triangles, k, radius, grid, bins, scratch, found):
     """Append the nodes within ``radius`` of triangle ``k`` to ``found``; return their number."""
     start, order = bins
     box, span = scratch
@@ -94,7 +94,7 @@ def _near_triangle(x, triangles, k, radius, grid, bins, scratch, found):
             line = (i * counts[1] + j) * counts[2]
             for q in range(start[line + span[0, 2]], start[line + span[1, 2] + 1]):
                 p = order[q]
-                if p == a or p == b or p == c:
+                if p == a or p == b or p == c or original[p] != p:
                     continue
                 at = point(x, p)
                 if _is_in(at, box):
@@ -120,9 +120,10 @@ def grown(array, size):
 
 
 @jit_owning
-def node_triangle(x, n_nodes, triangles, radius):
+def node_triangle(x, n_nodes, original, triangles, radius):
     """Return (node, triangle, distance) of pairs closer than ``radius`` (m) that share no node,
-    triangle by triangle. x (n,): `vectors.SIZE` coordinates a node.
+    triangle by triangle. x (n,): `vectors.SIZE` coordinates a node. original (n_nodes,): images,
+    whose original is another node, are left out.
     """
     node, triangle, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
     if triangles.shape[0] == 0:
@@ -134,7 +135,7 @@ def node_triangle(x, n_nodes, triangles, radius):
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
     found, count = _room(n_nodes), 0
     for k in range(triangles.shape[0]):
-        n = _near_triangle(x, triangles, k, radius, grid, bins, scratch, found)
+        n = _near_triangle(x, original, triangles, k, radius, grid, bins, scratch, found)
         if count + n > node.size:
             size = 2 * (count + n)
             node, triangle = grown(node, size), grown(triangle, size)
@@ -157,9 +158,10 @@ def _boxes_overlap(box, x, c, d):
 
 
 @jit_exact
-def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
+def _near_edge(x, edges, own, e, radius, half, grid, bins, scratch, found):
     """Append the edges after ``e`` within ``radius`` of it to ``found``; return their number.
 
+    own (l,): pairs of two edges of 0 are left out.
     half: half the length of the longest edge, m.
     """
     start, order = bins
@@ -174,7 +176,7 @@ def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
             line = (i * counts[1] + j) * counts[2]
             for q in range(start[line + span[0, 2]], start[line + span[1, 2] + 1]):
                 other = order[q]
-                if other <= e:
+                if other <= e or own[e] + own[other] == 0.0:
                     continue
                 c, d = edges[other, 0], edges[other, 1]
                 if c == a or c == b or d == a or d == b or not _boxes_overlap(box, x, c, d):
@@ -187,9 +189,9 @@ def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
 
 
 @jit_owning
-def edge_edge(x, edges, radius):
+def edge_edge(x, edges, own, radius):
     """Return (one, two, distance) of pairs of edges closer than ``radius`` (m) that share no node,
-    one < two, by ascending ``one``.
+    one < two, by ascending ``one``. own (l,): at least one of them is not 0.
     """
     m, half = edges.shape[0], 0.0
     one, two, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
@@ -205,7 +207,7 @@ def edge_edge(x, edges, radius):
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
     found, count = _room(m), 0
     for e in range(m):
-        n = _near_edge(x, edges, e, radius, half, grid, bins, scratch, found)
+        n = _near_edge(x, edges, own, e, radius, half, grid, bins, scratch, found)
         if count + n > one.size:
             size = 2 * (count + n)
             one, two, distance = grown(one, size), grown(two, size), grown(distance, size)

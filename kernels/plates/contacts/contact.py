@@ -33,7 +33,9 @@ class Contact(NamedTuple):
     stiffness: C Y', Pa. reach: largest distance at which contact starts. most_move: longest move of
     a node that neighbour lists cover. triangles (k, 3), edges (l, 2): nodes; sides (k, 3): edges
     ab, bc, ca of each triangle (`geometry.space.surface`); widths (l,): of the strips that belong
-    to edges. area (n,): a_p of each node. thickness (n,): at each node, which a problem may change
+    to edges; own (l,): 1, or 0 for edges of images. area (n,): a_p of each node, 0 of images, which
+    only own nodes touch. original (n,): the node itself, or that of which it is an image, a period
+    away. thickness (n,): at each node, which a problem may change
     between steps, up to ``reach`` (`plates.thickness`); rest_thickness (n,): at rest. rest (n,
     3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the
     upper platen; low_rest, high_rest: their distances from it at rest. low, high: coordinates of
@@ -47,7 +49,9 @@ class Contact(NamedTuple):
     sides: np.ndarray
     edges: np.ndarray
     widths: np.ndarray
+    own: np.ndarray
     area: np.ndarray
+    original: np.ndarray
     thickness: np.ndarray
     rest_thickness: np.ndarray
     rest: np.ndarray
@@ -59,17 +63,24 @@ class Contact(NamedTuple):
     high: int
 
 
-def build(stiffness, most_move, triangles, area, thickness, rest, low, high):
+def build(stiffness, most_move, triangles, area, thickness, rest, low, high, original=None):
     """Return the `Contact` of a surface that may thicken up to `MOST_THICKENING` times.
 
-    low, high: (nodes, distances at rest, coordinate) of the two platens. Others: as in `Contact`.
+    low, high: (nodes, distances at rest, coordinate) of the two platens. original: None without
+    images. Others: as in `Contact`. Of an edge and its images, that one is own whose node of the
+    lower original is no image.
     """
+    if original is None:
+        original = np.arange(area.size)
     edges, sides = surface.edges_of(triangles, area.size)
     widths = surface.widths(rest, triangles, edges, sides)
+    one, two = edges.T
+    first = np.where(original[one] < original[two], one, two)
+    own = (original[first] == first).astype(np.float64)
     return Contact(
         stiffness, MOST_THICKENING * float(thickness.max()), most_move, triangles, sides, edges,
-        widths, area, thickness.copy(), thickness, rest, low[0], low[1], high[0], high[1], low[2],
-        high[2],
+        widths, own, area, original, thickness.copy(), thickness, rest, low[0], low[1], high[0],
+        high[1], low[2], high[2],
     )  # fmt: skip
 
 

@@ -25,6 +25,10 @@ to s = 2 t. A triangle whose centre is nearer to p at rest than pi t / 2 is not 
 Crossing has to be prevented there too, where a wall is creased or crushed, and a step limit alone
 would stop a search: for such near parts contact starts at `NEAR_SHARE` t_c.
 
+*Images.* Of a surface that repeats, copies of triangles stand around. Nodes that are images see
+nothing; of two edges, one of which is an image, both copies of the pair are listed, with half the
+weight.
+
 t_c of a side or a corner is the least of the triangles seen that share it: where t_c differs
 between triangles, the one with the largest contribution counts.
 """
@@ -238,7 +242,9 @@ def _lower(x, contact, seen):
 def _seen(x, contact, radius):
     """Return start, triangle, bound and path of `Pairs` closer than ``radius`` (m) at ``x``."""
     n_nodes = contact.area.size
-    node, triangles, distance = near.node_triangle(x, n_nodes, contact.triangles, radius)
+    node, triangles, distance = near.node_triangle(
+        x, n_nodes, contact.original, contact.triangles, radius
+    )
     start, order = grouped(node, n_nodes)
     triangle, bound, path = np.empty(node.size, np.int64), np.empty(node.size), np.empty(node.size)
     for q in range(node.size):
@@ -264,7 +270,7 @@ def _of_edges(x, contact, radius):
 
     radius: in m, of pairs at ``x``.
     """
-    first, second, distance = near.edge_edge(x, contact.edges, radius)
+    first, second, distance = near.edge_edge(x, contact.edges, contact.own, radius)
     n = first.size
     shell = np.empty(n, np.int64)
     for i in range(n):
@@ -277,6 +283,7 @@ def _of_edges(x, contact, radius):
         a, b = first[q], second[q]
         one[i], two[i], bound[i] = a, b, shell[q] * radius / SHELLS
         path[i], areas[i] = _edge_path(contact, a, b), contact.widths[a] * contact.widths[b]
+        areas[i] *= 0.5 * (contact.own[a] + contact.own[b])
         scale[i] = SINE2 * _squared_rest_length(contact, a) * _squared_rest_length(contact, b)
     return one, two, bound, path, areas, scale
 

@@ -16,19 +16,25 @@ THICKENING = 9  # column of the committed state of a node: j_p, after its frame
 
 
 @jit_exact
-def measure(x, committed, walls, scratch, weight):
-    """Fill the column `THICKENING` of ``committed`` (n, 10) at ``x``; weight (n,): scratch."""
+def measure(x, committed, walls, original, scratch, weight):
+    """Fill the column `THICKENING` of ``committed`` (n, 10) at ``x``.
+
+    original (n,): of `contact.Contact`; weight (n,): scratch.
+    """
     for p in range(weight.size):
         committed[p, THICKENING], weight[p] = 0.0, 0.0
     for e in range(walls.quads.shape[0]):
-        area = walls.size[e, 0] * walls.size[e, 1]
+        area = walls.area[e].sum()
         j = shell.thickening(x, committed, walls, e, scratch)
         for a in range(4):
-            p = walls.quads[e, a]
+            p = original[walls.quads[e, a]]
             committed[p, THICKENING] += area * j
             weight[p] += area
     for p in range(weight.size):
-        committed[p, THICKENING] /= weight[p]
+        if weight[p] > 0.0:
+            committed[p, THICKENING] /= weight[p]
+    for p in range(weight.size):
+        committed[p, THICKENING] = committed[original[p], THICKENING]
 
 
 @jit_exact
@@ -45,7 +51,9 @@ def renew(problem, x):
     scene, buffers = problem.scene, problem.buffers
     if is_absent(scene.contact):
         return False
-    measure(x, buffers.committed, scene.shell, buffers.shell, buffers.weight)
+    measure(
+        x, buffers.committed, scene.shell, scene.contact.original, buffers.shell, buffers.weight
+    )
     recall(scene.contact, buffers.committed)
     renew_distances(scene.contact, problem.neighbours.pairs)
     return True

@@ -1,9 +1,10 @@
 """Barrier that keeps directors from turning over: on the angle to the normal of their corner.
 
-    E_f = K sum over the corners  b(v / v_f) for v < v_f, else 0,    v = d . (s x z) / (h_s h_z)
+    E_f = K sum over the corners  A b(v / v_f) for v < v_f, else 0,    v = d . (s x z) / a
 
-s, z: sides of the element at the corner, d: director there; b: `barrier`. v is the cosine of the
-angle times the ratio of areas. Beyond 90 degrees the shear of an element becomes smaller again:
+s, z: sides of the element at the corner, d: director there; a: d . (s x z) at rest; b: `barrier`;
+A: area at rest of the Gauss point at the corner. v is the cosine of the angle times the ratio of
+areas, if it was normal at rest. Beyond 90 degrees the shear of an element becomes smaller again:
 without a barrier a director turned over would be a second minimum, in which no wall can be. The
 barrier acts only on elements that are themselves folded, or squeezed to nothing.
 """
@@ -47,6 +48,12 @@ def _volume(q, a):
 
 
 @jit
+def area(q, a):
+    """Return d . (s x z) of corner ``a``."""
+    return _volume(q, a)[3]
+
+
+@jit
 def is_folded(q):
     """Return whether a director is turned over, so that the energy is infinite."""
     for a in range(4):
@@ -56,19 +63,20 @@ def is_folded(q):
 
 
 @jit
-def evaluate(q, size, stiffness, slope):
+def evaluate(q, rest, areas, stiffness, slope):
     """Return E_f in J of an element that is not folded; add its slopes in q to ``slope`` (24,).
 
-    q (24,): position and director of each corner. stiffness: K, J.
+    q (24,): position and director of each corner. rest, areas (4,): a and A of the corners, m^2.
+    stiffness: K, J/m^2.
     """
-    total, by_area = 0.0, 1.0 / (size[0] * size[1])
+    total = 0.0
     for a in range(4):
         d, s, z, volume = _volume(q, a)
-        v = by_area * volume
+        v = volume / rest[a]
         if v < START:
             value, first, _ = barrier(v / START)
-            total += stiffness * value
-            _add(a, stiffness * first / START * by_area, d, s, z, slope)
+            total += stiffness * areas[a] * value
+            _add(a, stiffness * areas[a] * first / (START * rest[a]), d, s, z, slope)
     return total
 
 
@@ -86,23 +94,22 @@ def _add(a, factor, d, s, z, slope):
 
 
 @jit
-def hessian(q, size, stiffness, row, second):
+def hessian(q, rest, areas, stiffness, row, second):
     """Add the second derivatives of E_f in q to ``second`` (24, 24). row (24,): scratch."""
-    by_area = 1.0 / (size[0] * size[1])
     for a in range(4):
         d, s, z, volume = _volume(q, a)
-        v = by_area * volume
+        v = volume / rest[a]
         if v < START:
             _, first, curvature = barrier(v / START)
             for i in range(24):
                 row[i] = 0.0
-            _add(a, by_area, d, s, z, row)
-            factor = stiffness * curvature / (START * START)
+            _add(a, 1.0 / rest[a], d, s, z, row)
+            factor = stiffness * areas[a] * curvature / (START * START)
             for i in range(24):
                 if row[i] != 0.0:
                     for k in range(24):
                         second[i, k] += factor * row[i] * row[k]
-            _add_mixed(a, stiffness * first / START * by_area, d, s, z, second)
+            _add_mixed(a, stiffness * areas[a] * first / (START * rest[a]), d, s, z, second)
 
 
 @jit

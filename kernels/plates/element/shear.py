@@ -35,9 +35,13 @@ NUMBERS = 7
 
 
 @jit
-def stiffnesses(modulus, thickness, size):
-    """Return t h_s h_z k of both directions in N; modulus: kappa G in Pa."""
-    whole, by_t = modulus * thickness * size[0] * size[1], 1.0 / (thickness * thickness)
+def stiffnesses(modulus, thickness, size, area):
+    """Return t h_s h_z k of both directions in N; modulus: kappa G in Pa.
+
+    area: h_s h_z of a rectangle, m^2; of any quad, the integral of det A at rest. With that, E does
+    not depend on the coordinates: g . adj(A) g / det A^2 has the factor 1 / det A at rest.
+    """
+    whole, by_t = modulus * thickness * area, 1.0 / (thickness * thickness)
     share = 3.0 * KAPPA * BETA * by_t
     return whole / (1.0 + share * size[0] ** 2), whole / (1.0 + share * size[1] ** 2)
 

@@ -5,8 +5,9 @@ rotation w since the last commit; its frame Q is a row of ``frames`` (n, 9). At 
 e, the director is d = Q R(w) v, with v = directors[e, a] (`rotation`). Walls that meet along a line
 share its nodes, each with directors of its own, so that a joint needs no constraint.
 
-In an element with the sides h_s and h_z of the flat rest grid, x and d are bilinear in the arc
-lengths s and z. With p = (x,s; d,s; x,z; d,z) at a Gauss point each strain measure of `layers` is
+In an element with sides of the lengths h_s and h_z at rest, x and d are bilinear in s and z along
+these. In a flat rectangle s and z are arc lengths; in any other quad the measures are turned from
+(s, z) to axes that are orthonormal at rest (`axes`). With p = (x,s; d,s; x,z; d,z) at a Gauss point each strain measure of `layers` is
 p . M_k p / 2, so that an energy U of the measures m has
 
     dU/dp = R p,   d2U/dp2 = R + sum over k, l of (M_k p) d2U/dm_k dm_l (M_l p)
@@ -27,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
-from kernels.plates.element import bow, fold, layers, relaxing_shear, rotation, shear
+from kernels.plates.element import axes, bow, fold, layers, relaxing_shear, rotation, shear
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
@@ -37,12 +38,16 @@ POINTS_OF_LAYERS = 4 * layers.LAYERS  # material points of an element; those of 
 
 
 class Shell(NamedTuple):
-    """quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): h_s, h_z in m.
+    """quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): h_s, h_z in m, means of
+    two sides.
 
-    thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. rest (m, 4, 9):
-    measures at rest at the Gauss points, in the order of the corners, less those of the flat grid.
-    shear_rest (m, 4): shear at rest of the edges of `shear`. shear_modulus: kappa G at once, Pa.
-    fold_modulus: the same at the reference time of a material that relaxes.
+    thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. At rest, at the
+    Gauss points, in the order of the corners: rest (m, 4, 9), measures less those of a flat
+    rectangle; area (m, 4), m^2; axes (m, 4, 3): a, b, c of `axes`, empty (0, 4, 3) if all quads are
+    flat rectangles. At rest, of the edges of `shear`: shear_rest (m, 4), shear. sheared (m,): area
+    that `shear.stiffnesses` takes, m^2. corners (m, 4): area of the sides at each corner, m^2, as
+    `fold` takes. shear_modulus: kappa G at once, Pa. fold_modulus: the same at the reference time
+    of a material that relaxes.
     """
 
     quads: np.ndarray
@@ -50,9 +55,41 @@ class Shell(NamedTuple):
     thickness: np.ndarray
     directors: np.ndarray
     rest: np.ndarray
+    area: np.ndarray
+    axes: np.ndarray
     shear_rest: np.ndarray
+    sheared: np.ndarray
+    corners: np.ndarray
     shear_modulus: float
     fold_modulus: float
+
+
+def rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus):
+    """Return the `Shell` of flat rectangles, without stress where they are flat."""
+    m, whole = len(quads), size[:, 0] * size[:, 1]
+    return Shell(
+        quads, size, thickness, directors, np.zeros((m, 4, 9)),
+        np.repeat(0.25 * whole[:, None], 4, axis=1), np.empty((0, 4, 3)), np.zeros((m, 4)), whole,
+        np.repeat(whole[:, None], 4, axis=1), shear_modulus, fold_modulus,
+    )  # fmt: skip
+
+
+def curved(x, frames, quads, thickness, directors, shear_modulus, fold_modulus):
+    """Return the `Shell` of any quads, without stress at ``x`` (n,).
+
+    frames (n_nodes, 9): of the nodes.
+    """
+    points = x[: 6 * len(frames)].reshape(-1, 6)[:, :3][quads]
+    along = np.linalg.norm(points[:, [1, 2]] - points[:, [0, 3]], axis=2).mean(axis=1)
+    up = np.linalg.norm(points[:, [3, 2]] - points[:, [0, 1]], axis=2).mean(axis=1)
+    made = rectangles(
+        quads, np.column_stack([along, up]), thickness, directors, shear_modulus, fold_modulus
+    )
+    made = made._replace(axes=np.zeros((len(quads), 4, 3)))
+    scratch = make_scratch()
+    measure_rest(x, frames, made, scratch)
+    measure_axes(x, frames, made, scratch)
+    return made
 
 
 class Scratch(NamedTuple):
@@ -155,14 +192,17 @@ def _measure(p, m):
 
 @jit
 def _strain(scratch, shell, e, g):
-    """Set the measures of Gauss point ``g`` less those at rest, of arcs; return those of chords
-    that the derivatives of `bow` need.
+    """Set the measures of Gauss point ``g`` less those at rest, of arcs, in orthonormal axes; return
+    those of chords that the derivatives of `bow` need.
     """
     _derive(scratch.q, scratch.grid[g], scratch.p)
     _measure(scratch.p, scratch.measure)
     for k in range(9):
         scratch.measure[k] -= shell.rest[e, g, k]
-    return bow.lengthen(shell.size[e], shell.rest[e, g], scratch.measure)
+    chords = bow.lengthen(shell.size[e], shell.rest[e, g], scratch.measure)
+    if shell.axes.shape[0] > 0:
+        axes.turn(shell.axes[e, g], scratch.measure)
+    return chords
 
 
 @jit_exact
@@ -177,6 +217,22 @@ def measure_rest(x, frames, shell, scratch):
         for edge in range(4):
             length = shell.size[e, edge // 2]
             shell.shear_rest[e, edge] = shear.strain(scratch.q, shear.EDGES[edge], length)
+
+
+@jit_exact
+def measure_axes(x, frames, shell, scratch):
+    """Set axes and areas at rest of quads of any shape, after `measure_rest` at ``x``."""
+    for e in range(shell.quads.shape[0]):
+        rest, whole = shell.rest[e], 0.25 * shell.size[e, 0] * shell.size[e, 1]
+        shell.sheared[e] = 0.0
+        for g in range(4):
+            a, b, c, area = axes.orthonormal(1.0 + rest[g, 0], 1.0 + rest[g, 1], rest[g, 2])
+            shell.axes[e, g, 0], shell.axes[e, g, 1], shell.axes[e, g, 2] = a, b, c
+            shell.area[e, g] = area * whole
+            shell.sheared[e] += area * area * area * whole
+        _gather(x, frames, shell, e, scratch.q)
+        for a in range(4):
+            shell.corners[e, a] = fold.area(scratch.q, a)
 
 
 @jit_exact
@@ -229,11 +285,19 @@ def _scatter(x, frames, shell, e, slope, gradient):
 
 
 @jit
+def _shear_stiffness(shell, e):
+    """Return the stiffnesses of an element in shear, at once."""
+    return shear.stiffnesses(
+        shell.shear_modulus, shell.thickness[e], shell.size[e], shell.sheared[e]
+    )
+
+
+@jit
 def _shear_at(shell, law, memory, e):
     """Return the shears at rest of the edges of an element, its stiffnesses in shear, and the
     constant of its energy, all for the present step.
     """
-    stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], shell.size[e])
+    stiffness = _shear_stiffness(shell, e)
     if law.shares.size == 0:
         rest = shell.shear_rest[e]
         return (rest[0], rest[1], rest[2], rest[3]), stiffness, 0.0
@@ -250,7 +314,7 @@ def begin(x, frames, shell, law, memory, scratch):
     for e in range(m):
         _gather(x, frames, shell, e, scratch.q)
         surface = shear.surface(scratch.q, shell.size[e])
-        stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], shell.size[e])
+        stiffness = _shear_stiffness(shell, e)
         row, rest = POINTS_OF_LAYERS * m + e, shell.shear_rest[e]
         relaxing_shear.begin(law, memory, row, rest, surface, stiffness)
 
@@ -259,7 +323,7 @@ def begin(x, frames, shell, law, memory, scratch):
 def _commit_shear(shell, law, memory, e, q):
     """Accept the shears of an element; return potential less stored energy, and dissipation, J."""
     size, m = shell.size[e], shell.quads.shape[0]
-    stiffness = shear.stiffnesses(shell.shear_modulus, shell.thickness[e], size)
+    stiffness = _shear_stiffness(shell, e)
     rest, soft, constant = _shear_at(shell, law, memory, e)
     surface, row = shear.surface(q, size), POINTS_OF_LAYERS * m + e
     potential = shear.energy(shear.strains(q, size, rest), surface, soft) + constant
@@ -278,12 +342,11 @@ def commit(x, frames, shell, law, memory, scratch, released):
     for k in range(3):
         released[k] = 0.0
     for e in range(shell.quads.shape[0]):
-        size = shell.size[e]
-        area = 0.25 * size[0] * size[1]
         _gather(x, frames, shell, e, scratch.q)
-        _differentiate(size, scratch.grid)
+        _differentiate(shell.size[e], scratch.grid)
         for g in range(4):
             _strain(scratch, shell, e, g)
+            area = shell.area[e, g]
             point = POINTS_OF_LAYERS * e + layers.LAYERS * g
             release, of_middle, dissipation = layers.commit(
                 law, scratch.measure, shell.thickness[e], memory, point
@@ -309,7 +372,6 @@ def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
     total = 0.0
     for e in range(shell.quads.shape[0]):
         size, thickness = shell.size[e], shell.thickness[e]
-        area = 0.25 * size[0] * size[1]
         _gather(x, frames, shell, e, scratch.q)
         if fold.is_folded(scratch.q):
             return math.inf
@@ -320,12 +382,13 @@ def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
         if math.isinf(sheared):
             return math.inf
         sheared += fold.evaluate(
-            scratch.q, size, shell.fold_modulus * thickness * area, scratch.slope
-        )
+            scratch.q, shell.corners[e], shell.area[e], shell.fold_modulus * thickness,
+            scratch.slope,
+        )  # fmt: skip
         total += sheared
         stored[2] += sheared
         for g in range(4):
-            chords = _strain(scratch, shell, e, g)
+            chords, area = _strain(scratch, shell, e, g), shell.area[e, g]
             point = POINTS_OF_LAYERS * e + layers.LAYERS * g
             value, middle = layers.resultants(
                 law, scratch.measure, thickness, memory, point, scratch.resultant
@@ -335,6 +398,8 @@ def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
             total += area * value
             stored[0] += area * middle
             stored[1] += area * (value - middle)
+            if shell.axes.shape[0] > 0:
+                axes.pull_back(shell.axes[e, g], scratch.resultant)
             bow.pull_back(size, chords, scratch.resultant)
             _add_slopes(scratch, g, area)
         _scatter(x, frames, shell, e, scratch.slope, gradient)
@@ -449,7 +514,6 @@ def hessian(x, frames, shell, law, memory, e, scratch, second):
     6 a .. 6 a + 5 of corner a. To be called where the energy is finite.
     """
     size, thickness = shell.size[e], shell.thickness[e]
-    area = 0.25 * size[0] * size[1]
     _gather(x, frames, shell, e, scratch.q)
     _differentiate(size, scratch.grid)
     scratch.slope[:] = 0.0
@@ -459,16 +523,19 @@ def hessian(x, frames, shell, law, memory, e, scratch, second):
     shear.hessian(
         scratch.q, size, rest, stiffness, scratch.edges, scratch.strained, scratch.inner, second
     )
-    folding = shell.fold_modulus * thickness * area
-    fold.evaluate(scratch.q, size, folding, scratch.slope)
-    fold.hessian(scratch.q, size, folding, scratch.row, second)
+    corners, areas, folding = shell.corners[e], shell.area[e], shell.fold_modulus * thickness
+    fold.evaluate(scratch.q, corners, areas, folding, scratch.slope)
+    fold.hessian(scratch.q, corners, areas, folding, scratch.row, second)
     for g in range(4):
-        chords = _strain(scratch, shell, e, g)
+        chords, area = _strain(scratch, shell, e, g), shell.area[e, g]
         point = POINTS_OF_LAYERS * e + layers.LAYERS * g
         layers.rigidity(
             law, scratch.measure, thickness, memory, point, scratch.moments, scratch.resultant,
             scratch.rigidity,
         )  # fmt: skip
+        if shell.axes.shape[0] > 0:
+            axes.pull_back(shell.axes[e, g], scratch.resultant)
+            axes.pull_back_second(shell.axes[e, g], scratch.rigidity)
         bow.pull_back_second(size, chords, scratch.resultant, scratch.rigidity)
         bow.pull_back(size, chords, scratch.resultant)
         _add_slopes(scratch, g, area)

@@ -8,13 +8,14 @@ from kernels.plates.layout import PER_NODE
 from sweep.config.case import Case
 from sweep.scene.plates.coordinates import BONDED, Numbering, heights
 from sweep.scene.plates.mesh import PlateMesh
+from sweep.scene.plates.sheet import SheetMesh
 
-MOST_MOVE = 1.0  # longest move that neighbour lists cover, in mean widths of walls
+MOST_MOVE = 1.0  # longest move that neighbour lists cover, in typical widths of walls
 
 
-def mirror_of(mesh: PlateMesh, case: Case) -> Mirror:
+def mirror_of(mesh: PlateMesh | SheetMesh, case: Case) -> Mirror:
     """Contact of walls with their images beyond mirror planes, unless the model is "none"."""
-    if mesh.plan.copies == 1 or case.contact.model == "none":
+    if isinstance(mesh, SheetMesh) or mesh.copies == 1 or case.contact.model == "none":
         return NO_MIRROR
     nodes = [np.flatnonzero(~mesh.on[:, axis]) for axis in (0, 1)]
     places = [mesh.plan.planes[axis] - mesh.rest[nodes[axis], axis] for axis in (0, 1)]
@@ -26,7 +27,7 @@ def mirror_of(mesh: PlateMesh, case: Case) -> Mirror:
     )
 
 
-def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> contact.Contact:
+def contact_of(mesh: PlateMesh | SheetMesh, numbering: Numbering, case: Case) -> contact.Contact:
     """Contact of all walls over their thickness, and of nodes that no platen holds with platens.
 
     With the contact model "none", only loose platens touch nodes.
@@ -34,13 +35,14 @@ def contact_of(mesh: PlateMesh, numbering: Numbering, case: Case) -> contact.Con
     platen, walls = case.loading.platen, case.contact.model != "none"
     low, high = heights(mesh, platen)
     triangles = mesh.triangles[: None if walls else 0]
-    height, every = mesh.rest[:, 2], np.arange(mesh.n_nodes if walls or platen == "contact" else 0)
+    height, every = mesh.rest[:, 2], mesh.own if walls or platen == "contact" else mesh.own[:0]
     loose_low = np.setdiff1d(every, mesh.bottom) if platen in BONDED else every
     loose_high = np.setdiff1d(every, mesh.top) if platen in BONDED else every
     return contact.build(
         case.material.modulus * 4.0 / 3.0 * case.contact.stiffness,
-        MOST_MOVE * float(mesh.plan.span.mean()),
+        MOST_MOVE * mesh.cell,
         triangles, mesh.area, mesh.node_thickness, mesh.rest,
         (loose_low, height[loose_low] - low, numbering.low),
         (loose_high, high - height[loose_high], numbering.high),
+        mesh.original,
     )  # fmt: skip

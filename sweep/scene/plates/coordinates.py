@@ -21,6 +21,7 @@ from sweep.design.drawing import Indices
 from sweep.scene.coordinates import BetweenPlatens
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.mesh import PlateMesh
+from sweep.scene.plates.sheet import SheetMesh
 
 BONDED = ("glued", "clamped")
 ALONG, UP, NORMAL = range(3)  # axes of a node inside a wall
@@ -37,13 +38,20 @@ class Numbering(BetweenPlatens):
         """Coordinates of nodes along an axis x, y, z."""
         return np.asarray(PER_NODE * nodes + axis)
 
+    def of_nodes(self, nodes: Indices) -> Indices:
+        """All coordinates of nodes, in order, then those of the platens."""
+        own = PER_NODE * nodes[:, None] + np.arange(PER_NODE)
+        return np.append(own.ravel(), [self.low, self.high])
+
     def rotation(self, nodes: Indices, axis: int | Indices) -> Indices:
         """Coordinates of turns of nodes about axes of their frames."""
         return np.asarray(PER_NODE * nodes + 3 + axis)
 
 
-def leaders(mesh: PlateMesh, platen: str) -> Indices:
-    """The coordinate that each one follows, (6 n + 2,): itself, that of the upper platen, or -1."""
+def leaders(mesh: PlateMesh | SheetMesh, platen: str) -> Indices:
+    """The coordinate that each one follows, (6 n + 2,): itself, that of the upper platen, or -1; of
+    an image, that of its original.
+    """
     numbering = Numbering(mesh.n_nodes)
     leader = np.arange(numbering.size)
     ends = np.concatenate([mesh.bottom, mesh.top])
@@ -60,10 +68,10 @@ def leaders(mesh: PlateMesh, platen: str) -> Indices:
     if platen == "clamped":
         supports += [numbering.rotation(ends, axis) for axis in range(3)]
     leader[np.concatenate(supports)] = -1
-    return leader
+    return leader[numbering.of_nodes(mesh.original)]
 
 
-def _mirrored(mesh: PlateMesh, numbering: Numbering) -> list[Indices]:
+def _mirrored(mesh: PlateMesh | SheetMesh, numbering: Numbering) -> list[Indices]:
     """Coordinates that the mirror planes of `lattice.symmetry` "quarter" hold; walls cross these
     planes at right angles.
     """
@@ -75,7 +83,7 @@ def _mirrored(mesh: PlateMesh, numbering: Numbering) -> list[Indices]:
     return coordinates
 
 
-def heights(mesh: PlateMesh, platen: str) -> tuple[float, float]:
+def heights(mesh: PlateMesh | SheetMesh, platen: str) -> tuple[float, float]:
     """Heights of the platens at rest, m.
 
     Bonded ones are at the ends of the walls. Loose ones touch these from half a thickness on, as
@@ -85,13 +93,13 @@ def heights(mesh: PlateMesh, platen: str) -> tuple[float, float]:
     return -gap, mesh.height + gap
 
 
-def at_rest(mesh: PlateMesh, platen: str) -> Floats:
+def at_rest(mesh: PlateMesh | SheetMesh, platen: str) -> Floats:
     """All coordinates at rest, (6 n + 2,)."""
     nodes = np.hstack([mesh.rest, np.zeros_like(mesh.rest)])
     return np.concatenate([nodes.ravel(), heights(mesh, platen)])
 
 
-def masses(mesh: PlateMesh, total: float, striker: float) -> Floats:
+def masses(mesh: PlateMesh | SheetMesh, total: float, striker: float) -> Floats:
     """Lumped mass of each coordinate, (6 n + 2,) kg, which sums to ``total`` along each axis.
 
     Rotations have none, as the solver re-bases them; the upper platen has that of the ``striker``.

@@ -52,6 +52,31 @@ class PlateMesh:
         return len(self.rest)
 
     @property
+    def own(self) -> Ints:
+        """Nodes that are no images of others: all."""
+        return np.arange(self.n_nodes)
+
+    @property
+    def original(self) -> Ints:
+        """The node of which each one is an image: itself."""
+        return self.own
+
+    @property
+    def copies(self) -> int:
+        """Equal parts of the whole, of which this is one."""
+        return self.plan.copies
+
+    @property
+    def cell(self) -> float:
+        """Mean width of the walls, m."""
+        return float(self.plan.span.mean())
+
+    @property
+    def force(self) -> float:
+        """Typical force over modulus, m^2: the least t^3 / (12 l) of a wall of width l."""
+        return float(np.min(self.plan.thickness**3 / (12.0 * self.plan.span)))
+
+    @property
     def layers(self) -> int:
         """Number of quads up the height."""
         return int(self.level.max())

@@ -20,6 +20,7 @@ from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
+from sweep.scene.plates.sheet import SheetMesh
 from sweep.scene.terms import driven_by, friction_of, heavy, roles, striker_of
 
 NONE = np.empty(0, np.int64)
@@ -32,8 +33,8 @@ class Scene:
     Forces and energies are those of the walls in ``mesh``, one of `Plan.copies` equal parts.
     """
 
-    mesh: PlateMesh
-    network: Network
+    mesh: PlateMesh | SheetMesh
+    network: Network | None
     terms: PlateScene
     x_rest: Floats
     bottom: Indices
@@ -71,12 +72,21 @@ class Scene:
 
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
-    lattice, loading, striker = case.lattice, case.loading, striker_of(case.loading)
+    lattice = case.lattice
     mesh, network = build_mesh(lattice), network_of(lattice)
+    printed = mass(network, lattice.depth, case.material.density)
+    return scene_of(case, mesh, network, printed)
+
+
+def scene_of(
+    case: Case, mesh: PlateMesh | SheetMesh, network: Network | None, whole: float
+) -> Scene:
+    """Build the arrays of a case from its mesh; whole: mass of the lattice, kg."""
+    loading, striker = case.loading, striker_of(case.loading)
     numbering, platen = Numbering(mesh.n_nodes), loading.platen
     leader = coordinates.leaders(mesh, platen)
-    copies = mesh.plan.copies
-    printed = mass(network, lattice.depth, case.material.density) / copies
+    copies = mesh.copies
+    printed = whole / copies
     masses = coordinates.masses(mesh, printed, striker.mass / copies)
     x_rest = coordinates.at_rest(mesh, platen)
     layout = _layout(mesh, numbering, leader, case)
@@ -103,7 +113,7 @@ def build_scene(case: Case) -> Scene:
 
 
 def _coordinates(
-    mesh: PlateMesh, numbering: Numbering, layout: Layout, masses: Floats, load: Floats
+    mesh: PlateMesh | SheetMesh, numbering: Numbering, layout: Layout, masses: Floats, load: Floats
 ) -> Coordinates:
     """The data of the coordinates that the solver needs; a rotation w turns by 4 w."""
     scale = np.where(_is_rotation(numbering), 4.0 * mesh.size.mean(), 1.0)
@@ -116,7 +126,7 @@ def _coordinates(
         heavy=heavy(layout, masses),
         load=load,
         driven=layout.driven,
-        cap=0.25 * float(mesh.plan.span.mean()),
+        cap=0.25 * mesh.cell,
         leap=0.01 * thickness,
         close=1e-3 * thickness,
     )
@@ -128,25 +138,21 @@ def _is_rotation(numbering: Numbering) -> np.ndarray:
     return np.asarray((place >= 3) & (np.arange(numbering.size) < numbering.low))
 
 
-def _shell(mesh: PlateMesh, x_rest: Floats, case: Case) -> shell.Shell:
-    """The shells, without stress in the bowed shape at rest."""
-    m = len(mesh.quads)
-    instant, lasting = shear_moduli(case.material)
-    made = shell.Shell(
-        quads=mesh.quads,
-        size=mesh.size,
-        thickness=mesh.thickness,
-        directors=mesh.directors,
-        rest=np.zeros((m, 4, 9)),
-        shear_rest=np.zeros((m, 4)),
-        shear_modulus=instant,
-        fold_modulus=lasting,
+def _shell(mesh: PlateMesh | SheetMesh, x_rest: Floats, case: Case) -> shell.Shell:
+    """The shells, without stress in their shape at rest."""
+    if isinstance(mesh, SheetMesh):
+        return shell.curved(
+            x_rest, mesh.frames, mesh.quads, mesh.thickness, mesh.directors,
+            *shear_moduli(case.material),
+        )  # fmt: skip
+    made = shell.rectangles(
+        mesh.quads, mesh.size, mesh.thickness, mesh.directors, *shear_moduli(case.material)
     )
     shell.measure_rest(x_rest, mesh.frames, made, shell.make_scratch())
     return made
 
 
-def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
+def _layout(mesh: PlateMesh | SheetMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
     """Constraints, and the places of the unknowns: node by node, then the upper platen."""
     driven = driven_by(case.loading, numbering)
     own, low = np.arange(leader.size), numbering.low
@@ -155,7 +161,8 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
     free_of_node, follows_of_node = (each[:low].reshape(-1, PER_NODE) for each in (free, follows))
     count = free_of_node.sum(axis=1)
     slots = [(free_of_node.cumsum(axis=1) - 1).ravel(), np.zeros(leader.size - low, np.int64)]
-    slot = np.where(free, np.concatenate(slots), -1)
+    image = numbering.of_nodes(mesh.original)  # the coordinate itself, or of which it is the image
+    slot = np.where(free, np.concatenate(slots), -1)[image]
     number = np.where(free, np.cumsum(free) - 1, -1)
     unknown = np.where(leader >= 0, number[leader], -1)
     block = np.where(count > 0, np.cumsum(count > 0) - 1, -1)
@@ -170,8 +177,8 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
         driven=driven,
         unknown=unknown,
         slot=slot,
-        follows=follows_of_node.any(axis=1),
-        block=block,
+        follows=follows_of_node.any(axis=1)[mesh.original],
+        block=block[mesh.original],
         size=np.append(count[count > 0], np.ones(platen, np.int64)),
         point=np.concatenate([mesh.rest[count > 0], top[:platen]]),
         scale=np.where(turns, bending, stretching),
@@ -180,13 +187,12 @@ def _layout(mesh: PlateMesh, numbering: Numbering, leader: Indices, case: Case) 
     )
 
 
-def _stiffness(mesh: PlateMesh, case: Case) -> tuple[float, float]:
+def _stiffness(mesh: PlateMesh | SheetMesh, case: Case) -> tuple[float, float]:
     """Stiffness of a node in stretching (N/m) and in bending by w (N m), of the thickest wall."""
     thickness = float(mesh.thickness.max())
     return case.material.modulus * thickness, case.material.modulus * thickness**3 * 4.0 / 3.0
 
 
-def _force_scale(mesh: PlateMesh, case: Case) -> float:
+def _force_scale(mesh: PlateMesh | SheetMesh, case: Case) -> float:
     """Typical force, N: the least Y t^3 / (12 l) of a wall of width l."""
-    plan = mesh.plan
-    return float(np.min(case.material.modulus * plan.thickness**3 / (12.0 * plan.span)))
+    return case.material.modulus * mesh.force

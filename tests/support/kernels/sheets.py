@@ -1,8 +1,11 @@
 """Sheets for tests: neo-Hookean ones, given by a curve too, and those of shipped materials."""
 
+from typing import Any, NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
+from kernels.compile.jit import jit
 from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import Sheet
@@ -52,6 +55,35 @@ def sheet_of_rubber() -> Sheet:
     return sheet.measured(rubber, LEAST, MODULUS)
 
 
-def elastic_only(elastic: Sheet) -> RelaxingSheet:
+def elastic_only(elastic: Any) -> RelaxingSheet:
     """A sheet as a law without branches."""
     return RelaxingSheet(elastic, np.empty(0), np.empty(0), elastic.shear_modulus)
+
+
+@jit
+def _respond(law, a, b, v):
+    """Return energy, slopes and second derivatives, as `kernels.laws.sheet.respond`."""
+    plane = law.modulus / (1.0 - law.poisson**2)
+    shear = 0.5 * law.modulus / (1.0 + law.poisson)
+    one, two = 0.5 * a, 0.5 * b
+    mixed = one + law.poisson * two, two + law.poisson * one
+    return (
+        0.5 * plane * (one * mixed[0] + two * mixed[1]) + 0.5 * shear * v * v,
+        (0.5 * plane * mixed[0], 0.5 * plane * mixed[1], shear * v),
+        (0.25 * plane, 0.25 * plane * law.poisson, 0.0, 0.25 * plane, 0.0, shear),
+    )
+
+
+class Hooke(NamedTuple):
+    """St. Venant and Kirchhoff's sheet in plane stress, of any Poisson's ratio, for benchmarks."""
+
+    modulus: float
+    poisson: float
+    shear_modulus: float
+
+    respond = _respond
+
+
+def hooke(modulus: float, poisson: float) -> RelaxingSheet:
+    """A linear sheet as a law without branches."""
+    return elastic_only(Hooke(modulus, poisson, 0.5 * modulus / (1.0 + poisson)))

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,12 +85,64 @@ def structure(
             size.append([length, height / layers])
             normal = np.cross(s, UP)
             directors.append([frames[c].T @ normal for c in (a, b, b, a)])
-    m = len(quads)
-    shells = Shell(
-        np.array(quads), np.array(size), np.full(m, thickness), np.array(directors),
-        np.zeros((m, 4, 9)), np.zeros((m, 4)), 5.0 / 6.0 * modulus / 3.0, 5.0 / 18.0 * modulus,
+    shells = shell.rectangles(
+        np.array(quads), np.array(size), np.full(len(quads), thickness), np.array(directors),
+        5.0 / 6.0 * modulus / 3.0, 5.0 / 18.0 * modulus,
     )  # fmt: skip
     return Structure(points, np.tile([f.ravel() for f in frames], (layers + 1, 1)), shells)
+
+
+def surface(
+    grid: tuple[int, int],
+    place: Callable[[Floats, Floats], Floats],
+    normal: Callable[[Floats, Floats], Floats],
+    thickness: float = 0.1,
+    modulus: float = MODULUS,
+    poisson: float = 0.5,
+    shake: float = 0.0,
+) -> Structure:
+    """A grid of quads over u, v of 0 to 1 on a surface, with a frame (t1, t2, n) at each node.
+
+    place, normal: (n, 3) at u, v (n,). shake: random moves of the inner nodes over the surface, in
+    units of the grid.
+    """
+    u, v = (
+        each.ravel()
+        for each in np.meshgrid(*(np.linspace(0.0, 1.0, k + 1) for k in grid), indexing="ij")
+    )
+    inner = (u > 0) & (u < 1) & (v > 0) & (v < 1)
+    move = shake * inner * np.random.default_rng(0).uniform(-1, 1, (2, u.size))
+    u, v = u + move[0] / grid[0], v + move[1] / grid[1]
+    points, normals = place(u, v), normal(u, v)
+    number = np.arange(u.size).reshape(grid[0] + 1, grid[1] + 1)
+    quads = np.stack(
+        [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=2
+    ).reshape(-1, 4)
+    return smooth(points, normals, quads, thickness, modulus, poisson)
+
+
+def smooth(
+    points: Floats,
+    normals: Floats,
+    quads: Any,
+    thickness: float = 0.1,
+    modulus: float = MODULUS,
+    poisson: float = 0.5,
+) -> Structure:
+    """Quads of a smooth surface with these ``normals`` (n, 3), to the side of those of the quads."""
+    aside = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
+    one = np.cross(aside, normals)
+    one /= np.linalg.norm(one, axis=1)[:, None]
+    frames = np.stack([one, np.cross(normals, one), normals], axis=2).reshape(-1, 9)
+    directors = np.tile([0.0, 0.0, 1.0], (len(quads), 4, 1))
+    x = np.zeros((len(points), 6))
+    x[:, :3] = points
+    shear_modulus = 5.0 / 12.0 * modulus / (1.0 + poisson)
+    shells = shell.curved(
+        np.append(x.ravel(), [0.0, 0.0]), frames, quads, np.full(len(quads), thickness), directors,
+        shear_modulus, shear_modulus,
+    )  # fmt: skip
+    return Structure(points, frames, shells)
 
 
 def plate(

@@ -20,7 +20,7 @@ def scattered(seed, n=40, reach=5):
 
 
 def triangles_near(x, n, triangles, radius):
-    found = near.node_triangle(x, n, triangles, radius)
+    found = near.node_triangle(x, n, np.arange(n), triangles, radius)
     listed = list(zip(found[0].tolist(), found[1].tolist(), strict=True))
     assert len(listed) == len(set(listed))
     for (p, k), d in zip(listed, found[2], strict=True):
@@ -31,7 +31,7 @@ def triangles_near(x, n, triangles, radius):
 
 
 def edges_near(x, edges, radius):
-    found = near.edge_edge(x, edges, radius)
+    found = near.edge_edge(x, edges, np.ones(len(edges)), radius)
     listed = list(zip(found[0].tolist(), found[1].tolist(), strict=True))
     assert len(listed) == len(set(listed))
     assert (found[0] < found[1]).all()
@@ -93,8 +93,8 @@ def test_in_a_plane_and_on_a_line(flat):
 def test_nothing_is_near_nothing():
     x = placed(np.zeros((1, 3)))
     none = np.empty((0, 3), np.int64)
-    assert [len(a) for a in near.node_triangle(x, 1, none, 1.0)] == [0, 0, 0]
-    assert [len(a) for a in near.edge_edge(x, none[:, :2], 1.0)] == [0, 0, 0]
+    assert [len(a) for a in near.node_triangle(x, 1, np.arange(1), none, 1.0)] == [0, 0, 0]
+    assert [len(a) for a in near.edge_edge(x, none[:, :2], np.ones(0), 1.0)] == [0, 0, 0]
 
 
 def test_longest_moves():

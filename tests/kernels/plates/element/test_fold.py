@@ -8,7 +8,7 @@ from kernels.plates.element import fold
 from tests.support.kernels import shells
 from tests.support.kernels.terms import Term, derivative_error
 
-SIZE, STIFFNESS = np.array([0.5, 0.8]), 3.0
+STIFFNESS, CORNERS, AREAS = 3.0, np.full(4, 0.4), np.full(4, 1.0)
 FLAT = np.array([[0, 0, 0], [0.5, 0, 0], [0.5, 0.8, 0], [0, 0.8, 0.0]])
 ANGLES = {"near the start": 71.0, "beyond": 80.0, "deep": 89.0}
 
@@ -24,12 +24,12 @@ def state(degrees, seed=None):
 
 
 def slope(q, g):
-    return fold.evaluate(q, SIZE, STIFFNESS, g)
+    return fold.evaluate(q, CORNERS, AREAS, STIFFNESS, g)
 
 
 def second(q, projected):
     full = np.zeros((24, 24))
-    fold.hessian(q, SIZE, STIFFNESS, np.empty(24), full)
+    fold.hessian(q, CORNERS, AREAS, STIFFNESS, np.empty(24), full)
     return full
 
 

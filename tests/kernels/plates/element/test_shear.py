@@ -63,10 +63,10 @@ def test_pure_bending_has_no_shear():
 
 def test_stiffness_is_that_of_shear_in_small_elements_and_of_bending_in_long_ones():
     modulus, thickness = 3.0, 0.1
-    small = shear.stiffnesses(modulus, thickness, (1e-4, 1e-3))
+    small = shear.stiffnesses(modulus, thickness, (1e-4, 1e-3), 1e-7)
     assert small == pytest.approx((modulus * thickness * 1e-7,) * 2, rel=1e-4)
     d = modulus / shear.KAPPA * thickness**3 / 3
-    long = shear.stiffnesses(modulus, thickness, (1e3, 1e-3))
+    long = shear.stiffnesses(modulus, thickness, (1e3, 1e-3), 1.0)
     assert long[0] == pytest.approx(d / shear.BETA / 1e6, rel=1e-4)
     assert long[1] == pytest.approx(modulus * thickness, rel=1e-4)
 

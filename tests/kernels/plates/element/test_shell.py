@@ -117,7 +117,7 @@ def test_uniform_shear_through_the_thickness_is_exact():
     x[:-2].reshape(-1, 6)[:, 3:] = w
     d = rotation.turned(w, (0.0, 0.0, 1.0))
     size = of.walls.size[0]
-    k = np.divide(shear.stiffnesses(5 / 6 * MU, 0.1, size), np.prod(size))
+    k = shear.stiffnesses(5 / 6 * MU, 0.1, size, 1.0)
     expected = 0.5 * (k[0] * d[0] ** 2 + k[1] * d[1] ** 2)
     membrane, bending, sheared = energy_per_area(of, x)
     assert sheared == pytest.approx(expected, rel=1e-12)

@@ -1,0 +1,63 @@
+"""Periodic functions whose zero levels are close to minimal surfaces.
+
+    gyroid    sin x cos y + sin y cos z + sin z cos x
+    primitive cos x + cos y + cos z                                   (Schwarz P)
+    diamond   cos x cos y cos z - sin x sin y sin z                   (Schwarz D)
+
+each in phases of 2 pi a period (K. Michielsen and J. Kole, Phys. Rev. B 68, 2003). Slicers print the
+first as "gyroid", and the third, of half the period, as "TPMS-D".
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class LevelSet(NamedTuple):
+    """value: (n,) at phases (n, 3); gradient: (n, 3) there. area: of its zero level in a period, in
+    units of the squared period, from a fine net.
+    """
+
+    value: Callable[[Floats], Floats]
+    gradient: Callable[[Floats], Floats]
+    area: float
+
+
+def _gyroid(p: Floats) -> Floats:
+    s, c = np.sin(p), np.cos(p)
+    return np.asarray((s * c[:, [1, 2, 0]]).sum(axis=1))
+
+
+def _gyroid_gradient(p: Floats) -> Floats:
+    s, c = np.sin(p), np.cos(p)
+    return np.asarray(c * c[:, [1, 2, 0]] - s * s[:, [2, 0, 1]])
+
+
+def _primitive(p: Floats) -> Floats:
+    return np.asarray(np.cos(p).sum(axis=1))
+
+
+def _primitive_gradient(p: Floats) -> Floats:
+    return np.asarray(-np.sin(p))
+
+
+def _diamond(p: Floats) -> Floats:
+    return np.asarray(np.cos(p).prod(axis=1) - np.sin(p).prod(axis=1))
+
+
+def _diamond_gradient(p: Floats) -> Floats:
+    s, c = np.sin(p), np.cos(p)
+    one, two = [1, 2, 0], [2, 0, 1]
+    return np.asarray(-s * c[:, one] * c[:, two] - c * s[:, one] * s[:, two])
+
+
+LEVEL_SETS = {
+    "gyroid": LevelSet(_gyroid, _gyroid_gradient, 3.0915),
+    "primitive": LevelSet(_primitive, _primitive_gradient, 2.3517),
+    "diamond": LevelSet(_diamond, _diamond_gradient, 3.8387),
+}
+"""By name."""

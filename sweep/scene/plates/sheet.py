@@ -1,0 +1,174 @@
+"""One period of a sheet between platens: its net of quads, and images of its nodes around it.
+
+Quads at the sides of the period reach nodes of the next one: images, which move as their originals.
+Further images carry copies of triangles that the period may touch. An image has no mass and no
+area, so that each pair of surfaces counts once.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from sweep.design.surfaces.nets import Net
+from sweep.scene.mesh import Floats, Ints
+
+AROUND = 0.5  # of a period: how far images of triangles stand around it
+VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is vertical
+SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
+
+
+@dataclass(frozen=True)
+class SheetMesh:
+    """A sheet as quads: n nodes, those of the period first, then images; m quads; k triangles.
+
+    net: of the period. rest (n, 3): nodes at rest, m. frames (n, 9): axes of each node at rest as
+    columns of a matrix, row by row: horizontal, rising, normal. original (n,): the node of which a
+    node is an image, or itself. quads (m, 4) with their thickness (m,) in m. triangles (k, 3): of
+    the quads, then of their images.
+    """
+
+    net: Net
+    rest: Floats
+    frames: Floats
+    original: Ints
+    quads: Ints
+    thickness: Floats
+    triangles: Ints
+
+    @property
+    def n_nodes(self) -> int:
+        """Number of nodes, images too."""
+        return len(self.rest)
+
+    @property
+    def height(self) -> float:
+        """Distance of the platens at rest, m."""
+        return float(self.net.box.size[2])
+
+    @property
+    def bottom(self) -> Ints:
+        """Nodes at the lower platen."""
+        return self.net.bottom
+
+    @property
+    def top(self) -> Ints:
+        """Nodes at the upper platen."""
+        return self.net.top
+
+    @cached_property
+    def own(self) -> Ints:
+        """Nodes of the period."""
+        return np.arange(len(self.net.points))
+
+    @property
+    def flat(self) -> np.ndarray:
+        """Whether all quads of a node share its tangent plane, (n,): everywhere on a sheet."""
+        return np.ones(self.n_nodes, np.bool_)
+
+    @property
+    def on(self) -> np.ndarray:
+        """Whether a node is on a mirror plane, (n, 2): nowhere."""
+        return np.zeros((self.n_nodes, 2), np.bool_)
+
+    @property
+    def copies(self) -> int:
+        """Equal parts of the whole, of which this is one."""
+        return 1
+
+    @property
+    def directors(self) -> Floats:
+        """Normals at the corners in the axes of their nodes, (m, 4, 3)."""
+        return np.tile([0.0, 0.0, 1.0], (len(self.quads), 4, 1))
+
+    @cached_property
+    def size(self) -> Floats:
+        """Mean lengths of the two pairs of opposite sides of each quad, (m, 2) in m."""
+        side = np.linalg.norm(np.roll(self.net.corners, -1, axis=1) - self.net.corners, axis=2)
+        return np.column_stack([side[:, [0, 2]].mean(axis=1), side[:, [1, 3]].mean(axis=1)])
+
+    @property
+    def cell(self) -> float:
+        """Typical width of a wall between two others, m: half of the shorter period."""
+        return float(0.5 * self.net.box.size[:2].min())
+
+    @property
+    def force(self) -> float:
+        """Typical force over modulus, m^2: t^3 / (12 l) of a wall of width l."""
+        return float(np.min(self.thickness) ** 3 / (12.0 * self.cell))
+
+    @cached_property
+    def area(self) -> Floats:
+        """A quarter of the area of each quad at a node, (n,) m^2."""
+        return self._quarters(self.net.area)
+
+    @cached_property
+    def volume(self) -> Floats:
+        """A quarter of the volume of each quad at a node, (n,) m^3."""
+        return self._quarters(self.net.area * self.thickness)
+
+    @cached_property
+    def node_thickness(self) -> Floats:
+        """Mean thickness at a node, (n,) m."""
+        own = self.own
+        return np.asarray((self.volume[own] / self.area[own])[self.original])
+
+    def _quarters(self, values: Floats) -> Floats:
+        corners = self.original[self.quads].ravel()
+        shared = np.bincount(corners, np.repeat(0.25 * values, 4), self.n_nodes)
+        return shared.astype(np.float64)
+
+
+def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
+    """The mesh of a net whose quads have this thickness (m,) in m."""
+    period, n = net.box.size[:2], len(net.points)
+    copies = [np.asarray(shift) for shift in SHIFTS]
+    near = [_near(net, shift) if shift.any() else np.ones(len(net.quads), bool) for shift in copies]
+    place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
+    node = np.concatenate([net.quads[rows] for rows in near])
+    key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
+    images, number = np.unique(key[key[:, 1:].any(axis=1)], axis=0, return_inverse=True)
+    corner = key[:, 0].copy()
+    corner[key[:, 1:].any(axis=1)] = n + number.ravel()
+    quads = corner.reshape(-1, 4)
+    original = np.concatenate([np.arange(n), images[:, 0]])
+    rest = net.points[original]
+    rest[n:, :2] += images[:, 1:] * period
+    cut = np.concatenate([_shorter(net.corners)[rows] for rows in near])
+    frames = _frames(net.normals)
+    return SheetMesh(
+        net, rest, frames[original], original, quads[: len(net.quads)], thickness,
+        _triangles(quads, cut),
+    )  # fmt: skip
+
+
+def _near(net: Net, shift: Ints) -> np.ndarray:
+    """Which quads are near the period if they are moved by ``shift`` (2,) periods, (m,)."""
+    period = net.box.size[:2]
+    at = net.corners[..., :2] + shift * period
+    inside = (at > -AROUND * period) & (at < (1.0 + AROUND) * period)
+    return np.asarray(inside.all(axis=2).any(axis=1))
+
+
+def _shorter(corners: Floats) -> np.ndarray:
+    """Whether the diagonal of a quad from its first corner is the shorter one, (m,)."""
+    one, two = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    return np.asarray((one**2).sum(axis=1) < (two**2).sum(axis=1))
+
+
+def _triangles(quads: Ints, first: np.ndarray) -> Ints:
+    """Two triangles of each quad, cut along the diagonal from its first corner or the other."""
+    a, b, c, d = quads.T
+    one = np.where(first[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+    two = np.where(first[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
+    return np.stack([one, two], axis=1).reshape(-1, 3)
+
+
+def _frames(normals: Floats) -> Floats:
+    """Axes (n, 9): a horizontal tangent, the tangent across it, which rises, and the normal."""
+    across = np.column_stack([-normals[:, 1], normals[:, 0], np.zeros(len(normals))])
+    length = np.linalg.norm(across, axis=1)
+    vertical = length < VERTICAL
+    across[vertical], length[vertical] = [1.0, 0.0, 0.0], 1.0
+    across /= length[:, None]
+    return np.stack([across, np.cross(normals, across), normals], axis=2).reshape(-1, 9)
