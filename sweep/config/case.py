@@ -31,6 +31,7 @@ from sweep.config.kinds.lattice import Lattice, kind_of
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.printable import check_printable
+from sweep.config.kinds.sheet import Sheet, sheet
 from sweep.config.kinds.sliced import Sliced, sliced
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
@@ -81,6 +82,11 @@ class Case(BaseModel):
         return self.loading.along
 
     @property
+    def shells(self) -> bool:
+        """Whether its walls are shells in space: pressed along the cells, or of a sheet."""
+        return self.along or bool(self.lattice.sheet)
+
+    @property
     def height(self) -> float:
         """The height that a platen or a striker presses, m."""
         return self.lattice.depth if self.along else self.lattice.height
@@ -88,7 +94,7 @@ class Case(BaseModel):
     @property
     def extent(self) -> steps.Extent:
         """What is pressed."""
-        return _extent(dict(self), self.height)
+        return _extent(dict(self), self.height, self.shells)
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -198,7 +204,8 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    material = draft.add("material", materials.material, pairs["material"], along)
+    shells = along or kind_of(dict(pairs["lattice"])) is Sheet
+    material = draft.add("material", materials.material, pairs["material"], shells)
     density = material.density if material else None
     lattice = None
     if density or "mass" not in dict(pairs["lattice"]):
@@ -220,15 +227,16 @@ def _numerics(
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
     model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
-    extent, by_position = _extent(draft.tables, pressed.height), model == "position_based"
+    extent = _extent(draft.tables, pressed.height, pressed.shells)
+    by_position = model == "position_based"
     given = pairs["solver"], material.remembers, loading, extent, by_position
     solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
     contact = (pairs["contact"], loading, pressed, solver.integrator)
     if draft.add("contact", contacts.contact, *contact):
-        draft.add("damping", dampings.damping, pairs["damping"], loading, relaxes)
-        draft.add("solver", steps.in_the_plane, solver, material, loading)
+        draft.add("damping", dampings.damping, pairs["damping"], loading, pressed, relaxes)
+        draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
 
 
 def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
@@ -236,19 +244,22 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     key = "depth" if along else "height"
     if lattice is None:
         usual = Specimen.model_fields[key].default
-        return Pressed(given.get(key, usual), width=given.get("width", inf))
+        return Pressed(given.get(key, usual), along, width=given.get("width", inf))
     structure = lattice.structure if isinstance(lattice, CustomStructure) else None
-    return Pressed(getattr(lattice, key), structure, lattice.endless, lattice.tied, lattice.width)
+    return Pressed(
+        getattr(lattice, key), along, structure, lattice.endless, lattice.tied, lattice.width,
+        lattice.sheet,
+    )  # fmt: skip
 
 
-def _extent(tables: Mapping[str, Any], height: float) -> steps.Extent:
+def _extent(tables: Mapping[str, Any], height: float, shells: bool) -> steps.Extent:
     """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
     lattice, material = tables.get("lattice"), tables["material"]
     if not isinstance(lattice, Specimen):
-        return steps.Extent(height, 1.0, inf)
+        return steps.Extent(height, 1.0, inf, shells)
     volume = lattice.width * lattice.height * lattice.depth
     compliance = height**2 / (material.modulus * volume) if volume else inf
-    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance)
+    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance, shells)
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
@@ -305,6 +316,10 @@ def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
     given = dict(values)
     made: Lattice
     kind = kind_of(given)
+    if kind is Sheet:
+        made = sheet(given, density, along)
+        check_printable(made)
+        return made
     if kind is CustomStructure:
         made = custom_structure(given)
     else:

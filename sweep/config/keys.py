@@ -13,7 +13,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from sweep.config.defaults import drop_tests
-from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.cells import CUSTOM, Cells
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
@@ -21,15 +21,18 @@ from sweep.config.kinds.direction import Direction
 from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
+from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import TABLES, Table
 from sweep.config.materials.material_file import available
 from sweep.config.question import QUESTION
+from sweep.design.infill import families
+from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
-    "lattice": (Cells, Sliced, CustomStructure),
+    "lattice": (Cells, Sliced, Sheet, CustomStructure),
     "material": (Material,),
     "loading": BY_MODE,
     "contact": (Barrier,),
@@ -39,6 +42,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 """The kinds of a table, whose keys a config may set."""
 
 CHOICES: dict[str, Any] = {
+    "lattice.kind": Literal[*families(), *SHEETS, CUSTOM],
     "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
     "loading.direction": Direction,
     "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
@@ -56,6 +60,8 @@ ALIASES = {
 DERIVED = {
     "lattice.structure",
     "lattice.fill_distance",
+    "lattice.period",
+    "lattice.pressed",
     "material.curve_strain",
     "material.curve_stress",
     "material.uncertain",

@@ -71,7 +71,7 @@ def timed_out(case: Case, where: str) -> Failure:
 
 def energy_gained(case: Case) -> Failure:
     """The time integration has gained energy."""
-    safer = SAFER_ALONG if case.along else SAFER
+    safer = SAFER_ALONG if case.shells else SAFER
     advice = FINER if case.loading.quasi_static else safer
     return Status.STOPPED, f"the time integration gained energy; {advice}"
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from kernels.geometry.space import crossing, surface
 from kernels.plates.layout import PER_NODE
-from sweep.scene.mesh import Floats, Ints
+from sweep.scene.mesh import Floats
 from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.scene import Scene
+from sweep.scene.plates.sheet import SheetMesh
 from sweep.scene.plates.unfolded import unfolded
 
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])  # of a quad, in s and z
@@ -43,11 +44,23 @@ def plate_strains(x: Floats, scene: Scene) -> tuple[Floats, Floats, Floats]:
     position = positions(x, mesh.n_nodes)
     rest_stretch, rest_bend = _measures(mesh.rest[None], mesh)
     stretch, bend = _measures(position, mesh)
-    stretch, bend = stretch - rest_stretch + [1.0, 1.0, 0.0], bend - rest_bend
+    stretch = np.array([1.0, 1.0, 0.0]) + _in_axes(stretch - rest_stretch, rest_stretch)
+    bend = _in_axes(bend - rest_bend, rest_stretch)
     least, greatest = principal(stretch)
     half = 0.5 * mesh.thickness[:, None]
     surfaces = [principal(stretch + side * half * 2.0 * bend)[1] for side in (-1.0, 1.0)]
     return least, greatest, np.maximum(*surfaces)
+
+
+def _in_axes(m: Floats, metric: Floats) -> Floats:
+    """Tensors (f, m, 3) of 11, 22, 12 in axes that are orthonormal where the ``metric`` (1, m, 3)
+    is that of s and z, as in `kernels.plates.element.axes`.
+    """
+    one, two, both = np.moveaxis(metric, -1, 0)
+    c = np.sqrt(one / (one * two - both**2))
+    a, b = 1.0 / np.sqrt(one), -c * both / one
+    across = b**2 * m[..., 0] + c**2 * m[..., 1] + 2.0 * b * c * m[..., 2]
+    return np.stack([a**2 * m[..., 0], across, a * (b * m[..., 0] + c * m[..., 2])], axis=-1)
 
 
 def principal(c: Floats) -> tuple[Floats, Floats]:
@@ -58,7 +71,7 @@ def principal(c: Floats) -> tuple[Floats, Floats]:
     return low, high
 
 
-def _measures(position: Floats, mesh: PlateMesh) -> tuple[Floats, Floats]:
+def _measures(position: Floats, mesh: PlateMesh | SheetMesh) -> tuple[Floats, Floats]:
     """First and second form (f, m, 3) of the quads: 11, 22, 12, at their middles; position (f, n,
     3) in m, the second form in 1/m.
     """
@@ -81,11 +94,11 @@ def _slopes(corner: Floats, size: Floats) -> tuple[Floats, Floats]:
     return along / size[:, :1], up / size[:, 1:]
 
 
-def _normals(position: Floats, mesh: PlateMesh) -> Floats:
+def _normals(position: Floats, mesh: PlateMesh | SheetMesh) -> Floats:
     """Normals (f, m, 4, 3) of the wall of each quad at its corners."""
     corner = position[:, mesh.quads]
     diagonal = np.cross(corner[:, :, 2] - corner[:, :, 0], corner[:, :, 3] - corner[:, :, 1])
-    place = corner_of_wall(mesh)
+    place = mesh.smooth_corners
     total = np.zeros((place.max() + 1, len(position), 3))
     for c in range(4):
         np.add.at(total, place[:, c], diagonal.swapaxes(0, 1))
@@ -93,20 +106,15 @@ def _normals(position: Floats, mesh: PlateMesh) -> Floats:
     return np.asarray(np.moveaxis(total[place], 2, 0))
 
 
-def corner_of_wall(mesh: PlateMesh) -> Ints:
-    """A number for each pair of a node and a wall, by corner of the quads, (m, 4)."""
-    pairs = mesh.quads * len(mesh.plan.walls) + mesh.wall[:, None]
-    _, place = np.unique(pairs, return_inverse=True)
-    return np.asarray(place.reshape(mesh.quads.shape))
-
-
-def surface_crossings(position: Floats, mesh: PlateMesh) -> int:
+def surface_crossings(position: Floats, mesh: PlateMesh | SheetMesh) -> int:
     """Greatest number of edges that pass through triangles in a shape, position (f, N, 3) in m of
-    the whole of a mesh; images beyond mirror planes are part of it.
+    the whole of a mesh; images beyond mirror planes, or a period away, are part of it.
 
     Independent of the solver, but for the triangles. What touches within round-off counts too.
     """
     triangles = unfolded(mesh).triangles
+    if isinstance(mesh, SheetMesh):
+        triangles, position = mesh.triangles, mesh.with_images(position)
     edges, _ = surface.edges_of(triangles, position.shape[1])
     unsure = np.empty((0, 2), np.int64)
     counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]

@@ -139,7 +139,7 @@ def _of_impact(
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
-        gone = travel[last] > case.height and not case.along
+        gone = travel[last] > case.height and not case.shells
         return missed(where) if gone else still_moving_down(where)
     speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
@@ -169,7 +169,7 @@ def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> b
 
 
 def _scene(case: Case) -> Scene | PlateScene:
-    if case.along:
+    if case.shells:
         return build_plates(case)
     match case.lattice:
         case CustomStructure():
@@ -183,7 +183,7 @@ def _scene(case: Case) -> Scene | PlateScene:
 
 def kernels_of(case: Case) -> str:
     """Which kernels a case runs on, a key of `SMALLEST`."""
-    if case.along:
+    if case.shells:
         return "plates"
     return "arcs" if isinstance(case.solver, Arcs) else "marches"
 
@@ -396,7 +396,7 @@ class _Run:
         rows = self.rows[: self.done].copy()
         if isinstance(self.scene, PlateScene):
             for name in (*BOOK.values(), "reaction_top", "reaction_bottom"):
-                rows[name] *= self.scene.mesh.plan.copies
+                rows[name] *= self.scene.mesh.copies
         if not self.scene.standing.size:
             rows["patch_force"] = rows["patch_at"] = np.nan
         return rows

@@ -23,11 +23,11 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.striker import Struck
-from sweep.design.network import relative_density
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene
 from sweep.simulation.deceleration import filtered_peak
+from sweep.simulation.solid import filled
 
 Curves = Mapping[str, Floats]
 MEASURES = (
@@ -114,8 +114,8 @@ def stroke_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> di
     whether nothing is left of it.
     """
     outer = case.lattice.outer_size
-    height = case.height if case.along else outer[1]
-    voids = (1.0 - relative_density(scene.network, outer)) * height
+    height = case.height if case.shells else outer[1]
+    voids = (1.0 - filled(case, scene)) * height
     left = float(voids - history["top_displacement_m"].max())
     return {"stroke_left_m": left, "bottomed_out": float(left <= 0.0)}
 

@@ -10,7 +10,6 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.table import given_or
-from sweep.design.network import mass, relative_density
 from sweep.design.slicer.network import extruded_area
 from sweep.numbers import in_unit
 from sweep.result import design_columns
@@ -39,6 +38,7 @@ from sweep.simulation.shape_checks import (
     shortening,
     work_within_model,
 )
+from sweep.simulation.solid import drawn_mass, filled
 from sweep.simulation.striker import (
     brought,
     rebound,
@@ -142,19 +142,19 @@ def summarise(
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
-    drawn = in_unit(mass(scene.network, case.lattice.depth, case.material.density), "g")
+    drawn = in_unit(drawn_mass(case, scene), "g")
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
-    filled = relative_density(scene.network, case.lattice.outer_size)
+    full = filled(case, scene)
     return {
         **design_columns(case),
         "mass_g": drawn,
         "printed_mass_g": printed,
-        "relative_density": filled,
-        "solid_strain": 1.0 - filled if case.along else np.nan,
+        "relative_density": full,
+        "solid_strain": 1.0 - full if case.shells else np.nan,
         "absorbed_energy_J": absorbed,
         **lost_columns(given, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
@@ -324,10 +324,10 @@ def plate_columns(
     is pressed. strains: as of `plate_shapes.plate_strains`.
     """
     least, greatest, surface = strains
-    solid = 1.0 - relative_density(scene.network, case.lattice.outer_size)
+    solid = 1.0 - filled(case, scene)
     strain, work = loading["strain"], loading["work_in_J"]
     within = work[-1] if strain[-1] <= solid else np.interp(solid, strain, work)
-    height = frames["position_m"][..., 2].max(axis=1)
+    height = np.ptp(frames["position_m"][..., 2], axis=1)
     return {
         "residual_strain": float(1.0 - height[-1] / height[0]),
         "least_element_strain": float(least.min()),

@@ -2,7 +2,8 @@
 
 s and z follow the sides of the quad. With the metric A of the rest shape in (s, z), the axes
 
-    t1 = a x,s,   t2 = b x,s + c x,z,   a = A11^(-1/2),   c = (A11 / det A)^(1/2),   b = -c A12 / A11
+    t1 = a x,s,   t2 = b x,s + c x,z
+    a = A11^(-1/2),   c = (A11 / det A)^(1/2),   b = -c A12 / A11
 
 are orthonormal there. A tensor m, as (m11, m22, m12), has in these axes the components P m,
 

@@ -7,8 +7,8 @@ share its nodes, each with directors of its own, so that a joint needs no constr
 
 In an element with sides of the lengths h_s and h_z at rest, x and d are bilinear in s and z along
 these. In a flat rectangle s and z are arc lengths; in any other quad the measures are turned from
-(s, z) to axes that are orthonormal at rest (`axes`). With p = (x,s; d,s; x,z; d,z) at a Gauss point each strain measure of `layers` is
-p . M_k p / 2, so that an energy U of the measures m has
+(s, z) to axes that are orthonormal at rest (`axes`). With p = (x,s; d,s; x,z; d,z) at a Gauss point
+each strain measure of `layers` is p . M_k p / 2, so that an energy U of the measures m has
 
     dU/dp = R p,   d2U/dp2 = R + sum over k, l of (M_k p) d2U/dm_k dm_l (M_l p)
 
@@ -192,8 +192,9 @@ def _measure(p, m):
 
 @jit
 def _strain(scratch, shell, e, g):
-    """Set the measures of Gauss point ``g`` less those at rest, of arcs, in orthonormal axes; return
-    those of chords that the derivatives of `bow` need.
+    """Set the measures of Gauss point ``g`` less those at rest, of arcs, in orthonormal axes.
+
+    Return those of chords that the derivatives of `bow` need.
     """
     _derive(scratch.q, scratch.grid[g], scratch.p)
     _measure(scratch.p, scratch.measure)

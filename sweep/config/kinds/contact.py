@@ -4,7 +4,6 @@ from typing import ClassVar, Literal
 
 from sweep.config.kinds.cells import TIED
 from sweep.config.kinds.crush import Crush
-from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.solver import ARCS
@@ -98,8 +97,8 @@ def _reference_speed(loading: Loading) -> float:
 def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosition:
     """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
     key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
-    if loading.along:
-        raise RefusedError(key, model, f'"barrier" or "none" {WHERE}')
+    if pressed.shells:
+        raise RefusedError(key, model, f'"barrier" or "none" {pressed.where}')
     if loading.quasi_static:
         raise RefusedError(key, model, f"{allowed}loading.quasi_static")
     if isinstance(loading, Impact) and loading.target_mass is not None:

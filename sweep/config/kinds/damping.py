@@ -2,9 +2,8 @@
 
 from typing import Any, ClassVar, Literal
 
-from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.table import Given, Lag, Pairs, Rate, RefusedError, Table, chosen
 
 
@@ -38,12 +37,12 @@ class KelvinVoigt(Table):
 Damping = NoDamping | Rayleigh | KelvinVoigt
 
 
-def damping(values: Given | Pairs, loading: Loading, relaxes: bool) -> Damping:
-    """The damping of these values; along the cells there is none."""
+def damping(values: Given | Pairs, loading: Loading, pressed: Pressed, relaxes: bool) -> Damping:
+    """The damping of these values; shells have none."""
     given = dict(values)
-    model = given.get("model", "none" if relaxes or loading.along else "rayleigh")
-    if loading.along and model != "none":
-        raise RefusedError("damping.model", model, f'"none" {WHERE}')
+    model = given.get("model", "none" if relaxes or pressed.shells else "rayleigh")
+    if pressed.shells and model != "none":
+        raise RefusedError("damping.model", model, f'"none" {pressed.where}')
     if loading.quasi_static or model == "none":
         return NoDamping()
     if model == "rayleigh":

@@ -8,7 +8,7 @@ from pydantic import Field
 from sweep.config.kinds.cells import ENDLESS, TIED
 from sweep.config.kinds.crush import Crush, crush, mean_crush
 from sweep.config.kinds.dead_load import DeadLoad, dead_load
-from sweep.config.kinds.direction import WHERE, is_along
+from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import DROP, Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
@@ -24,19 +24,33 @@ PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
 class Pressed(NamedTuple):
-    """What a loading presses: height and width (m), a custom structure, whether it is endless, and
-    whether its sides are tied to each other.
+    """What a loading presses: its height (m), whether along the cells; a custom structure; whether
+    it is endless, whether its sides are tied to each other; its width (m); the name of a sheet.
     """
 
     height: float
+    along: bool
     structure: Structure | None = None
     endless: bool = False
     tied: bool = False
     width: float = inf
+    sheet: str = ""
+
+    @property
+    def shells(self) -> bool:
+        """Whether the walls are shells in space."""
+        return self.along or bool(self.sheet)
+
+    @property
+    def where(self) -> str:
+        """Why they are, as part of a sentence."""
+        return f'if lattice.kind is "{self.sheet}"' if self.sheet else WHERE
 
     @property
     def unending(self) -> str:
         """Why there is no middle of the lattice to strike; nothing if there is one."""
+        if self.sheet:
+            return self.where
         return ENDLESS if self.endless else TIED if self.tied else ""
 
 
@@ -45,10 +59,9 @@ def loading(
 ) -> Loading:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
     given = dict(values)
-    along = is_along(given)
-    if pressed.structure is not None and not along:
+    if pressed.structure is not None and not pressed.along:
         return of_file(given, pressed.structure, integrator)
-    mode = mode_of(given)
+    mode = mode_of(given, pressed.shells)
     _check(given, mode, pressed, integrator)
     given = struck(given, pressed.width, pressed.unending)
     if pressed.endless:
@@ -60,8 +73,10 @@ def loading(
     return crush(given, pressed.height, integrator, relaxes)
 
 
-def mode_of(given: Given) -> str:
-    """The mode, which keys that only one mode has imply if it is not given."""
+def mode_of(given: Given, shells: bool) -> str:
+    """The mode, which keys that only one mode has imply if it is not given; else a dead load, and
+    of shells a crush.
+    """
     if "mode" in given:
         words = [*(mode_word(kind) for kind in BY_MODE), DROP]
         if given["mode"] not in (*words, "custom"):
@@ -73,7 +88,7 @@ def mode_of(given: Given) -> str:
         (one, key), (other, also) = list(implied.items())[:2]
         keys = f"as loading.{key} needs the one and loading.{also} the other"
         raise RefusedError("loading.mode", None, f'"{one}" or "{other}", {keys}')
-    usual = "displacement" if is_along(given) else "force"
+    usual = "displacement" if shells else "force"
     return next(iter(implied), usual)
 
 
@@ -97,15 +112,15 @@ def _implied(given: Given) -> dict[str, str]:
 
 def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) -> None:
     """Refuse a mode, an integrator or platens that the lattice or the direction does not have."""
-    along, since = is_along(given), _implied(given).get(mode)
+    shells, since = pressed.shells, _implied(given).get(mode)
     because = f"loading.{since}" if since else None
-    if along and mode not in ("displacement", "impact"):
-        raise RefusedError("loading.mode", mode, f"{MODES} {WHERE}", because)
+    if shells and mode not in ("displacement", "impact"):
+        raise RefusedError("loading.mode", mode, f"{MODES} {pressed.where}", because)
     if mode == "custom":
         allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
         raise RefusedError("loading.mode", "custom", allowed)
     if integrator == ARCS:
-        unless = "" if along else ', unless lattice.kind is "custom"'
+        unless = "" if shells else ', unless lattice.kind is "custom"'
         allowed = f'"static" where quasi-static, else {IN_TIME}{unless}'
         raise RefusedError("solver.integrator", ARCS, allowed)
     if pressed.endless and mode != "displacement":
@@ -113,11 +128,16 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
         raise RefusedError("loading.mode", mode, allowed, because)
     platen = given.get("platen")
     if pressed.tied and "target_mass" in given:
-        raise RefusedError("loading.target_mass", given["target_mass"], f"none {TIED}")
-    if pressed.tied and platen in (None, "none") and (platen or mode == "force"):
+        raise RefusedError("loading.target_mass", given["target_mass"], f"none {pressed.unending}")
+    if (
+        pressed.tied
+        and not pressed.sheet
+        and platen in (None, "none")
+        and (platen or mode == "force")
+    ):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
-    if along and platen not in (None, "glued", "clamped", "contact"):
-        raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {WHERE}")
-    if not along and not pressed.endless and platen == "clamped":
+    if shells and platen not in (None, "glued", "clamped", "contact"):
+        raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {pressed.where}")
+    if not shells and not pressed.endless and platen == "clamped":
         allowed = f'{PLATENS_ACROSS} if loading.direction is "in_plane"'
         raise RefusedError("loading.platen", platen, allowed)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.table import RefusedError
 from sweep.constants import MM, TO_MM
@@ -25,7 +26,7 @@ def what_does_not_print(lattice: Lattice) -> str:
 
     The walls of a slicer are lines. Of a custom structure gaps are not known.
     """
-    width = lattice.nozzle if isinstance(lattice, CustomStructure) else _line_width(lattice)
+    width = _line_width(lattice)
     walls = [thickness / width for thickness in _thicknesses(lattice)]
     uneven = [lines for lines in walls if abs(lines - max(1, round(lines))) > TOLERANCE]
     wrong = [f"walls of {_span(uneven)} lines"] if uneven else []
@@ -35,8 +36,9 @@ def what_does_not_print(lattice: Lattice) -> str:
     return " and ".join(wrong) + (f" of {TO_MM * width:g} mm" if wrong else "")
 
 
-def _line_width(lattice: Cells | Sliced) -> float:
-    return lattice.line_width or lattice.nozzle
+def _line_width(lattice: Lattice) -> float:
+    lined = isinstance(lattice, Cells | Sliced)
+    return lattice.line_width or lattice.nozzle if lined else lattice.nozzle
 
 
 def _span(lines: Sequence[float]) -> str:
@@ -49,6 +51,8 @@ def _thicknesses(lattice: Lattice) -> list[float]:
     match lattice:
         case Sliced():
             return []
+        case Sheet():
+            return [lattice.wall_thickness]
         case CustomStructure(structure=structure):
             return [MM * thickness for thickness in structure.thickness_mm]
         case Cells(grading=1.0):
@@ -61,7 +65,7 @@ def _thicknesses(lattice: Lattice) -> list[float]:
 def _gap(lattice: Lattice) -> float | None:
     """Clear width of the narrowest cell, m; beside the double walls of a printed honeycomb."""
     match lattice:
-        case CustomStructure():
+        case CustomStructure() | Sheet():
             return None
         case Sliced():
             double = lattice.printed_as.wall > 1.0

@@ -60,6 +60,11 @@ class Specimen(Table):
         return False
 
     @property
+    def sheet(self) -> str:
+        """The name of the surface that it is; empty if it is drawn with lines."""
+        return ""
+
+    @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
         return 0.0, 0.0

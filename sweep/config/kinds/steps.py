@@ -24,11 +24,14 @@ IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
 class Extent(NamedTuple):
-    """What is pressed: its height and its diagonal in m, and its compliance in m/N if solid."""
+    """What is pressed: its height and its diagonal in m, its compliance in m/N if solid, and
+    whether its walls are shells in space.
+    """
 
     height: float
     diagonal: float
     compliance: float
+    shells: bool
 
 
 def solver(
@@ -46,7 +49,7 @@ def solver(
     if remembers and given.get("integrator") == ARCS:  # its unstable part is no motion
         allowed = f'"static" or {IN_TIME} if the material has a memory'
         raise RefusedError("solver.integrator", ARCS, allowed)
-    if loading.along:
+    if extent.shells:
         settings = ALONG | {key: value for key, value in given.items() if key not in IDLE_ALONG}
     arcs = settings.get("integrator") == ARCS
     if "step_error" in settings and (loading.quasi_static or arcs):
@@ -67,7 +70,7 @@ def _steps(
 ) -> InTime | Static:
     if loading.quasi_static:
         by_accuracy = isinstance(loading, Crush) and "load_steps" not in settings
-        steps = BY_ACCURACY_ALONG if loading.along else BY_ACCURACY
+        steps = BY_ACCURACY_ALONG if extent.shells else BY_ACCURACY
         made = (steps if by_accuracy else {}) | chosen(settings, Static)
         if "accuracy" in made and not isinstance(loading, Crush):
             allowed = "none for loads of a file, which grow in equal load_steps"
@@ -135,12 +138,12 @@ def _check_count(made: Solver, loading: Loading, time_step: float | None) -> Non
     raise RefusedError("solver.time_step", given_or(time_step, step), allowed)
 
 
-def in_the_plane(made: Solver, material: Material, loading: Loading) -> Solver:
+def in_the_plane(made: Solver, material: Material, loading: Loading, shells: bool) -> Solver:
     """The solver of a lattice in the plane, with its joints; what its bending lacks is refused.
 
     Joints are solid for cubic elements of a lattice.
     """
-    if loading.along:
+    if shells:
         return made
     if material.bend == "none" and not isinstance(made, InTime):
         allowed = f'"linear", "section" or "fibres" if solver.integrator is "{made.integrator}"'

@@ -85,8 +85,8 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return 'material.plane is "stress"'
     if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied):
         return "the lattice repeats"
-    if case.along and key in IDLE_ALONG:
-        return f'loading.direction is "{case.loading.direction}"'
+    if case.shells and key in IDLE_ALONG:
+        return _why_shells(case)
     if case_value == given[key] or _used_otherwise(key, case_value, given, case):
         return ""
     implied = getattr(case, table).implies(name, given[key])
@@ -148,9 +148,16 @@ def _is_crush(case: Case) -> bool:
     return isinstance(case.loading, Crush)
 
 
+def _why_shells(case: Case) -> str:
+    """Why the walls of a case are shells."""
+    if case.lattice.sheet:
+        return f'lattice.kind is "{case.lattice.sheet}"'
+    return f'loading.direction is "{case.loading.direction}"'
+
+
 def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
-    if case.along:
-        return f'loading.direction is "{case.loading.direction}"'
+    if case.shells:
+        return _why_shells(case)
     if case.loading.quasi_static:
         return "the crush is quasi-static"
     if "damping.model" not in given:
@@ -159,6 +166,8 @@ def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
 
 
 def _reason_in_lattice(key: str, case: Case) -> str:
+    if case.lattice.sheet and key != "lattice.imperfection_seed":
+        return f'lattice.kind is "{case.lattice.sheet}", one period of which is computed'
     if key in ONLY_ALONG and not case.along:
         return 'loading.direction is "in_plane"'
     if key == "lattice.imperfection_seed":

@@ -1,5 +1,5 @@
 """Sheets that divide space into two equal parts: level surfaces of periodic functions.
 
-`level_set` has the functions, `nets` a net of quads on one of them between two planes, `net_quality`
-what its quads look like.
+`names` has the sheets and where a panel may be cut from them, `level_set` the functions, `nets` a
+net of quads between two planes, `panel` that of a sheet.
 """

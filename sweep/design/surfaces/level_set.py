@@ -4,8 +4,8 @@
     primitive cos x + cos y + cos z                                   (Schwarz P)
     diamond   cos x cos y cos z - sin x sin y sin z                   (Schwarz D)
 
-each in phases of 2 pi a period (K. Michielsen and J. Kole, Phys. Rev. B 68, 2003). Slicers print the
-first as "gyroid", and the third, of half the period, as "TPMS-D".
+each in phases of 2 pi a period (K. Michielsen and J. Kole, Phys. Rev. B 68, 2003). Slicers print
+the first as "gyroid".
 """
 
 from collections.abc import Callable
@@ -18,13 +18,10 @@ Floats = NDArray[np.float64]
 
 
 class LevelSet(NamedTuple):
-    """value: (n,) at phases (n, 3); gradient: (n, 3) there. area: of its zero level in a period, in
-    units of the squared period, from a fine net.
-    """
+    """value: (n,) at phases (n, 3); gradient: (n, 3) there."""
 
     value: Callable[[Floats], Floats]
     gradient: Callable[[Floats], Floats]
-    area: float
 
 
 def _gyroid(p: Floats) -> Floats:
@@ -56,8 +53,8 @@ def _diamond_gradient(p: Floats) -> Floats:
 
 
 LEVEL_SETS = {
-    "gyroid": LevelSet(_gyroid, _gyroid_gradient, 3.0915),
-    "primitive": LevelSet(_primitive, _primitive_gradient, 2.3517),
-    "diamond": LevelSet(_diamond, _diamond_gradient, 3.8387),
+    "gyroid": LevelSet(_gyroid, _gyroid_gradient),
+    "primitive": LevelSet(_primitive, _primitive_gradient),
+    "diamond": LevelSet(_diamond, _diamond_gradient),
 }
 """By name."""

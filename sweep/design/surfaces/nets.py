@@ -21,11 +21,11 @@ from sweep.design.surfaces.level_set import Floats, LevelSet
 
 Ints = NDArray[np.int64]
 
-ROUNDS = 60  # of smoothing
+ROUNDS = 30  # of smoothing
 STRIDE = 0.5  # share of the way to the mean of the neighbours, in a round
-NEWTON = 8  # steps back to the surface, from less than a cell away
+NEWTON = 4  # steps back to the surface after a move
 LONGEST = 0.3  # such a step, in cells
-PLACES = tuple(product((0.13, 0.38, 0.63, 0.88), repeat=2))  # of the box, in cells
+PLACES = tuple(product((0.13, 0.63), repeat=2))  # of the box, in cells
 AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from the last of these
 
 

@@ -62,6 +62,13 @@ class PlateMesh:
         return self.own
 
     @property
+    def smooth_corners(self) -> Ints:
+        """A number for each pair of a node and a wall, by corner of the quads, (m, 4)."""
+        pairs = self.quads * len(self.plan.walls) + self.wall[:, None]
+        _, place = np.unique(pairs, return_inverse=True)
+        return np.asarray(place.reshape(self.quads.shape))
+
+    @property
     def copies(self) -> int:
         """Equal parts of the whole, of which this is one."""
         return self.plan.copies

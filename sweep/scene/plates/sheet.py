@@ -6,11 +6,13 @@ area, so that each pair of surfaces counts once.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
+from sweep.config.kinds.sheet import Sheet
 from sweep.design.surfaces.nets import Net
+from sweep.design.surfaces.panel import net_of
 from sweep.scene.mesh import Floats, Ints
 
 AROUND = 0.5  # of a period: how far images of triangles stand around it
@@ -24,14 +26,15 @@ class SheetMesh:
 
     net: of the period. rest (n, 3): nodes at rest, m. frames (n, 9): axes of each node at rest as
     columns of a matrix, row by row: horizontal, rising, normal. original (n,): the node of which a
-    node is an image, or itself. quads (m, 4) with their thickness (m,) in m. triangles (k, 3): of
-    the quads, then of their images.
+    node is an image, or itself; shift (n, 2): by how many periods along x and y it is moved. quads
+    (m, 4) with their thickness (m,) in m. triangles (k, 3): of the quads, then of their images.
     """
 
     net: Net
     rest: Floats
     frames: Floats
     original: Ints
+    shift: Ints
     quads: Ints
     thickness: Floats
     triangles: Ints
@@ -60,6 +63,22 @@ class SheetMesh:
     def own(self) -> Ints:
         """Nodes of the period."""
         return np.arange(len(self.net.points))
+
+    @property
+    def shown(self) -> Ints:
+        """Nodes of the quads: those of the period, and the first images."""
+        return np.arange(int(self.quads.max()) + 1)
+
+    @property
+    def smooth_corners(self) -> Ints:
+        """The number of the original of each corner of the quads, (m, 4)."""
+        return np.asarray(self.original[self.quads])
+
+    def with_images(self, shown: Floats) -> Floats:
+        """Positions (f, n, 3) of all nodes from those of the nodes that are ``shown``."""
+        positions = shown[:, self.original]
+        positions[..., :2] += self.shift * self.net.box.size[:2]
+        return positions
 
     @property
     def flat(self) -> np.ndarray:
@@ -119,6 +138,19 @@ class SheetMesh:
         return shared.astype(np.float64)
 
 
+@lru_cache(maxsize=16)
+def mesh_of_sheet(lattice: Sheet) -> SheetMesh:
+    """The mesh of a sheet."""
+    net = net_of(
+        lattice.kind,
+        lattice.pressed,
+        lattice.period,
+        lattice.pressed_height,
+        lattice.quads_per_period,
+    )
+    return build_sheet(net, np.full(len(net.quads), lattice.wall_thickness))
+
+
 def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     """The mesh of a net whose quads have this thickness (m,) in m."""
     period, n = net.box.size[:2], len(net.points)
@@ -127,19 +159,27 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
     node = np.concatenate([net.quads[rows] for rows in near])
     key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
-    images, number = np.unique(key[key[:, 1:].any(axis=1)], axis=0, return_inverse=True)
-    corner = key[:, 0].copy()
-    corner[key[:, 1:].any(axis=1)] = n + number.ravel()
-    quads = corner.reshape(-1, 4)
-    original = np.concatenate([np.arange(n), images[:, 0]])
+    own = np.column_stack([np.arange(n), np.zeros((n, 2), np.int64)])
+    nodes, corner = _numbered(np.concatenate([own, key]))
+    quads = corner[n:].reshape(-1, 4)
+    original, shift = nodes[:, 0], nodes[:, 1:]
     rest = net.points[original]
-    rest[n:, :2] += images[:, 1:] * period
+    rest[:, :2] += shift * period
     cut = np.concatenate([_shorter(net.corners)[rows] for rows in near])
     frames = _frames(net.normals)
     return SheetMesh(
-        net, rest, frames[original], original, quads[: len(net.quads)], thickness,
+        net, rest, frames[original], original, shift, quads[: len(net.quads)], thickness,
         _triangles(quads, cut),
     )  # fmt: skip
+
+
+def _numbered(keys: Ints) -> tuple[Ints, Ints]:
+    """Distinct rows of ``keys`` (k, 3) in the order of their first places; their numbers (k,)."""
+    rows, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), np.int64)
+    rank[order] = np.arange(len(order))
+    return rows[order], rank[number.ravel()]
 
 
 def _near(net: Net, shift: Ints) -> np.ndarray:

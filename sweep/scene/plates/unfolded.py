@@ -6,6 +6,7 @@ import numpy as np
 
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.mesh import PlateMesh
+from sweep.scene.plates.sheet import SheetMesh
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,16 @@ class Unfolded:
         return whole
 
 
-def unfolded(mesh: PlateMesh) -> Unfolded:
-    """The whole of a mesh. Images of a node on a mirror plane are one node."""
+def unfolded(mesh: PlateMesh | SheetMesh) -> Unfolded:
+    """The whole of a mesh. Images of a node on a mirror plane are one node; of a sheet, the whole
+    is its period.
+    """
     n, m = mesh.n_nodes, len(mesh.quads)
+    if isinstance(mesh, SheetMesh):
+        shown, nowhere = mesh.shown, np.full(2, np.inf)
+        none = np.zeros((len(shown), 2), np.bool_)
+        own = mesh.triangles[: 2 * m]
+        return Unfolded(nowhere, shown, none, mesh.quads, np.arange(m), own)
     if mesh.plan.copies == 1:
         none = np.zeros((n, 2), np.bool_)
         return Unfolded(

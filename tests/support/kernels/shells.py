@@ -129,7 +129,7 @@ def smooth(
     modulus: float = MODULUS,
     poisson: float = 0.5,
 ) -> Structure:
-    """Quads of a smooth surface with these ``normals`` (n, 3), to the side of those of the quads."""
+    """Quads of a smooth surface with ``normals`` (n, 3) to the side of those of the quads."""
     aside = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
     one = np.cross(aside, normals)
     one /= np.linalg.norm(one, axis=1)[:, None]

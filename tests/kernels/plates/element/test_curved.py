@@ -109,7 +109,9 @@ def test_an_element_does_not_depend_on_its_first_corner():
     of = saddle(grid=(1, 1))
     x, whole = shaken(of, 3, 0.1, 0.1), []
     for first in range(4):
-        other = smooth(of.points, of.frames.reshape(-1, 3, 3)[:, :, 2], np.roll(of.walls.quads, first, 1))
+        other = smooth(
+            of.points, of.frames.reshape(-1, 3, 3)[:, :, 2], np.roll(of.walls.quads, first, 1)
+        )
         whole.append(stored(Structure(of.points, of.frames, other.walls), x).sum())
     np.testing.assert_allclose(whole, whole[0], rtol=1e-12)
 

@@ -1,0 +1,28 @@
+"""The net of one period of a panel: a box of a level surface, as `names.Cut` lays it."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from sweep.design.surfaces.level_set import LEVEL_SETS
+from sweep.design.surfaces.names import SHEETS
+from sweep.design.surfaces.nets import Box, Net, best_net
+
+DIAGONAL = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, np.sqrt(2.0)], [1.0, 1.0, 0.0]]) / np.sqrt(2.0)
+"""Axes x, y, z of a box that is turned, in those of the surface, row by row."""
+
+
+@lru_cache(maxsize=16)
+def net_of(name: str, direction: str, period: float, height: float, quads: int) -> Net:
+    """The net of a sheet of `names.SHEETS`, of ``quads`` a period.
+
+    direction: `loading.direction`. period, height: m. Along z of the net the sheet is pressed.
+    """
+    sheet = SHEETS[name]
+    cut = sheet.cuts[direction]
+    size = np.array([cut.across * period, cut.along * period, height])
+    axes = DIAGONAL if cut.turned else np.eye(3)
+    phase = 2.0 * np.pi / period * axes.T
+    box = Box(LEVEL_SETS[sheet.level], size, phase, phase[:, 2] * cut.start * period)
+    across, along, up = (max(round(quads * side / period), 2) for side in size)
+    return best_net(box, (across, along, up))
