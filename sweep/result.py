@@ -79,6 +79,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
     from sweep.config.defaults.slicer_settings import slicer_settings
     from sweep.config.kinds.printable import what_does_not_print
     from sweep.config.kinds.sliced import Sliced
+    from sweep.config.kinds.sliced_sheet import SlicedSheet
 
     lattice, loading = case.lattice, case.loading
     return {
@@ -86,7 +87,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
         "cells_x": lattice.cells_x,
         "cells_y": lattice.cells_y,
         "wall_thickness_m": lattice.wall_thickness,
-        "infill_share": lattice.infill if isinstance(lattice, Sliced) else nan,
+        "infill_share": lattice.infill if isinstance(lattice, Sliced | SlicedSheet) else nan,
         "slicer_settings": str(slicer_settings(lattice) or ""),
         "does_not_print": what_does_not_print(lattice),
         "sides": sides_of(case),

@@ -31,8 +31,9 @@ from sweep.config.kinds.lattice import Lattice, kind_of
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.printable import check_printable
-from sweep.config.kinds.sheet import Sheet, sheet
+from sweep.config.kinds.sheet import Sheet, Surface, sheet
 from sweep.config.kinds.sliced import Sliced, sliced
+from sweep.config.kinds.sliced_sheet import sliced_sheet
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
@@ -204,7 +205,7 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    shells = along or kind_of(dict(pairs["lattice"])) is Sheet
+    shells = along or issubclass(kind_of(dict(pairs["lattice"])), Surface)
     material = draft.add("material", materials.material, pairs["material"], shells)
     density = material.density if material else None
     lattice = None
@@ -316,8 +317,8 @@ def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
     given = dict(values)
     made: Lattice
     kind = kind_of(given)
-    if kind is Sheet:
-        made = sheet(given, density, along)
+    if issubclass(kind, Surface):
+        made = sheet(given, density, along) if kind is Sheet else sliced_sheet(given, along)
         check_printable(made)
         return made
     if kind is CustomStructure:

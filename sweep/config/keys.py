@@ -23,6 +23,7 @@ from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import TABLES, Table
 from sweep.config.materials.material_file import available
@@ -32,7 +33,7 @@ from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
-    "lattice": (Cells, Sliced, Sheet, CustomStructure),
+    "lattice": (Cells, Sliced, Sheet, SlicedSheet, CustomStructure),
     "material": (Material,),
     "loading": BY_MODE,
     "contact": (Barrier,),
@@ -42,6 +43,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 """The kinds of a table, whose keys a config may set."""
 
 CHOICES: dict[str, Any] = {
+    "lattice.pattern": str,
     "lattice.kind": Literal[*families(), *SHEETS, CUSTOM],
     "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
     "loading.direction": Direction,

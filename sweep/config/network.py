@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.sheet import Surface
 from sweep.constants import MM
 
 if TYPE_CHECKING:
@@ -13,7 +14,11 @@ if TYPE_CHECKING:
 
 
 def network_of(lattice: Lattice) -> Network:
-    """Centre lines and thickness of the walls, m; those of a file have no bottom and top rows."""
+    """Centre lines and thickness of the walls, m; those of a file have no bottom and top rows.
+
+    Not of a sheet, which is not drawn with lines.
+    """
+    assert not isinstance(lattice, Surface)
     import numpy as np
 
     from sweep.design.lattice import build_network

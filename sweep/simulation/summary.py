@@ -9,6 +9,7 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import given_or
 from sweep.design.slicer.network import extruded_area
 from sweep.numbers import in_unit
@@ -192,6 +193,8 @@ def _shape_columns(
 def printed_mass(case: Case) -> float:
     """Mass as a slicer extrudes it, g; NaN without a slicer."""
     lattice = case.lattice
+    if isinstance(lattice, SlicedSheet):
+        return in_unit(case.material.density * lattice.extruded, "g")
     if not isinstance(lattice, Sliced):
         return np.nan
     volume = lattice.depth * extruded_area(lattice.geometry)

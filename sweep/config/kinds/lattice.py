@@ -8,6 +8,7 @@ from sweep.config.kinds.cells import CUSTOM, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.sliced_sheet import GYROID, SlicedSheet
 from sweep.config.kinds.table import Given
 from sweep.design.surfaces.names import SHEETS
 
@@ -16,7 +17,7 @@ def _kind(value: Any) -> str:
     """The kind of a lattice, or of its values."""
     fields = value if isinstance(value, dict) else getattr(value, "__dict__", {})
     if "period" in fields:
-        return "sheet"
+        return "sliced_sheet" if "slicer" in fields else "sheet"
     return "custom" if "structure" in fields else "sliced" if "slicer" in fields else "cells"
 
 
@@ -24,15 +25,16 @@ Lattice = Annotated[
     Annotated[Cells, Tag("cells")]
     | Annotated[Sliced, Tag("sliced")]
     | Annotated[Sheet, Tag("sheet")]
+    | Annotated[SlicedSheet, Tag("sliced_sheet")]
     | Annotated[CustomStructure, Tag("custom")],
     Discriminator(_kind),
 ]
 
 
-def kind_of(given: Given) -> type[Cells | Sliced | Sheet | CustomStructure]:
+def kind_of(given: Given) -> type[Cells | Sliced | Sheet | SlicedSheet | CustomStructure]:
     """The kind of lattice that values mean."""
     if given.get("kind") == CUSTOM:
         return CustomStructure
-    if given.get("kind") in SHEETS and given.get("slicer") is None:
-        return Sheet
-    return Cells if given.get("slicer") is None else Sliced
+    if given.get("slicer") is None:
+        return Sheet if given.get("kind") in SHEETS else Cells
+    return SlicedSheet if given.get("pattern") == GYROID else Sliced

@@ -5,8 +5,9 @@ from collections.abc import Sequence
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
-from sweep.config.kinds.sheet import Sheet
+from sweep.config.kinds.sheet import Sheet, Surface
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import RefusedError
 from sweep.constants import MM, TO_MM
 
@@ -37,8 +38,9 @@ def what_does_not_print(lattice: Lattice) -> str:
 
 
 def _line_width(lattice: Lattice) -> float:
-    lined = isinstance(lattice, Cells | Sliced)
-    return lattice.line_width or lattice.nozzle if lined else lattice.nozzle
+    if isinstance(lattice, CustomStructure | Sheet):
+        return lattice.nozzle
+    return lattice.line_width or lattice.nozzle
 
 
 def _span(lines: Sequence[float]) -> str:
@@ -50,6 +52,8 @@ def _thicknesses(lattice: Lattice) -> list[float]:
     """Thicknesses of the walls of the infill that have to be whole numbers of lines, m."""
     match lattice:
         case Sliced():
+            return []
+        case SlicedSheet():
             return []
         case Sheet():
             return [lattice.wall_thickness]
@@ -65,7 +69,7 @@ def _thicknesses(lattice: Lattice) -> list[float]:
 def _gap(lattice: Lattice) -> float | None:
     """Clear width of the narrowest cell, m; beside the double walls of a printed honeycomb."""
     match lattice:
-        case CustomStructure() | Sheet():
+        case CustomStructure() | Surface():
             return None
         case Sliced():
             double = lattice.printed_as.wall > 1.0

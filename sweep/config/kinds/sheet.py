@@ -7,7 +7,7 @@ from sweep.config.kinds.direction import ACROSS, ALONG, Direction
 from sweep.config.kinds.specimen import Nodes, Specimen
 from sweep.config.kinds.table import Given, Length, Mass, RefusedError, chosen
 from sweep.constants import TO_MM
-from sweep.design.surfaces.names import SHEETS, Cut
+from sweep.design.surfaces.names import SHEETS
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
 CELL_SIZE = 0.5  # of the height pressed: two periods
@@ -16,48 +16,41 @@ LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 
 
-class Sheet(Specimen):
-    """A periodic minimal surface of one thickness, layers stacked along `depth`.
+class Surface(Specimen):
+    """A periodic surface as a sheet, layers stacked along `depth`.
 
-    The panel repeats without end along its sides: one period of it is computed, whose `period`
-    does not change. The height pressed is a whole number of quarters of the period (of the
-    diagonal of two periods across the layers); `cell_size` is the period wanted. `mass` is that of
-    what is computed, and sets the wall thickness.
+    The panel repeats without end along its sides: one period of it is computed, whose size does not
+    change. `period` (m) is that of the surface; the height pressed is a whole number of
+    `names.Cut.step` of it.
     """
 
-    because: ClassVar[str] = "lattice.kind is a sheet, one period of which is computed"
-    labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
     cells_x: ClassVar[int] = 1
 
-    kind: Literal["gyroid", "schwarz_p", "schwarz_d"]
-    cell_size: Length | None = None
     period: Length
     pressed: Direction
-    mass: Mass | None = None
     nodes_per_wall: Nodes = QUADS
 
     def given(self) -> dict[str, Any]:
-        """The values from which this follows: one of height and depth, mass or wall thickness."""
+        """The values from which this follows: of height and depth the one pressed."""
         lateral = "height" if self.pressed == ALONG else "depth"
-        without = {lateral, "wall_thickness" if self.mass is not None else ""}
-        return {key: value for key, value in super().given().items() if key not in without}
+        return {key: value for key, value in super().given().items() if key != lateral}
+
+    @property
+    def sheet(self) -> str:
+        """The name of the surface."""
+        raise NotImplementedError
 
     @property
     def name(self) -> str:
         """The name of the surface."""
-        return self.kind
+        return self.sheet
 
     @property
     def tied(self) -> bool:
         """Its sides repeat."""
         return True
-
-    @property
-    def sheet(self) -> str:
-        """The name of the surface."""
-        return self.kind
 
     @property
     def pressed_height(self) -> float:
@@ -77,12 +70,7 @@ class Sheet(Specimen):
     @property
     def area(self) -> float:
         """Area of the sheet, m^2."""
-        return SHEETS[self.kind].area / self.period * self.width * self.height * self.depth
-
-    @property
-    def volume(self) -> float:
-        """Volume of the sheet, m^3."""
-        return self.wall_thickness * self.area
+        return SHEETS[self.sheet].area / self.period * self.width * self.height * self.depth
 
     @property
     def elements(self) -> int:
@@ -94,43 +82,80 @@ class Sheet(Specimen):
         """Cells of the grid of the mesh in a period."""
         return 2 * (self.nodes_per_wall + 1)
 
+
+class Sheet(Surface):
+    """A periodic minimal surface of one thickness.
+
+    `cell_size` is the period wanted; `mass`, that of what is computed, sets the wall thickness.
+    """
+
+    because: ClassVar[str] = "lattice.kind is a sheet, one period of which is computed"
+    labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
+
+    kind: Literal["gyroid", "schwarz_p", "schwarz_d"]
+    cell_size: Length | None = None
+    mass: Mass | None = None
+
+    def given(self) -> dict[str, Any]:
+        """The values from which this follows: the mass or the wall thickness."""
+        without = "wall_thickness" if self.mass is not None else ""
+        return {key: value for key, value in super().given().items() if key != without}
+
     @property
-    def cut(self) -> Cut:
-        """How its panel lies in the surface."""
-        return SHEETS[self.kind].cuts[self.pressed]
+    def sheet(self) -> str:
+        """The name of the surface."""
+        return self.kind
 
 
 def sheet(given: Given, density: float, along: bool) -> Sheet:
     """The sheet of these values; density (kg/m^3): of the material. along: whether it is pressed
     along the print axis.
     """
-    key, direction = ("depth", ALONG) if along else ("height", ACROSS)
-    height = given.get(key, Specimen.model_fields[key].default)
-    period = _period(given, SHEETS[given["kind"]].cuts[direction], height)
-    cut = SHEETS[given["kind"]].cuts[direction]
-    sides = {"width": cut.across * period, "height" if along else "depth": cut.along * period}
-    values = chosen(given, Sheet) | {key: height} | sides
-    made = Sheet.model_validate(values | {"period": period, "pressed": direction})
-    if made.nodes_per_wall > MOST_NODES:
-        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, f"at most {MOST_NODES}")
+    wanted = given.get("cell_size", CELL_SIZE * pressed_height(given, along))
+    sides = fitted(given["kind"], given, along, wanted)
+    made = Sheet.model_validate(chosen(given, Sheet) | sides)
     if made.mass is not None:
         made = _weighing(made, made.mass, given, density)
-    most = THICKEST * period
+    return checked(made)
+
+
+def pressed_height(given: Given, along: bool) -> float:
+    """The height that is pressed, m."""
+    key = "depth" if along else "height"
+    height: float = given.get(key, Specimen.model_fields[key].default)
+    return height
+
+
+def fitted(name: str, given: Given, along: bool, wanted: float) -> dict[str, Any]:
+    """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
+    the one ``wanted`` (m).
+    """
+    direction, height = ALONG if along else ACROSS, pressed_height(given, along)
+    cut = SHEETS[name].cuts[direction]
+    period = height / (cut.step * max(round(height / (cut.step * wanted)), 1))
+    if not LEAST <= period / wanted <= MOST:
+        most = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm at this height"
+        allowed = f"periods of {most}; {TO_MM * wanted:.4g} mm here"
+        raise RefusedError("lattice." + ("depth" if along else "height"), height, allowed)
+    across, pressed = ("height", "depth") if along else ("depth", "height")
+    return {
+        "width": cut.across * period,
+        across: cut.along * period,
+        pressed: height,
+        "period": period,
+        "pressed": direction,
+    }
+
+
+def checked(made: Any) -> Any:
+    """The sheet, if its mesh is not too fine and its walls are not too thick."""
+    if made.nodes_per_wall > MOST_NODES:
+        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, f"at most {MOST_NODES}")
+    most = THICKEST * made.period
     if made.wall_thickness >= most:
         allowed = f"below a fifth of the period, {most:.4g} m here"
         raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
     return made if made.imperfection else made.model_copy(update={"imperfection_seed": None})
-
-
-def _period(given: Given, cut: Cut, height: float) -> float:
-    """The period that fits a height, m, nearest to `cell_size`."""
-    size = given.get("cell_size", CELL_SIZE * height)
-    steps = max(round(height / (cut.step * size)), 1)
-    period = height / (cut.step * steps)
-    if not LEAST <= period / size <= MOST:
-        allowed = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm at this height"
-        raise RefusedError("lattice.cell_size", size, allowed)
-    return period
 
 
 def _weighing(made: Sheet, mass: float, given: Given, density: float) -> Sheet:

@@ -24,12 +24,13 @@ class Cut(NamedTuple):
 
 
 class SheetName(NamedTuple):
-    """A sheet. level: of `level_set`. area: in a period, in units of the squared period. cuts: by
-    `loading.direction`.
+    """A sheet. level: of `level_set`. In a period, from a net of 24 quads: area, in units of the
+    squared period; steep: mean of |n_xy|, n its unit normal. cuts: by `loading.direction`.
     """
 
     level: str
     area: float
+    steep: float
     cuts: dict[str, Cut]
 
 
@@ -37,6 +38,7 @@ SHEETS = {
     "gyroid": SheetName(
         "gyroid",
         3.0915,
+        0.7953,
         {
             "out_of_plane": Cut(0.0, 0.25),
             "in_plane": Cut(0.125 * ROOT, 0.25 * ROOT, ROOT, 1.0, True),
@@ -45,11 +47,13 @@ SHEETS = {
     "schwarz_p": SheetName(
         "primitive",
         2.3517,
+        0.8017,
         {"out_of_plane": Cut(0.0, 0.5), "in_plane": Cut(0.0, 0.5 * ROOT, ROOT, 1.0, True)},
     ),
     "schwarz_d": SheetName(
         "diamond",
         3.8387,
+        0.7939,
         {"out_of_plane": Cut(0.125, 0.25), "in_plane": Cut(0.0, 0.25 * ROOT, ROOT, 1.0, True)},
     ),
 }

@@ -89,6 +89,12 @@ class Net:
         return float(areas.min() / np.mean(np.linalg.norm(ahead, axis=2)) ** 2)
 
     @cached_property
+    def directions(self) -> Floats:
+        """Unit normals of the quads in their middles, (m, 3)."""
+        at = self.corners
+        return _unit(np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 1]))
+
+    @cached_property
     def area(self) -> Floats:
         """Area of each quad, of the triangles between its sides and its centre, (m,) m^2."""
         centre = self.corners.mean(axis=1, keepdims=True)

@@ -18,6 +18,7 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
@@ -154,6 +155,7 @@ def _mass(case: Case) -> float:
     if isinstance(lattice, CustomStructure):
         area = network_of(lattice).printed_area
     else:
+        assert not isinstance(lattice, Surface)  # a period, which `cli.optimize` refuses
         area = counted_area(lattice.geometry)
     return case.material.density * lattice.depth * area
 

@@ -55,7 +55,7 @@ def perturbed(design: Case) -> list[Corner]:
     fine = _with(design, _elements(design.lattice, 2))
     base = fine or _with(design, _elements(design.lattice, 1)) or design
     variants = {FINE: fine}
-    if not isinstance(base.lattice, CustomStructure):
+    if isinstance(base.lattice, Cells | Sliced):
         count = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
             height = layers(base.lattice, count, by) if count else {}
@@ -81,7 +81,7 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     share.
     """
     change = mesh(lattice, ratio)
-    if isinstance(lattice, CustomStructure):
+    if not isinstance(lattice, Cells | Sliced):
         return change
     return change | {"mass": None, "infill": None if isinstance(lattice, Cells) else lattice.infill}
 

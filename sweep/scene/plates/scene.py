@@ -11,7 +11,7 @@ from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
 from sweep.config.case import Case
-from sweep.config.kinds.sheet import Sheet
+from sweep.config.kinds.sheet import Surface
 from sweep.config.network import network_of
 from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
@@ -21,7 +21,7 @@ from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import PlateMesh, build_mesh
-from sweep.scene.plates.sheet import SheetMesh, mesh_of_sheet
+from sweep.scene.plates.sheet import SheetMesh, mesh_of_sheet, solid_of
 from sweep.scene.terms import driven_by, friction_of, heavy, roles, striker_of
 
 NONE = np.empty(0, np.int64)
@@ -74,9 +74,9 @@ class Scene:
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
     lattice = case.lattice
-    if isinstance(lattice, Sheet):
-        made = mesh_of_sheet(lattice)
-        return scene_of(case, made, None, case.material.density * lattice.volume)
+    if isinstance(lattice, Surface):
+        sheet = mesh_of_sheet(lattice)
+        return scene_of(case, sheet, None, case.material.density * solid_of(lattice, sheet))
     mesh, network = build_mesh(lattice), network_of(lattice)
     printed = mass(network, lattice.depth, case.material.density)
     return scene_of(case, mesh, network, printed)

@@ -10,7 +10,9 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from sweep.config.kinds.sheet import Sheet
+from sweep.config.kinds.direction import ALONG
+from sweep.config.kinds.sheet import Surface
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of
 from sweep.scene.mesh import Floats, Ints
@@ -139,23 +141,41 @@ class SheetMesh:
 
 
 @lru_cache(maxsize=16)
-def mesh_of_sheet(lattice: Sheet) -> SheetMesh:
+def mesh_of_sheet(lattice: Surface) -> SheetMesh:
     """The mesh of a sheet."""
     net = net_of(
-        lattice.kind,
+        lattice.sheet,
         lattice.pressed,
         lattice.period,
         lattice.pressed_height,
         lattice.quads_per_period,
     )
-    return build_sheet(net, np.full(len(net.quads), lattice.wall_thickness))
+    return build_sheet(net, _thickness(lattice, net))
+
+
+def solid_of(lattice: Surface, mesh: SheetMesh) -> float:
+    """Volume of a sheet, m^3: that of its mesh, less what that has more area than the surface."""
+    return float(mesh.volume.sum() * lattice.area / mesh.net.area.sum())
+
+
+def _thickness(lattice: Surface, net: Net) -> Floats:
+    """Thickness of each quad, (m,) in m."""
+    walls = np.full(len(net.quads), lattice.wall_thickness)
+    if not isinstance(lattice, SlicedSheet):
+        return walls
+    layers = 2 if lattice.pressed == ALONG else 1  # axis of the net across the layers
+    steep = np.sqrt(1.0 - net.directions[:, layers] ** 2)
+    return np.maximum(walls * steep, lattice.layer_height)
 
 
 def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     """The mesh of a net whose quads have this thickness (m,) in m."""
     period, n = net.box.size[:2], len(net.points)
     copies = [np.asarray(shift) for shift in SHIFTS]
-    near = [_near(net, shift) if shift.any() else np.ones(len(net.quads), bool) for shift in copies]
+    near = [
+        _near(net, shift) if np.any(shift != 0) else np.ones(len(net.quads), bool)
+        for shift in copies
+    ]
     place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
     node = np.concatenate([net.quads[rows] for rows in near])
     key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
@@ -186,8 +206,8 @@ def _near(net: Net, shift: Ints) -> np.ndarray:
     """Which quads are near the period if they are moved by ``shift`` (2,) periods, (m,)."""
     period = net.box.size[:2]
     at = net.corners[..., :2] + shift * period
-    inside = (at > -AROUND * period) & (at < (1.0 + AROUND) * period)
-    return np.asarray(inside.all(axis=2).any(axis=1))
+    inside = np.all((at > -AROUND * period) & (at < (1.0 + AROUND) * period), axis=2)
+    return np.asarray(np.any(inside, axis=1))
 
 
 def _shorter(corners: Floats) -> np.ndarray:
