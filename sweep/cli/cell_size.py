@@ -1,9 +1,14 @@
-"""What `lattice.cell_size` has become: whole numbers of cells, and their size."""
+"""What `lattice.cell_size` has become: whole numbers of cells, and their size; and the period of a
+sheet.
+"""
 
 from collections.abc import Iterable
 
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.direction import ALONG
+from sweep.config.kinds.sheet import Surface
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.numbers import in_unit, text_in
 
 
@@ -12,9 +17,19 @@ def cell_sentences(cases: Iterable[Case]) -> list[str]:
 
     "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)"
     """
-    lattices = (case.lattice for case in cases)
+    lattices = [case.lattice for case in cases]
     sized = (made for made in lattices if isinstance(made, Cells) and made.cell_size is not None)
-    return list(dict.fromkeys(map(_sentence, sized)))
+    sheets = (_of_sheet(made) for made in lattices if isinstance(made, Surface))
+    return list(dict.fromkeys([*map(_sentence, sized), *sheets]))
+
+
+def _of_sheet(made: Surface) -> str:
+    """A line such as "gyroid: 2 periods of 6.25 mm in a height of 12.5 mm, print axis pressed"."""
+    height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
+    count = f"{made.pressed_height / made.period:.4g} periods of {period}"
+    axis = "pressed" if made.pressed == ALONG else "across"
+    share = f", {100.0 * made.infill:.3g} %" if isinstance(made, SlicedSheet) else ""
+    return f"{made.sheet}{share}: {count} in a height of {height}, print axis {axis}"
 
 
 def _sentence(made: Cells) -> str:

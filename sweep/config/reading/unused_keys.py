@@ -12,6 +12,7 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
 from sweep.config.kinds.impact import DROP, Impact
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import ARCS
 from sweep.config.materials.material_file import locate, read_record
 
@@ -98,8 +99,10 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
     label; contact "auto" becomes the barrier, a "drop" an impact with gravity; the name of a file
-    is that without its folder.
+    is that without its folder; the share of a sheet is the nearest that fits.
     """
+    if key == "lattice.infill" and isinstance(case.lattice, SlicedSheet):
+        return True
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":

@@ -25,6 +25,8 @@ ROUNDS = 30  # of smoothing
 STRIDE = 0.5  # share of the way to the mean of the neighbours, in a round
 NEWTON = 4  # steps back to the surface after a move
 LONGEST = 0.3  # such a step, in cells
+GOOD = 0.3  # `Net.quality`
+MORE = sorted(product(range(3), repeat=3), key=sum)  # cells
 PLACES = tuple(product((0.13, 0.63), repeat=2))  # of the box, in cells
 AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from the last of these
 
@@ -104,16 +106,24 @@ class Net:
 
 
 def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
-    """The net of the best quads on a grid of so many cells along x, y and z.
+    """The first net of `GOOD` quads, else the best one, on a grid of about so many cells.
 
-    Where a node of the grid is nearly on the surface, quads can be slender. Nothing changes if the
-    box moves along x and y, so that `PLACES` of it are tried.
+    How a grid lies on the surface decides which quads meet at a node, and so how slender some of
+    them are. Nothing else changes if the box moves along x and y; up to one more cell along each
+    axis is tried, too.
     """
-    nets = []
-    for x, y in PLACES:
-        start = box.phase[:, :2] @ (np.array([x, y]) * box.size[:2] / np.array(cells[:2]))
-        nets.append(build_net(replace(box, origin=box.origin + start), cells))
-    return max(nets, key=lambda net: net.quality)
+    best = None
+    for more in MORE:
+        grid = (cells[0] + more[0], cells[1] + more[1], cells[2] + more[2])
+        for x, y in PLACES:
+            start = box.phase[:, :2] @ (np.array([x, y]) * box.size[:2] / np.array(grid[:2]))
+            net = build_net(replace(box, origin=box.origin + start), grid)
+            if net.quality > GOOD:
+                return net
+            if best is None or net.quality > best.quality:
+                best = net
+    assert best is not None
+    return best
 
 
 def build_net(box: Box, cells: tuple[int, int, int]) -> Net:
