@@ -21,7 +21,7 @@ class Surface(Specimen):
 
     The panel repeats without end along its sides: one period of it is computed, whose size does not
     change. `period` (m) is that of the surface; the height pressed is a whole number of
-    `names.Cut.step` of it.
+    `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
     """
 
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
@@ -155,7 +155,8 @@ def checked(made: Any) -> Any:
     if made.wall_thickness >= most:
         allowed = f"below a fifth of the period, {most:.4g} m here"
         raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
-    return made if made.imperfection else made.model_copy(update={"imperfection_seed": None})
+    seed = (made.imperfection_seed or 0) if made.imperfection else None
+    return made.model_copy(update={"imperfection_seed": seed})
 
 
 def _weighing(made: Sheet, mass: float, given: Given, density: float) -> Sheet:

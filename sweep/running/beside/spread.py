@@ -54,7 +54,7 @@ def corners(design: Case) -> list[Corner]:
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
     ]
-    if design.along and design.lattice.imperfection > 0.0:
+    if design.shells and design.lattice.imperfection > 0.0:
         candidates += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
     return [corner for corner in candidates if corner.case_id != design.case_id]
 

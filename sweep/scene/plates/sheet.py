@@ -5,7 +5,7 @@ Further images carry copies of triangles that the period may touch. An image has
 area, so that each pair of surfaces counts once.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -18,6 +18,7 @@ from sweep.design.surfaces.panel import net_of
 from sweep.scene.mesh import Floats, Ints
 
 AROUND = 0.5  # of a period: how far images of triangles stand around it
+WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
 VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is vertical
 SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
 
@@ -150,7 +151,28 @@ def mesh_of_sheet(lattice: Surface) -> SheetMesh:
         lattice.pressed_height,
         lattice.quads_per_period,
     )
-    return build_sheet(net, _thickness(lattice, net))
+    return build_sheet(bowed(net, lattice), _thickness(lattice, net))
+
+
+def bowed(net: Net, lattice: Surface) -> Net:
+    """The net with the imperfection of a sheet: nodes moved along their normals by
+
+        a sum g_ijk cos(2 pi (i x / p_x + j y / p_y) + f_ijk) sin(k pi z / H)
+
+    over i, j = -2 .. 2 and k = 1 .. 4, with standard normal numbers g and even phases f from
+    `lattice.imperfection_seed`; a is such that the root of the mean square of the bow over height
+    and phases is `lattice.imperfection` times the thickness.
+    """
+    if lattice.imperfection == 0.0:
+        return net
+    drawn = np.random.default_rng(lattice.imperfection_seed)
+    waves = np.stack(np.meshgrid(WAVES, WAVES, LAYERS, indexing="ij"), axis=-1).reshape(-1, 3)
+    number, phase = drawn.standard_normal(len(waves)), 2.0 * np.pi * drawn.random(len(waves))
+    share = net.points / net.box.size
+    across = np.cos(2.0 * np.pi * share[:, :2] @ waves[:, :2].T + phase)
+    bow = (across * np.sin(np.pi * share[:, 2:] * waves[:, 2])) @ number
+    size = lattice.imperfection * lattice.wall_thickness / np.sqrt(0.25 * (number**2).sum())
+    return replace(net, points=net.points + (size * bow)[:, None] * net.normals)
 
 
 def solid_of(lattice: Surface, mesh: SheetMesh) -> float:
