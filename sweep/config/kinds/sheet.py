@@ -26,6 +26,7 @@ class Surface(Specimen):
 
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
+    neutral: ClassVar[dict[str, Any]] = Specimen.neutral | {"sides": "periodic"}
     cells_x: ClassVar[int] = 1
 
     period: Length

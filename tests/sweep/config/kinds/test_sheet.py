@@ -1,0 +1,84 @@
+"""Sheets: sizes that follow from a height, a mass, and what is refused."""
+
+import pytest
+
+from sweep.config.case import Case
+from sweep.config.kinds.sheet import Sheet
+from sweep.config.kinds.table import RefusedError
+from sweep.design.surfaces.names import SHEETS
+
+MM = 1e-3
+
+
+def case(loading=(), **lattice):
+    return Case.of(lattice={"kind": "gyroid"} | lattice, loading=dict(loading))
+
+
+@pytest.mark.parametrize("way", ["in_plane", "out_of_plane"])
+@pytest.mark.parametrize("kind", SHEETS)
+def test_whole_steps_of_the_surface_fit_the_height(kind, way):
+    made = case({"direction": way}, kind=kind, height=13 * MM, depth=13 * MM, cell_size=6 * MM)
+    lattice, cut = made.lattice, SHEETS[kind].cuts[way]
+    steps = made.height / (cut.step * lattice.period)
+    assert steps == pytest.approx(round(steps), rel=1e-12)
+    assert lattice.period == pytest.approx(6 * MM, rel=0.2)
+    assert made.height == pytest.approx(13 * MM)
+    assert lattice.width == pytest.approx(cut.across * lattice.period)
+    assert made.footprint[1] == pytest.approx(cut.along * lattice.period)
+
+
+def test_two_periods_fit_by_default():
+    lattice = case({"direction": "out_of_plane"}, depth=12 * MM).lattice
+    assert (lattice.period, lattice.cells_y) == (pytest.approx(6 * MM), 2)
+
+
+def test_a_mass_sets_the_thickness():
+    lattice = case(mass=1e-4, height=12 * MM).lattice
+    density = case().material.density
+    assert density * lattice.area * lattice.wall_thickness == pytest.approx(1e-4, rel=1e-12)
+    again = Case.of(lattice=lattice.given(), loading={})
+    assert again.lattice == lattice
+
+
+def test_the_values_it_follows_from_make_it_again():
+    for way in ("in_plane", "out_of_plane"):
+        made = case({"direction": way}, cell_size=5 * MM, wall_thickness=0.5 * MM)
+        again = made.changed()
+        assert isinstance(again.lattice, Sheet)
+        assert again.case_id == made.case_id
+        assert Case.from_json(made.to_json()).case_id == made.case_id
+
+
+def test_walls_are_shells_whichever_way_it_is_pressed():
+    for way in ("in_plane", "out_of_plane"):
+        made = case({"direction": way, "platen": "clamped"})
+        assert made.shells
+        assert (made.loading.mode, made.damping.model) == ("displacement", "none")
+        assert made.solver.load_steps == 100
+        assert made.lattice.imperfection_seed == 0
+
+
+REFUSED = [
+    ({"wall_thickness": 2 * MM}, {}, "below a fifth of the period"),
+    ({"cell_size": 80 * MM}, {}, "periods of at most"),
+    ({"nodes_per_wall": 20}, {}, "at most 11"),
+    ({"mass": 1e-4, "wall_thickness": 0.1 * MM}, {}, "give one of them"),
+    ({}, {"mode": "force"}, '"displacement" or "impact" if lattice.kind is "gyroid"'),
+    ({}, {"platen": "sliding"}, '"glued", "clamped" or "contact" if lattice.kind is "gyroid"'),
+    ({}, {"striker": "round", "mode": "impact"}, '"flat" if lattice.kind is "gyroid"'),
+    ({}, {"mode": "impact", "target_mass": 1.0}, 'none if lattice.kind is "gyroid"'),
+]
+
+
+@pytest.mark.parametrize(("lattice", "loading", "words"), REFUSED)
+def test_what_a_sheet_does_not_have_is_refused(lattice, loading, words):
+    with pytest.raises(RefusedError, match="allowed") as refused:
+        case(loading, **lattice)
+    assert words in str(refused.value)
+
+
+def test_keys_of_drawn_lattices_are_refused():
+    for key, value in {"cells_x": 3, "perimeters": 2, "sides": "free"}.items():
+        with pytest.raises(RefusedError):
+            case(**{key: value})
+    assert case(sides="periodic") == case()

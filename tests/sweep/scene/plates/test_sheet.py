@@ -1,0 +1,180 @@
+"""One period of a sheet: images, derivatives of its step, and two periods for twice as much."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from kernels.plates.contacts.thickness import THICKENING
+from kernels.shared.rows import CONTACT
+from sweep.config.case import Case
+from sweep.design.surfaces.nets import build_net
+from sweep.scene.plates.scene import build_scene, scene_of
+from sweep.scene.plates.sheet import bowed, build_sheet, mesh_of_sheet
+from tests.support.kernels.pressed_plates import reduction, shaken, unit, whole
+
+HEIGHT, T, FLAT = 4e-3, 0.75e-3, {"out_of_plane": 0.55, "in_plane": 0.6}
+STEP = 1e-6  # of differences, in units of the coordinates
+
+
+def case(direction="out_of_plane", platen="glued", **lattice):
+    """A gyroid of about one period of 4 mm, with thick walls."""
+    sizes = {"height": HEIGHT, "depth": HEIGHT, "cell_size": HEIGHT, "wall_thickness": T}
+    mesh = {"kind": "gyroid", "nodes_per_wall": 2}
+    return Case.of(
+        lattice=sizes | mesh | lattice,
+        material=dict(name="ultimaker_tpu95a", stretch="linear"),
+        loading=dict(mode="displacement", strain=0.5, direction=direction, platen=platen),
+    )
+
+
+CASES = {
+    "glued": case(),
+    "clamped": case(platen="clamped"),
+    "loose": case(platen="contact"),
+    "across": case("in_plane"),
+}
+
+
+@cache
+def scene(name):
+    return build_scene(CASES[name])
+
+
+def squeezed(of, seed=0):
+    """The sheet pressed until it touches itself and its images, unevenly, with the platens.
+
+    Directors turn with the normals of the sheet.
+    """
+    x, mesh = of.x_rest.copy(), of.mesh
+    flat = FLAT["in_plane" if mesh is scene("across").mesh else "out_of_plane"]
+    nodes = x[:-2].reshape(-1, 6)
+    nodes[:, 2] *= flat
+    before = mesh.net.normals[mesh.original]
+    after = before / [1.0, 1.0, flat]
+    axis = np.cross(before, after / np.linalg.norm(after, axis=1)[:, None])
+    sine = np.linalg.norm(axis, axis=1)
+    turn = axis * (np.tan(0.25 * np.arcsin(sine)) / np.maximum(sine, 1e-12))[:, None]
+    nodes[:, 3:] = np.einsum("nij,ni->nj", mesh.frames.reshape(-1, 3, 3), turn)
+    x[-2:] = [x[-2], nodes[:, 2].max() + (x[-1] - mesh.height)]
+    return tied(of, shaken(of, x, seed, 0.03))
+
+
+def tied(of, x):
+    """Images moved as their originals, and what follows the platen."""
+    layout, rest = of.terms.layout, of.x_rest
+    move = x - rest
+    follows = layout.leader >= 0
+    move[follows] = move[layout.leader[follows]]
+    return rest + move
+
+
+STATES = {"bent": lambda of: tied(of, shaken(of, of.x_rest, 1, 0.05)), "squeezed": squeezed}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_images_are_a_period_away(name):
+    mesh = scene(name).mesh
+    period = mesh.net.box.size[:2]
+    move = mesh.rest - mesh.rest[mesh.original]
+    np.testing.assert_allclose(move[:, :2], mesh.shift * period, atol=1e-15)
+    assert not move[:, 2].any()
+    np.testing.assert_array_equal(mesh.original[mesh.own], mesh.own)
+    assert not mesh.area[len(mesh.own) :].any()
+    assert not mesh.volume[len(mesh.own) :].any()
+    np.testing.assert_allclose(mesh.rest[mesh.quads], mesh.net.corners, atol=1e-15)
+
+
+def test_images_of_triangles_stand_all_round():
+    """Wherever a node is, all of the surface within half a period is there."""
+    mesh = scene("glued").mesh
+    period, places = mesh.net.box.size[:2], mesh.rest[mesh.triangles].mean(axis=1)
+    own = places[: 2 * len(mesh.quads)]
+    tree = cKDTree(places)
+    for shift in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]:
+        moved = own + np.append(shift * period, 0.0)
+        near = np.all((moved[:, :2] > -0.4 * period) & (moved[:, :2] < 1.4 * period), axis=1)
+        assert tree.query(moved[near])[0].max() < 1e-9
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CASES)
+def test_the_gradient_is_that_of_the_energy(name, state):
+    of = scene(name)
+    x = STATES[state](of)
+    args, R = whole(of, x), reduction(of)
+    g = R.T @ args.gradient(x)
+    if state == "squeezed":
+        assert args.problem.neighbours.touching.count[0] > 20
+    for seed in range(3):
+        move = R.T @ unit(of) * np.random.default_rng(seed).uniform(-1, 1, R.shape[1])
+        along = STEP * (R @ move)
+        near = args.energy(x + along) - args.energy(x - along)
+        far = args.energy(x + 2 * along) - args.energy(x - 2 * along)
+        slope = (8 * near - far) / (12 * STEP)
+        assert slope == pytest.approx(g @ move, abs=1e-8 * np.linalg.norm(g * move))
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("name", CASES)
+def test_the_matrix_is_the_hessian(name, state):
+    of = scene(name)
+    x = STATES[state](of)
+    args, R = whole(of, x), reduction(of)
+    args.factored(x, through=True)
+    H, size = args.entries(), R.T @ unit(of)
+    for seed in range(2):
+        move = size * np.random.default_rng(seed).uniform(-1, 1, size.size)
+        along = STEP * (R @ move)
+        near = args.gradient(x + along) - args.gradient(x - along)
+        far = args.gradient(x + 2 * along) - args.gradient(x - 2 * along)
+        found = size * (R.T @ (8 * near - far) / (12 * STEP))
+        expected = size * (H @ move)
+        assert np.linalg.norm(found - expected) < 1e-8 * np.linalg.norm(expected)
+
+
+def test_two_periods_take_twice_the_energy_of_one():
+    """In any shape that repeats, contact between images included."""
+    box = scene("glued").mesh.net.box
+    single, double = (
+        scene_of(CASES["glued"], build_sheet(net, np.full(len(net.quads), T)), None, 1.0)
+        for net in (
+            build_net(replace(box, size=box.size * [count, 1, 1]), (6 * count, 6, 6))
+            for count in (1, 2)
+        )
+    )
+    x, y = squeezed(single), double.x_rest.copy()
+    moves = (x - single.x_rest)[:-2].reshape(-1, 6)
+    distance, near = cKDTree(single.mesh.rest).query(double.mesh.rest % [*box.size[:2], np.inf])
+    assert distance.max() < 1e-9
+    y[:-2].reshape(-1, 6)[:] += moves[single.mesh.original[near]]
+    y[-2:] = x[-2:]
+    one, two = (whole(of, at).found(at)[1].stored for of, at in ((single, x), (double, y)))
+    assert one[CONTACT] > 0.02 * one.sum()
+    np.testing.assert_allclose(two, 2.0 * one, rtol=1e-9)
+
+
+def test_images_are_as_thick_as_their_originals():
+    of = scene("glued")
+    x = squeezed(of)
+    args = whole(of, x)
+    args.problem.project(x)
+    j = args.problem.buffers.committed[:, THICKENING]
+    assert j.min() > 0.5
+    np.testing.assert_array_equal(j, j[of.mesh.original])
+    assert np.ptp(j) > 1e-3
+
+
+def test_an_imperfection_moves_nodes_along_normals_and_none_on_the_platens():
+    lattice = case(imperfection=0.1, imperfection_seed=3).lattice
+    net = mesh_of_sheet(case(imperfection=0.0).lattice).net
+    move = bowed(net, lattice).points - net.points
+    size = np.linalg.norm(move, axis=1)
+    assert np.sqrt(np.mean(size**2)) == pytest.approx(0.1 * T, rel=0.5)
+    assert max(size[net.bottom].max(), size[net.top].max()) < 1e-15
+    along = np.abs((move * net.normals).sum(axis=1))
+    np.testing.assert_allclose(along, size, atol=1e-15)
+    other = bowed(net, case(imperfection=0.1, imperfection_seed=4).lattice).points
+    assert np.abs(other - net.points - move).max() > 0.1 * size.max()
