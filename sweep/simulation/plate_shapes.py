@@ -10,6 +10,7 @@ import numpy as np
 from kernels.geometry.space import crossing, surface
 from kernels.plates.layout import PER_NODE
 from sweep.scene.mesh import Floats
+from sweep.scene.plates import repeats
 from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.scene import Scene
 from sweep.scene.plates.sheet import SheetMesh
@@ -113,8 +114,8 @@ def surface_crossings(position: Floats, mesh: PlateMesh | SheetMesh) -> int:
     Independent of the solver, but for the triangles. What touches within round-off counts too.
     """
     triangles = unfolded(mesh).triangles
-    if isinstance(mesh, SheetMesh):
-        triangles, position = mesh.triangles, mesh.with_images(position)
+    if mesh.shift.any():
+        triangles, position = mesh.triangles, repeats.with_images(mesh, position)
     edges, _ = surface.edges_of(triangles, position.shape[1])
     unsure = np.empty((0, 2), np.int64)
     counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]

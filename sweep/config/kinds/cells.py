@@ -44,7 +44,8 @@ class Cells(Laid):
     both. boundary "periodic": one period of an endless lattice, of size `width` x `height`.
     Opposite sides are tied to each other; the mean shear strain and the mean lateral stress are
     zero. sides "periodic": left and right are tied to each other, between platens: the middle of a
-    wide panel, of which `width` is one period.
+    wide panel, of which `width` is one period; along the cells so are its other two sides, of the
+    period `height`.
     """
 
     because: ClassVar[str] = "lattice.slicer is not given"
@@ -90,7 +91,7 @@ class Cells(Laid):
             self.wall_thickness,
             self.grading,
             self.outline,
-            (self.endless or self.tied, self.endless),
+            (self.endless or self.tied, self.endless or (self.tied and self.layers is not None)),
         )
 
     @property
@@ -263,9 +264,17 @@ def _check_period(made: Cells) -> None:
         if getattr(made, key) != value:
             text = "none" if value is None else f"{value:g}"
             raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
+    check_rows(made, (True, made.endless))
+
+
+def check_rows(made: Cells, repeats: tuple[bool, bool]) -> None:
+    """Refuse an odd number of rows that repeat, if every other row is shifted.
+
+    repeats: whether the lattice repeats in x and in y.
+    """
     flat = made.orientation == "flat"
     key, row = ("cells_x", "column") if flat else ("cells_y", "row")
-    repeats = made.endless or flat
-    if repeats and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
+    if repeats[0 if flat else 1] and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
+        endless = ENDLESS if made.endless else TIED
         allowed = f"an even number {endless}, as every other {row} of {made.kind} is shifted"
         raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.cells import TIED, Cells, check_rows
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.lattice import Lattice
@@ -37,6 +37,9 @@ def upright(made: Lattice, given: Given) -> Lattice:
     from sweep.design.upright_plan import layers_of, mirror_fault, most_layers, plan_of, quads_along
 
     _check(made)
+    if isinstance(made, Cells) and made.tied:
+        check_rows(made, (True, True))
+        made = made.model_copy(update={"layers": made.layers or 1})
     changes: dict[str, Any] = {}
     if isinstance(made, Cells) and "nodes_per_wall" not in given:
         changes["nodes_per_wall"] = NODES
@@ -51,7 +54,7 @@ def upright(made: Lattice, given: Given) -> Lattice:
     if most < 1:
         raise _too_low(made, float(plan.thickness.max()))
     along = quads_along(plan, quads_wanted(meshed))
-    layers = made.layers or layers_of(plan, along, made.depth)
+    layers = given.get("layers") or layers_of(plan, along, made.depth)
     _check_nodes(meshed, len(plan.points) + int((along - 1).sum()), layers)
     if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
@@ -71,8 +74,8 @@ def quads_wanted(made: Lattice) -> Any:
 def _check(made: Lattice) -> None:
     if made.endless:
         raise RefusedError("lattice.boundary", "periodic", f'"free" {WHERE}')
-    if made.tied:
-        raise RefusedError("lattice.sides", "periodic", f'"free" {WHERE}')
+    if made.tied and made.symmetry == "quarter":
+        raise RefusedError("lattice.symmetry", "quarter", f'"none" {TIED}')
     if made.imperfection > MOST_IMPERFECTION:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {WHERE}"
         raise RefusedError("lattice.imperfection", made.imperfection, allowed)

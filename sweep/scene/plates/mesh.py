@@ -8,8 +8,10 @@ import numpy as np
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.upright import quads_wanted
 from sweep.config.network import network_of
+from sweep.design.period import Endless
 from sweep.design.upright_plan import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates import repeats
 from sweep.scene.plates.imperfection import amplitudes, bow
 
 STRAIGHT = 1e-9  # sine of the angle below which two walls are in one plane
@@ -30,7 +32,9 @@ class PlateMesh:
     along s and z of the flat quad, m. thickness (m,), m. wall (m,): of the plan. directors (m, 4,
     3): normal of the quad in the axes of each of its nodes. flat (n,): whether all quads of a node
     are in one plane; its turn about n, the third axis, has then no stiffness. level (n,): of a
-    node. on (n, 2): whether a node is on the mirror plane of x and of y.
+    node. on (n, 2): whether a node is on the mirror plane of x and of y. triangles (k, 3): two of
+    each quad, with alternate diagonals and normals as the quads; of copies of quads too, where the
+    plan repeats. original, shift, period: as in `repeats.Repeating`.
     """
 
     plan: Plan
@@ -45,26 +49,25 @@ class PlateMesh:
     flat: np.ndarray
     level: Ints
     on: np.ndarray
+    triangles: Ints
+    original: Ints
+    shift: Ints
+    period: Floats
 
     @property
     def n_nodes(self) -> int:
         """Number of nodes."""
         return len(self.rest)
 
-    @property
+    @cached_property
     def own(self) -> Ints:
-        """Nodes that are no images of others: all."""
-        return np.arange(self.n_nodes)
-
-    @property
-    def original(self) -> Ints:
-        """The node of which each one is an image: itself."""
-        return self.own
+        """Nodes that are no images of others."""
+        return repeats.own(self)
 
     @property
     def smooth_corners(self) -> Ints:
         """A number for each pair of a node and a wall, by corner of the quads, (m, 4)."""
-        pairs = self.quads * len(self.plan.walls) + self.wall[:, None]
+        pairs = self.original[self.quads] * len(self.plan.walls) + self.wall[:, None]
         _, place = np.unique(pairs, return_inverse=True)
         return np.asarray(place.reshape(self.quads.shape))
 
@@ -101,53 +104,49 @@ class PlateMesh:
     @cached_property
     def area(self) -> Floats:
         """A quarter of the area of each quad at a node, (n,) m^2."""
-        return self._quarters(self.size.prod(axis=1))
+        return repeats.quarters(self, self.size.prod(axis=1))
 
     @cached_property
     def volume(self) -> Floats:
         """A quarter of the volume of each quad at a node, (n,) m^3; joints count for each wall."""
-        return self._quarters(self.size.prod(axis=1) * self.thickness)
+        return repeats.quarters(self, self.size.prod(axis=1) * self.thickness)
 
     @property
     def node_thickness(self) -> Floats:
         """Mean thickness of the walls at a node, (n,) m."""
-        return np.asarray(self.volume / self.area)
-
-    def _quarters(self, values: Floats) -> Floats:
-        shared = np.bincount(self.quads.ravel(), np.repeat(0.25 * values, 4), self.n_nodes)
-        return shared.astype(np.float64)
-
-    @cached_property
-    def triangles(self) -> Ints:
-        """Two triangles of each quad, (2 m, 3), with alternate diagonals; normals as the quads."""
-        a, b, c, d = self.quads.T
-        even = (self._number + self.level[a]) % 2 == 0
-        one = np.where(even[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
-        two = np.where(even[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
-        return np.stack([one, two], axis=1).reshape(-1, 3)
+        return np.asarray((self.volume[self.own] / self.area[self.own])[self._place])
 
     @property
-    def _number(self) -> Ints:
-        """Number of each quad along its wall, (m,)."""
-        first = np.searchsorted(self.wall, self.wall)
-        return (np.arange(len(self.wall)) - first) // self.layers
+    def _place(self) -> Ints:
+        """Place of the original of each node among those of the period, (n,)."""
+        return np.searchsorted(self.own, self.original)
 
 
 @lru_cache(maxsize=16)
 def build_mesh(lattice: Lattice) -> PlateMesh:
     """The mesh of a lattice that is pressed along its cells; as it is resolved, with its layers."""
     assert lattice.layers is not None
-    plan = plan_of(network_of(lattice), lattice.symmetry == "quarter")
-    along = quads_along(plan, quads_wanted(lattice))
-    return extruded(plan, along, lattice.layers, lattice.depth, amplitudes(plan, lattice))
+    network = network_of(lattice)
+    plan = plan_of(network, lattice.symmetry == "quarter")
+    along, bows = quads_along(plan, quads_wanted(lattice)), amplitudes(plan, lattice)
+    endless = network if isinstance(network, Endless) else None
+    if endless is not None:
+        bows = bows[endless.original]
+    return extruded(plan, along, lattice.layers, lattice.depth, bows, endless)
 
 
 def extruded(
-    plan: Plan, along: Ints, layers: int, height: float, amplitude: Floats | None = None
+    plan: Plan,
+    along: Ints,
+    layers: int,
+    height: float,
+    amplitude: Floats | None = None,
+    endless: Endless | None = None,
 ) -> PlateMesh:
     """A plan, extruded to a height (m) in ``layers`` and ``along`` (w,) equal quads of each wall.
 
     amplitude (w, j): of the bow of each wall, m (`imperfection.amplitudes`); None: flat walls.
+    endless: of a plan that repeats; its walls are those of the period, then copies.
     """
     walls, points = len(plan.walls), len(plan.points)
     of_wall = np.repeat(np.arange(walls), along)  # of each strip between two columns
@@ -168,26 +167,61 @@ def extruded(
     if amplitude is not None:
         _bow_walls(rest, plan, wall_of[inner], share[inner], amplitude, right)
     frames, flat = _frames(plan, axis, wall_of)
+    origin, shift = _images(endless, along, wall_of, points)
+    frames, flat = frames[origin], flat[origin]
     strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
     quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]
     directors = np.einsum("scji,sj->sci", frames[columns[:, [0, 1, 1, 0]]], right[of_wall])
     size = np.column_stack([length / along, np.full(walls, height / layers)])
     on = np.concatenate([plan.on, np.zeros((len(inner), 2), np.bool_)])
-    wall = np.repeat(of_wall, layers)
+    wall, quads = np.repeat(of_wall, layers), quads.reshape(-1, 4)
+    level = np.tile(level, len(plane))
+    own = slice(None if endless is None else int(np.searchsorted(wall, endless.own)))
     return PlateMesh(
         plan=plan,
         height=height,
         rest=rest.reshape(-1, 3),
         frames=np.repeat(frames.reshape(-1, 9), layers + 1, axis=0),
-        quads=quads.reshape(-1, 4),
-        size=size[wall],
-        thickness=plan.thickness[wall],
-        wall=wall,
-        directors=np.repeat(directors, layers, axis=0),
+        quads=quads[own],
+        size=size[wall][own],
+        thickness=plan.thickness[wall][own],
+        wall=wall[own],
+        directors=np.repeat(directors, layers, axis=0)[own],
         flat=np.repeat(flat, layers + 1),
-        level=np.tile(level, len(plane)),
+        level=level,
         on=np.repeat(on, layers + 1, axis=0),
+        triangles=_triangles(quads, level, np.repeat(number, layers)),
+        original=(origin[:, None] * (layers + 1) + np.arange(layers + 1)).ravel(),
+        shift=np.repeat(shift, layers + 1, axis=0),
+        period=np.full(2, np.inf) if endless is None else endless.period,
     )
+
+
+def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) -> tuple[Ints, Ints]:
+    """The column that each one is or copies, (c,), and by how many periods it is moved, (c, 2).
+
+    wall_of (c,): the wall of a column inside it, else -1; the first columns are the ``joints``.
+    """
+    origin, shift = np.arange(len(wall_of)), np.zeros((len(wall_of), 2), np.int64)
+    if endless is None:
+        return origin, shift
+    first = joints + np.cumsum(along - 1) - (along - 1)  # column inside each wall
+    inner = np.arange(joints, len(wall_of))
+    wall = wall_of[inner]
+    of = endless.original[wall]
+    origin[:joints], shift[:joints] = endless.origin, endless.shift
+    origin[inner] = first[of] + inner - first[wall]
+    shift[inner] = endless.shift[endless.walls[wall, 0]] - endless.shift[endless.walls[of, 0]]
+    return origin, shift
+
+
+def _triangles(quads: Ints, level: Ints, number: Ints) -> Ints:
+    """Two triangles of each quad, (2 m, 3). number (m,): of a quad along its wall."""
+    a, b, c, d = quads.T
+    even = (number + level[a]) % 2 == 0
+    one = np.where(even[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+    two = np.where(even[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
+    return np.stack([one, two], axis=1).reshape(-1, 3)
 
 
 def _bow_walls(

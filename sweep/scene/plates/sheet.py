@@ -16,6 +16,7 @@ from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of
 from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates import repeats
 
 AROUND = 0.5  # of a period: how far images of triangles stand around it
 WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
@@ -65,23 +66,17 @@ class SheetMesh:
     @cached_property
     def own(self) -> Ints:
         """Nodes of the period."""
-        return np.arange(len(self.net.points))
-
-    @property
-    def shown(self) -> Ints:
-        """Nodes of the quads: those of the period, and the first images."""
-        return np.arange(int(self.quads.max()) + 1)
+        return repeats.own(self)
 
     @property
     def smooth_corners(self) -> Ints:
         """The number of the original of each corner of the quads, (m, 4)."""
         return np.asarray(self.original[self.quads])
 
-    def with_images(self, shown: Floats) -> Floats:
-        """Positions (f, n, 3) of all nodes from those of the nodes that are ``shown``."""
-        positions = shown[:, self.original]
-        positions[..., :2] += self.shift * self.net.box.size[:2]
-        return positions
+    @property
+    def period(self) -> Floats:
+        """Periods along x and y, m."""
+        return self.net.box.size[:2]
 
     @property
     def flat(self) -> np.ndarray:
@@ -122,23 +117,18 @@ class SheetMesh:
     @cached_property
     def area(self) -> Floats:
         """A quarter of the area of each quad at a node, (n,) m^2."""
-        return self._quarters(self.net.area)
+        return repeats.quarters(self, self.net.area)
 
     @cached_property
     def volume(self) -> Floats:
         """A quarter of the volume of each quad at a node, (n,) m^3."""
-        return self._quarters(self.net.area * self.thickness)
+        return repeats.quarters(self, self.net.area * self.thickness)
 
     @cached_property
     def node_thickness(self) -> Floats:
         """Mean thickness at a node, (n,) m."""
         own = self.own
         return np.asarray((self.volume[own] / self.area[own])[self.original])
-
-    def _quarters(self, values: Floats) -> Floats:
-        corners = self.original[self.quads].ravel()
-        shared = np.bincount(corners, np.repeat(0.25 * values, 4), self.n_nodes)
-        return shared.astype(np.float64)
 
 
 @lru_cache(maxsize=16)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sweep.scene.mesh import Floats, Ints
+from sweep.scene.plates import repeats
 from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.sheet import SheetMesh
 
@@ -34,20 +35,15 @@ class Unfolded:
 
 
 def unfolded(mesh: PlateMesh | SheetMesh) -> Unfolded:
-    """The whole of a mesh. Images of a node on a mirror plane are one node; of a sheet, the whole
-    is its period.
+    """The whole of a mesh: its period where it repeats. Images of a node on a mirror plane are one
+    node.
     """
     n, m = mesh.n_nodes, len(mesh.quads)
-    if isinstance(mesh, SheetMesh):
-        shown, nowhere = mesh.shown, np.full(2, np.inf)
+    if mesh.copies == 1 or isinstance(mesh, SheetMesh):
+        shown, parts = repeats.shown(mesh), (mesh.quads, mesh.triangles[: 2 * m])
+        of_quads, of_triangles = (np.searchsorted(shown, part) for part in parts)
         none = np.zeros((len(shown), 2), np.bool_)
-        own = mesh.triangles[: 2 * m]
-        return Unfolded(nowhere, shown, none, mesh.quads, np.arange(m), own)
-    if mesh.plan.copies == 1:
-        none = np.zeros((n, 2), np.bool_)
-        return Unfolded(
-            mesh.plan.planes, np.arange(n), none, mesh.quads, np.arange(m), mesh.triangles
-        )
+        return Unfolded(np.full(2, np.inf), shown, none, of_quads, np.arange(m), of_triangles)
     images = np.array([[False, False], [True, False], [False, True], [True, True]])  # bits of k
     own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
     node: list[Ints] = []

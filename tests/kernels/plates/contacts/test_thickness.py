@@ -52,7 +52,7 @@ def test_a_march_recalls_the_thickness_of_its_state():
     state, touch = of.at_rest(), of.terms.contact
     x = scaled(of, 0.9)
     scratch, weight = shell.make_scratch(), np.zeros(len(of.mesh.rest))
-    thickness.measure(x, state.memory, of.terms.shell, scratch, weight)
+    thickness.measure(x, state.memory, of.terms.shell, touch.original, scratch, weight)
     of.terms.make_buffers(state.memory)
     np.testing.assert_allclose(touch.thickness, touch.rest_thickness / 0.81, rtol=2e-3)
     of.terms.make_buffers(of.at_rest().memory)
