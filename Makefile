@@ -110,7 +110,7 @@ plates: setup  ## compare shells with the theory of plates, at five meshes
 plates_solid: setup  ## compare a square tube of shells with one of bricks, through buckling (15 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.plates.gate
 
-surfaces: setup  ## compare a gyroid of shells with one of bricks, at three densities and five meshes (2 min)
+surfaces: setup  ## compare a gyroid of shells with one of bricks, at three densities and five meshes (5 min)
 	@OMP_NUM_THREADS=1 $(PYTHON) -m tests.studies.surfaces
 
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (90 min)

@@ -25,10 +25,10 @@ class Limit(NamedTuple):
     rows: list
 
 
-def limit(share, n):
+def limit(share, n, poisson=0.3):
     """The `Limit` of a wall of this share of the period, on grids of n, 2 n and 4 n cubes."""
     thickness = wall.thickness_of(share)
-    rows = [(k * n, voxels.solid(k * n, thickness)) for k in (1, 2, 4)]
+    rows = [(k * n, voxels.solid(k * n, thickness, poisson)) for k in (1, 2, 4)]
     coarse, middle, fine = (solid.cubic.moduli for _, solid in rows)
     found, before = fine + (fine - middle) / 3.0, middle + (middle - coarse) / 3.0
     order = np.log2((coarse - middle) / (middle - fine))

@@ -93,11 +93,11 @@ class Solid(NamedTuple):
     density: float
 
 
-def solid(n, thickness, weighted=False):
+def solid(n, thickness, poisson=0.3, weighted=False):
     """The `Solid` of a wall of this thickness about a gyroid, on n^3 cubes; n: a multiple of 4."""
     members = symmetry.group()
     of = cubes(n, thickness, members)
-    bricks = Voxels(of, members, weighted=weighted)
+    bricks = Voxels(of, members, poisson, weighted)
     normal, sheared = bricks.column(0), bricks.column(3)
     share = len(members) * of.shares.mean(axis=1).sum() / n**3
     return Solid(Cubic(normal[0], normal[1], sheared[3]), share)
