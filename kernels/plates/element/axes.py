@@ -28,18 +28,21 @@ def orthonormal(a11, a22, a12):
 
 
 @jit
+def turned(a, b, c, one, two, both):
+    """Return P (one, two, both)."""
+    return a * a * one, b * b * one + c * c * two + 2.0 * b * c * both, a * (b * one + c * both)
+
+
+@jit
 def turn(axes, m):
     """Replace the measures ``m`` (9,), three tensors, by those in the ``axes`` (3,): a, b, c."""
     a, b, c = axes[0], axes[1], axes[2]
     for k in range(0, 9, 3):
-        one, two, both = m[k], m[k + 1], m[k + 2]
-        m[k] = a * a * one
-        m[k + 1] = b * b * one + c * c * two + 2.0 * b * c * both
-        m[k + 2] = a * (b * one + c * both)
+        m[k], m[k + 1], m[k + 2] = turned(a, b, c, m[k], m[k + 1], m[k + 2])
 
 
 @jit
-def _pulled(a, b, c, one, two, both):
+def pulled(a, b, c, one, two, both):
     """Return (one, two, both) P."""
     return a * a * one + b * (b * two + a * both), c * c * two, c * (2.0 * b * two + a * both)
 
@@ -48,7 +51,7 @@ def _pulled(a, b, c, one, two, both):
 def pull_back(axes, slope):
     """Turn the slopes (9,) of an energy in measures of the ``axes`` into those in (s, z)."""
     for k in range(0, 9, 3):
-        slope[k], slope[k + 1], slope[k + 2] = _pulled(
+        slope[k], slope[k + 1], slope[k + 2] = pulled(
             axes[0], axes[1], axes[2], slope[k], slope[k + 1], slope[k + 2]
         )
 
@@ -59,11 +62,11 @@ def pull_back_second(axes, second):
     a, b, c = axes[0], axes[1], axes[2]
     for i in range(9):
         for k in range(0, 9, 3):
-            second[i, k], second[i, k + 1], second[i, k + 2] = _pulled(
+            second[i, k], second[i, k + 1], second[i, k + 2] = pulled(
                 a, b, c, second[i, k], second[i, k + 1], second[i, k + 2]
             )
     for i in range(9):
         for k in range(0, 9, 3):
-            second[k, i], second[k + 1, i], second[k + 2, i] = _pulled(
+            second[k, i], second[k + 1, i], second[k + 2, i] = pulled(
                 a, b, c, second[k, i], second[k + 1, i], second[k + 2, i]
             )

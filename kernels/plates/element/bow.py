@@ -35,6 +35,16 @@ def lengthen(size, rest, m):
 
 
 @jit
+def lengthen_rest(size, m):
+    """Replace the measures ``m`` (9,) of chords, not less others, by those of arcs."""
+    for k in range(2):
+        q = TWELFTH * size[k] * size[k] * m[3 + k] * m[3 + k]
+        m[k] += q
+        m[3 + k] *= 1.0 + q
+        m[6 + k] *= 1.0 + q
+
+
+@jit
 def _factors(size, chords, k):
     """Return dA/dB, dB/dB, dD/dB and dD/dD in direction ``k``."""
     part, b, d = TWELFTH * size[k] * size[k], chords[2 * k], chords[2 * k + 1]

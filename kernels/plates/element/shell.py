@@ -43,8 +43,9 @@ class Shell(NamedTuple):
 
     thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. At rest, at the
     Gauss points, in the order of the corners: rest (m, 4, 9), measures less those of a flat
-    rectangle; area (m, 4), m^2; axes (m, 4, 3): a, b, c of `axes`, empty (0, 4, 3) if all quads are
-    flat rectangles. At rest, of the edges of `shear`: shear_rest (m, 4), shear. sheared (m,): area
+    rectangle; area (m, 4), m^2; axes (m, 4, 3): a, b, c of `axes`; layered (m, 4, REST):
+    curvatures, `layers.set_rest`. If all quads are flat rectangles, these are (0, 4, 3) and (1, 4,
+    0). At rest, of the edges of `shear`: shear_rest (m, 4), shear. sheared (m,): area
     that `shear.stiffnesses` takes, m^2. corners (m, 4): area of the sides at each corner, m^2, as
     `fold` takes. shear_modulus: kappa G at once, Pa. fold_modulus: the same at the reference time
     of a material that relaxes.
@@ -57,6 +58,7 @@ class Shell(NamedTuple):
     rest: np.ndarray
     area: np.ndarray
     axes: np.ndarray
+    layered: np.ndarray
     shear_rest: np.ndarray
     sheared: np.ndarray
     corners: np.ndarray
@@ -69,7 +71,8 @@ def rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus):
     m, whole = len(quads), size[:, 0] * size[:, 1]
     return Shell(
         quads, size, thickness, directors, np.zeros((m, 4, 9)),
-        np.repeat(0.25 * whole[:, None], 4, axis=1), np.empty((0, 4, 3)), np.zeros((m, 4)), whole,
+        np.repeat(0.25 * whole[:, None], 4, axis=1), np.empty((0, 4, 3)),
+        np.empty((1, 4, 0)), np.zeros((m, 4)), whole,
         np.repeat(whole[:, None], 4, axis=1), shear_modulus, fold_modulus,
     )  # fmt: skip
 
@@ -85,7 +88,8 @@ def curved(x, frames, quads, thickness, directors, shear_modulus, fold_modulus):
     made = rectangles(
         quads, np.column_stack([along, up]), thickness, directors, shear_modulus, fold_modulus
     )
-    made = made._replace(axes=np.zeros((len(quads), 4, 3)))
+    m = len(quads)
+    made = made._replace(axes=np.zeros((m, 4, 3)), layered=np.zeros((m, 4, layers.REST)))
     scratch = make_scratch()
     measure_rest(x, frames, made, scratch)
     measure_axes(x, frames, made, scratch)
@@ -230,10 +234,22 @@ def measure_axes(x, frames, shell, scratch):
             a, b, c, area = axes.orthonormal(1.0 + rest[g, 0], 1.0 + rest[g, 1], rest[g, 2])
             shell.axes[e, g, 0], shell.axes[e, g, 1], shell.axes[e, g, 2] = a, b, c
             shell.area[e, g] = area * whole
+            m = scratch.measure
+            for k in range(9):
+                m[k] = rest[g, k]
+            bow.lengthen_rest(shell.size[e], m)
+            axes.turn(shell.axes[e, g], m)
+            layers.set_rest(m[3:6], m[6:9], shell.thickness[e], shell.layered[e, g])
             shell.sheared[e] += area * area * area * whole
         _gather(x, frames, shell, e, scratch.q)
         for a in range(4):
             shell.corners[e, a] = fold.area(scratch.q, a)
+
+
+@jit
+def _row(shell, e):
+    """Return the row of ``layered`` of element ``e``."""
+    return e if shell.axes.shape[0] > 0 else 0
 
 
 @jit_exact
@@ -350,8 +366,9 @@ def commit(x, frames, shell, law, memory, scratch, released):
             area = shell.area[e, g]
             point = POINTS_OF_LAYERS * e + layers.LAYERS * g
             release, of_middle, dissipation = layers.commit(
-                law, scratch.measure, shell.thickness[e], memory, point
-            )
+                law, scratch.measure, shell.layered[_row(shell, e), g], shell.thickness[e], memory,
+                point,
+            )  # fmt: skip
             released[0] += area * of_middle
             released[1] += area * (release - of_middle)
             dissipated += area * dissipation
@@ -392,8 +409,9 @@ def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
             chords, area = _strain(scratch, shell, e, g), shell.area[e, g]
             point = POINTS_OF_LAYERS * e + layers.LAYERS * g
             value, middle = layers.resultants(
-                law, scratch.measure, thickness, memory, point, scratch.resultant
-            )
+                law, scratch.measure, shell.layered[_row(shell, e), g], thickness, memory, point,
+                scratch.resultant,
+            )  # fmt: skip
             if math.isinf(value):
                 return math.inf
             total += area * value
@@ -531,8 +549,8 @@ def hessian(x, frames, shell, law, memory, e, scratch, second):
         chords, area = _strain(scratch, shell, e, g), shell.area[e, g]
         point = POINTS_OF_LAYERS * e + layers.LAYERS * g
         layers.rigidity(
-            law, scratch.measure, thickness, memory, point, scratch.moments, scratch.resultant,
-            scratch.rigidity,
+            law, scratch.measure, shell.layered[_row(shell, e), g], thickness, memory, point,
+            scratch.moments, scratch.resultant, scratch.rigidity,
         )  # fmt: skip
         if shell.axes.shape[0] > 0:
             axes.pull_back(shell.axes[e, g], scratch.resultant)
