@@ -62,6 +62,12 @@ class Endless(Network):
         return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
 
+def own_parts(network: Network) -> tuple[int, int]:
+    """Numbers of joints and of walls of one period."""
+    assert isinstance(network, Endless)
+    return int(network.origin.max()) + 1, network.own
+
+
 def build_period(geometry: Geometry) -> Endless:
     """The lattice that repeats ``geometry``."""
     period, cells, repeats = np.array(geometry.box), geometry.cells, np.array(geometry.periodic)

@@ -34,6 +34,7 @@ def across(made: Lattice) -> Lattice:
 
 def upright(made: Lattice, given: Given) -> Lattice:
     """The lattice with its numbers of quads; refused if there are too many, or no mirror planes."""
+    from sweep.design.period import own_parts
     from sweep.design.upright_plan import layers_of, mirror_fault, most_layers, plan_of, quads_along
 
     _check(made)
@@ -55,7 +56,8 @@ def upright(made: Lattice, given: Given) -> Lattice:
         raise _too_low(made, float(plan.thickness.max()))
     along = quads_along(plan, quads_wanted(meshed))
     layers = given.get("layers") or layers_of(plan, along, made.depth)
-    _check_nodes(meshed, len(plan.points) + int((along - 1).sum()), layers)
+    points, walls = own_parts(network) if made.tied else (len(plan.points), len(plan.walls))
+    _check_nodes(meshed, points + int((along[:walls] - 1).sum()), layers)
     if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise RefusedError("lattice.layers", layers, allowed)
