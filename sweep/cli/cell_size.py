@@ -9,7 +9,7 @@ from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.numbers import in_unit, text_in
+from sweep.numbers import in_unit, tenths, text_in
 
 
 def cell_sentences(cases: Iterable[Case]) -> list[str]:
@@ -28,7 +28,7 @@ def _of_sheet(made: Surface) -> str:
     height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
     count = f"{made.pressed_height / made.period:.4g} periods of {period}"
     axis = "pressed" if made.pressed == ALONG else "across"
-    share = f", {100.0 * made.infill:.3g} %" if isinstance(made, SlicedSheet) else ""
+    share = f", {tenths(made.infill)} %" if isinstance(made, SlicedSheet) else ""
     return f"{made.sheet}{share}: {count} in a height of {height}, print axis {axis}"
 
 

@@ -1,7 +1,7 @@
 """A sheet that divides space in two, such as the gyroid: one period of a panel between platens."""
 
 from math import isclose
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 from sweep.config.kinds.direction import ACROSS, ALONG, Direction
 from sweep.config.kinds.specimen import Nodes, Specimen
@@ -12,6 +12,7 @@ from sweep.design.surfaces.names import SHEETS
 QUADS = 3  # nodes inside half a period: 8 quads a period
 CELL_SIZE = 0.5  # of the height pressed: two periods
 THICKEST = 0.2  # of a period, about half of the clear width of a channel
+S = TypeVar("S", bound="Surface")
 LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 
@@ -148,7 +149,7 @@ def fitted(name: str, given: Given, along: bool, wanted: float) -> dict[str, Any
     }
 
 
-def checked(made: Any) -> Any:
+def checked(made: S) -> S:
     """The sheet, if its mesh is not too fine and its walls are not too thick."""
     if made.nodes_per_wall > MOST_NODES:
         raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, f"at most {MOST_NODES}")

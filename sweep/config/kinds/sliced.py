@@ -10,6 +10,7 @@ from sweep.config.kinds.specimen import LAYER_HEIGHT, MAX_NODES, Laid, check_pro
 from sweep.config.kinds.table import Angle, Few, Given, Length, Mass, RefusedError, Share, chosen
 from sweep.design.geometry import Geometry
 from sweep.design.slicer.patterns import (
+    LATERAL,
     NO_PRISMS,
     OVERLAP,
     PATTERNS,
@@ -213,7 +214,7 @@ def _checked_pattern(given: Given) -> str:
     if given["slicer"] not in SLICERS:
         raise RefusedError("lattice.slicer", given["slicer"], ", ".join(SLICERS))
     patterns, pattern = SLICERS[given["slicer"]], given.get("pattern")
-    key, names = "lattice.pattern", ", ".join(map('"{}"'.format, patterns))
+    key, names = "lattice.pattern", ", ".join(map('"{}"'.format, [*patterns, "gyroid"]))
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
@@ -229,6 +230,11 @@ def _checked_pattern(given: Given) -> str:
 
 def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
     """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
+    drawn = LATERAL.get(pattern.lower().replace(" ", ""))
+    if drawn:
+        return (
+            f'; {pattern} is a prism that lies in the layers: give lattice.kind "{drawn}" instead'
+        )
     why, nearest = NO_PRISMS.get(pattern.lower().replace(" ", ""), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""

@@ -59,10 +59,7 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
         "line_width": width,
         "infill": period_of(given["slicer"], 1.0, line) / sides["period"],
     }
-    made: SlicedSheet = checked(
-        SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows)
-    )
-    return made
+    return checked(SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows))
 
 
 def period_of(slicer: str, share: float, line: float) -> float:

@@ -157,7 +157,6 @@ NO_PRISMS = {
     "zig-zag": TURNS,
     "zig_zag": TURNS,
     "monotonic": TURNS,
-    "gyroid": WANDERS,
     "tpmsd": WANDERS,
     "tpmsfk": WANDERS,
     "3dhoneycomb": WANDERS,
@@ -169,8 +168,6 @@ NO_PRISMS = {
     "quartercubic": CUBES,
     "quarter_cubic": CUBES,
     "tetrahedral": CUBES,
-    "lateral-lattice": CUBES,
-    "2dlattice": CUBES,
     "lightning": TREES,
     "cross_3d": TREES,
     "concentric": LOOPS,
@@ -179,7 +176,14 @@ NO_PRISMS = {
     "archimedeanchords": PATHS,
     "octagramspiral": PATHS,
 }
-"""Patterns that the planar model cannot have: why, and the nearest that it can."""
+"""Patterns that no model here has: why, and the nearest prism."""
+LATERAL = {
+    "lateral-lattice": "diamond",
+    "2dlattice": "diamond",
+    "lateral-honeycomb": "hex",
+    "2dhoneycomb": "hex",
+}
+"""Patterns that are prisms, whose axis lies in the layers: the family that is drawn like them."""
 
 
 class Sliced(NamedTuple):

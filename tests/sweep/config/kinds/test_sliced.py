@@ -77,19 +77,22 @@ def test_a_mass_is_that_which_is_extruded(pattern):
     assert again.case_id == case.case_id
 
 
-PATTERNS = '"grid", "triangles", "stars", "honeycomb", "alignedrectilinear"'
+PATTERNS = '"grid", "triangles", "stars", "honeycomb", "alignedrectilinear", "gyroid"'
 SHARED = f'{GRID}infill = "20 %"\n'
-NO_PRISM = ("gyroid is no prism", "layer to layer: the nearest is")
+NO_PRISM = ("crosshatch is no prism", "layer to layer: the nearest is")
 IDLE = ("no effect", "lattice.slicer is given")
 
 UNFIT = {
     f'{SLICED}infill = "20 %"': ("lattice.pattern", PATTERNS),
     GRID: ("lattice.infill", '"20 %"', "lattice.mass"),
-    SHARED.replace("grid", "gyroid"): (
-        *('lattice.pattern = "gyroid"', f"{PATTERNS};", *NO_PRISM, "honeycomb"),
+    SHARED.replace("grid", "crosshatch"): (
+        *('lattice.pattern = "crosshatch"', f"{PATTERNS};", *NO_PRISM, "honeycomb"),
     ),
-    SHARED.replace("prusa", "cura").replace("grid", "gyroid"): (
-        *('lattice.pattern = "gyroid"', '"grid", "triangles", "trihexagon";', *NO_PRISM),
+    SHARED.replace("prusa", "cura").replace("grid", "crosshatch"): (
+        *('lattice.pattern = "crosshatch"', '"trihexagon", "gyroid";', *NO_PRISM),
+    ),
+    SHARED.replace("prusa", "orca").replace("grid", "lateral-honeycomb"): (
+        *('lattice.pattern = "lateral-honeycomb"', "lies in the layers", 'lattice.kind "hex"'),
     ),
     SHARED.replace("grid", "stripes"): ('lattice.pattern = "stripes"', PATTERNS),
     f'{SHARED}kind = "hex"': ('lattice.kind = "hex"', *IDLE),

@@ -75,7 +75,13 @@ UNFIT = {
     'platen = "sliding"': ('loading.platen = "sliding"', f'"glued", "clamped" or "contact" {ONLY}'),
     'platen = "none"': ('loading.platen = "none"', f'"glued", "clamped" or "contact" {ONLY}'),
     '[lattice]\nboundary = "periodic"': ('lattice.boundary = "periodic"', f'"free" {ONLY}'),
-    '[lattice]\nsides = "periodic"': ('lattice.sides = "periodic"', f'"free" {ONLY}'),
+    '[lattice]\nsides = "periodic"\ncells = 4\nsymmetry = "quarter"': (
+        *('lattice.symmetry = "quarter"', '"none" if lattice.sides is "periodic"'),
+    ),
+    '[lattice]\nsides = "periodic"\nkind = "hex"': (
+        "lattice.cells_y = 3 by default",
+        "an even number",
+    ),
     '[lattice]\nslicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 2': (
         *('lattice.slicer = "prusa"', f"none {ONLY}"),
     ),

@@ -1,0 +1,134 @@
+"""Upright walls that repeat along both sides: images of columns, two periods for twice as much."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from kernels.shared.rows import CONTACT
+from sweep.config.case import Case
+from sweep.config.network import network_of
+from sweep.scene.plates import repeats
+from sweep.scene.plates.scene import build_scene
+from sweep.simulation.simulate import simulate
+from tests.support.kernels.pressed_plates import shaken, whole
+
+PITCH, T = 4e-3, 0.4e-3
+FAMILIES = {"square": (2, 2), "hex": (1, 2), "triangle": (1, 2), "kagome": (1, 2)}
+
+
+def case(kind="square", cells=(2, 2), strain=0.02, **lattice):
+    """Walls of cells of 4 mm, 4 mm high."""
+    sizes = {"width": PITCH * cells[0], "height": PITCH * cells[1], "depth": PITCH}
+    return Case.of(
+        lattice={"kind": kind, "cells_x": cells[0], "cells_y": cells[1], "wall_thickness": T}
+        | sizes | {"sides": "periodic", "nodes_per_wall": 1, "layers": 4, "imperfection": 0.1}
+        | lattice,
+        material=dict(name="ultimaker_tpu95a", stretch="linear"),
+        loading=dict(mode="displacement", strain=strain, direction="out_of_plane", unload=False),
+        solver=dict(load_steps=4),
+    )  # fmt: skip
+
+
+@cache
+def scene(kind):
+    return build_scene(case(kind, FAMILIES[kind]))
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_images_are_a_period_away_and_frames_those_of_originals(kind):
+    mesh = scene(kind).mesh
+    move = mesh.rest - mesh.rest[mesh.original]
+    np.testing.assert_allclose(move[:, :2], mesh.shift * mesh.period, atol=1e-12)
+    np.testing.assert_allclose(move[:, 2], 0.0, atol=1e-15)
+    np.testing.assert_array_equal(mesh.frames, mesh.frames[mesh.original])
+    np.testing.assert_array_equal(mesh.original[mesh.own], mesh.own)
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_the_walls_of_a_period_have_all_its_area(kind):
+    """As many cells of a lattice with free sides, without the walls of its last sides."""
+    mesh, case_ = scene(kind).mesh, case(kind, FAMILIES[kind])
+    lattice = case_.lattice
+    expected = sum(mesh.plan.length[: len(np.unique(mesh.wall))]) * lattice.depth
+    assert mesh.area.sum() == pytest.approx(expected, rel=1e-12)
+    thin = case(kind, FAMILIES[kind], wall_thickness=1e-3 * T).lattice
+    filled = mesh.area.sum() * T / (lattice.width * lattice.height * lattice.depth)
+    drawn = network_of(thin).printed_area * 1e3 / (thin.width * thin.height)
+    assert filled == pytest.approx(drawn, rel=5e-3)
+
+
+def test_positions_of_images_follow_from_those_that_are_stored():
+    mesh = scene("hex").mesh
+    stored = mesh.rest[None, repeats.shown(mesh)]
+    np.testing.assert_allclose(repeats.with_images(mesh, stored)[0], mesh.rest, atol=1e-12)
+
+
+def test_two_periods_take_twice_the_energy_of_one():
+    """In any shape that repeats: walls bulge until they touch those of the next cell."""
+    single, double = (build_scene(case(cells=(count, 2))) for count in (2, 4))
+    x, y = single.x_rest.copy(), double.x_rest.copy()
+    mesh, nodes = single.mesh, x[:-2].reshape(-1, 6)
+    bulge = np.sin(np.pi * mesh.rest[:, 2] / PITCH) * (0.5 * PITCH - 0.35 * T)
+    middle = np.isclose(mesh.rest[:, 0] % PITCH, 0.5 * PITCH, atol=0.2 * T)
+    nodes[middle, 1] += bulge[middle] * np.where(mesh.rest[middle, 1] % (2 * PITCH) < T, 1, -1)
+    x = (
+        single.x_rest
+        + (shaken(single, x, 1, 0.02) - single.x_rest)[
+            np.append((6 * mesh.original[:, None] + np.arange(6)).ravel(), [x.size - 2, x.size - 1])
+        ]
+    )
+    moves = (x - single.x_rest)[:-2].reshape(-1, 6)
+    flat = mesh.rest[mesh.own]
+    distance, near = cKDTree(flat).query(_wrapped(double.mesh.rest, mesh.period, flat))
+    assert distance.max() < 1e-9
+    y[:-2].reshape(-1, 6)[:] += moves[mesh.own][near]
+    y[-2:] = x[-2:]
+    one, two = (whole(of, at).found(at)[1].stored for of, at in ((single, x), (double, y)))
+    assert one[CONTACT] > 1e-3 * one.sum()
+    np.testing.assert_allclose(two, 2.0 * one, rtol=1e-9)
+
+
+def _wrapped(points, period, targets):
+    """Points moved by whole periods to where they are next to one of ``targets``."""
+    best, tree = points.copy(), cKDTree(targets)
+    distance = np.full(len(points), np.inf)
+    for i in range(-3, 4):
+        for j in range(-3, 4):
+            moved = points + np.append([i, j] * period, 0.0)
+            found = tree.query(moved)[0]
+            nearer = found < distance
+            best[nearer], distance[nearer] = moved[nearer], found[nearer]
+    return best
+
+
+@pytest.mark.parametrize("made", ["square", "gyroid"])
+def test_both_platens_bear_the_same_force(made):
+    """Images at the ends of walls bear force, too; and the book is closed."""
+    of = case()
+    if made == "gyroid":
+        of = Case.of(
+            lattice=dict(
+                kind="gyroid", depth=PITCH, cell_size=PITCH, nodes_per_wall=2, wall_thickness=T
+            ),
+            material=dict(of.material.given()),
+            loading=dict(strain=0.1, direction="out_of_plane", unload=False),
+            solver=dict(load_steps=4),
+        )
+    result = simulate(of)
+    assert result.status == "converged"
+    top, bottom = (result.history[f"reaction_{end}_N"] for end in ("top", "bottom"))
+    assert top[-1] > 0.1
+    np.testing.assert_allclose(bottom, top, rtol=0, atol=1e-6 * top.max())
+    assert abs(result.summary["energy_residual_J"]) < 1e-8 * result.summary["absorbed_energy_J"]
+    assert result.summary["max_crossings"] == 0
+
+
+def test_an_endless_prism_carries_what_wide_ones_carry_per_cell():
+    """Before walls buckle, force over area is that of the walls, with or without a period."""
+    forces = []
+    for cells in ((2, 2), (4, 2)):
+        of = case(cells=cells, strain=0.005, imperfection=0.0)
+        forces.append(simulate(of).history["reaction_top_N"][-1] / np.prod(cells))
+    assert forces[1] == pytest.approx(forces[0], rel=1e-6)
