@@ -112,8 +112,6 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
         allowed = '"displacement" if lattice.boundary is "periodic"'
         raise RefusedError("loading.mode", mode, allowed, because)
     platen = given.get("platen")
-    if pressed.tied and "target_mass" in given:
-        raise RefusedError("loading.target_mass", given["target_mass"], f"none {TIED}")
     if pressed.tied and platen in (None, "none") and (platen or mode == "force"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
     if along and platen not in (None, "glued", "clamped", "contact"):

@@ -184,6 +184,21 @@ def test_images_move_with_their_originals_in_an_impact(platen, integrator):
     assert borne == pytest.approx(given, rel=0.05)
 
 
+@pytest.mark.parametrize("platen", STRUCK)
+def test_two_periods_on_a_target_twice_as_heavy_are_as_good_as_one(platen):
+    """Its momentum and its book: `test_target`."""
+
+    def rammed(n):
+        hit = dict(striker_mass=5e-3 * n, striker_speed=0.5, target_mass=0.01 * n, platen=platen)
+        solver = dict(joints="points")
+        return Case.of(lattice=strip("hex", (n, 2), 0.1), loading=hit, solver=solver)
+
+    one, two = (simulate(rammed(n)).summary for n in (1, 2))
+    assert one["target_speed_m_per_s"] > 0.1
+    for name in ("target_speed_m_per_s", "peak_target_acceleration_m_per_s2", "rebound_share"):
+        assert two[name] == pytest.approx(one[name], rel=1e-5)
+
+
 def test_a_load_does_the_work_on_a_period_that_a_wide_lattice_gains():
     """With the same load on every column, of which free sides have one more."""
 
