@@ -77,6 +77,14 @@ function wish(name, range, unit, on) {
 }
 
 const gramsPerUnit = () => Number($("unit").value);
+
+// The unit in which all budgets are hundredths; the first one if none is.
+function unitOf(budgets) {
+  const isRound = (unit) => budgets.every((grams) => Math.abs((100 * grams) / unit - Math.round((100 * grams) / unit)) < 1e-6);
+  const units = [...$("unit").options].map((option) => option.value);
+  return units.find((unit) => isRound(Number(unit))) ?? units[0];
+}
+
 const showBudget = wish("budget", massRange, gramsPerUnit, (grams) => (asked.budget = grams));
 const showForce = wish("force", forceRange, () => 1, (newtons) => (asked.force = newtons));
 const setSide = (side) => (mm) => {
@@ -88,7 +96,7 @@ const setSide = (side) => (mm) => {
 const showWidth = wish("width", () => LENGTH, () => 1, setSide(0));
 const showHeight = wish("height", () => LENGTH, () => 1, setSide(1));
 
-function picks(box, values, unit, key, chosen) {
+function picks(box, values, words, key, chosen) {
   box.replaceChildren(
     ...values.map((value) =>
       element(
@@ -101,7 +109,7 @@ function picks(box, values, unit, key, chosen) {
             refresh();
           },
         },
-        `${Number(value.toPrecision(6))} ${unit}`,
+        words(value),
       ),
     ),
   );
@@ -211,6 +219,7 @@ function* nearestText() {
 }
 
 function showAsked() {
+  $("scene-words").textContent = scene().label;
   showRequired();
   const { low, high } = massRange();
   $("budget-on").checked = asked.budget !== null;
@@ -223,9 +232,9 @@ function showAsked() {
   const [width, height] = asked.panel ?? ["width", "height"].map((name) => toSI(Number($(name).value), "mm") || 0.1);
   showWidth(inUnits(width, "mm"));
   showHeight(inUnits(height, "mm"));
-  picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
+  picks($("budgets"), data.question.budgets_g, (grams) => inUnit(grams), "budget", asked.budget);
   const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
-  picks($("forces"), ofPanel(asked) ? [] : forces, "N", "force", asked.force);
+  picks($("forces"), ofPanel(asked) ? [] : forces, (newtons) => `${Number(newtons.toPrecision(6))} N`, "force", asked.force);
   $("force-of").textContent = ofOne();
 }
 
@@ -812,6 +821,7 @@ function start() {
   asked.panel = panel;
   asked.require = { ...data.question.require };
   asked.per = data.question.per;
+  $("unit").value = unitOf(budgets);
   makeRequired();
   data.scenes.forEach(({ label }, i) => $("scene").append(element("option", { value: i }, label)));
   $("scenes").hidden = data.scenes.length < 2;
