@@ -181,7 +181,7 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
     winners = [
-        (f"up to {budget:g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
+        (f"up to {budget:.4g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
         for budget in ranking.budgets_g
         for limit in [greatest_mass(budget)]
     ]
