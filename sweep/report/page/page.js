@@ -183,7 +183,9 @@ function requiredText() {
   const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
   const designs = now.rows.filter((row) => row.mass <= greatestMass(data, asked)).length;
   const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
-  return `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
+  const required = `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}.`;
+  if (!designs) return required;
+  return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
 }
 
@@ -524,7 +526,7 @@ function notes() {
   if (storedEnergy(data, asked) < 0)
     lines.push(
       `These energies are read from curves of at most ${data.points} points: their error is at most ` +
-        `${inUnits(data.doubt, "%").toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
+        `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)

@@ -175,6 +175,10 @@ def test_a_budget_below_the_lightest_design_is_answered(tab):
     assert tab.run(ROWS) == []
     said = tab.run('document.getElementById("sentence").textContent')
     assert said.startswith("No design weighs 0.5 g or less; the lightest weighs ")
+    put(tab, "max_force", "60")
+    more = tab.run('document.getElementById("detail").textContent')
+    assert "force at most 60 N." in more
+    assert "0 of 0" not in more
 
 
 def test_requirements_that_nothing_fulfils_are_answered(tab):
