@@ -88,7 +88,7 @@ class Record:
         """The branch of the curve that is no measurement: which the file does not have, or calls an
         assumption.
         """
-        if self.strain and self.strain[0] > 0.0:
+        if self.strain and self.strain[0] >= 0.0:
             return "compression"
         return "tension" if "Tension" in assumed(self.comments) else None
 

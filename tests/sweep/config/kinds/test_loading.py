@@ -63,6 +63,8 @@ def test_uncertain_are_the_numbers_of_the_record_that_are_used(own_record):
     assert set(material_with(name=name, memory="measured").uncertain) == {poisson, loss, rules}
     assert material_with(name=name, memory="measured", poisson=0.4).uncertain == (loss, rules)
     assert material_with(name=name, stretch="linear").uncertain == (poisson,)
+    from_origin = str(own_record(MEASURED.replace("stress_Pa\n", "stress_Pa\n0,0\n")))
+    assert material_with(name=from_origin).uncertain == (poisson, rules)
     assert material_with(modulus=12e6, density=1190.0).uncertain == ()
 
 
