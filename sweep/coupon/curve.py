@@ -18,7 +18,7 @@ from sweep.coupon import legs
 from sweep.coupon.hyperelastic import rubber
 from sweep.coupon.record import Coupon, CouponError, Floats
 from sweep.coupon.uncertainty import standard_errors
-from sweep.scene.material import LOWER_WEIGHT, UPPER_WEIGHT, law_in_stretch
+from sweep.scene.material import UPPER_WEIGHT, law_in_stretch
 
 STRAINS = np.array(
     [0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0]
@@ -109,12 +109,22 @@ def tension(strain: Floats, stress: Floats) -> Floats:
     return tension_by_rules(strain, stress) if law is None else law.at(strain)
 
 
-def tension_by_rules(strain: Floats, stress: Floats) -> Floats:
-    """The mean of `scene.material` the other way, of stress odd in nominal strain and Cauchy stress
-    odd in log strain. It gives back a tension from its compression to 5 % up to 10 % strain, to
-    20 % up to 30 %.
+def tension_by_rules(strain: Floats, stress: Floats, cauchy: float = UPPER_WEIGHT) -> Floats:
+    """The mean of `scene.material` the other way, of stress odd in nominal strain and the share
+    ``cauchy`` of Cauchy stress odd in log strain. It gives back a tension from its compression to
+    5 % up to 10 % strain, to 20 % up to 30 %.
     """
-    return _rising(LOWER_WEIGHT * stress + UPPER_WEIGHT * cauchy_odd(strain, stress))
+    return _rising((1.0 - cauchy) * stress + cauchy * cauchy_odd(strain, stress))
+
+
+def with_tension(
+    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...], cauchy: float
+) -> tuple[Floats, Floats]:
+    """Strains and stresses of a curve with another tension: that of `tension_by_rules`."""
+    pressed = np.array(curve_strain) < 0.0
+    strain, stress = -np.array(curve_strain)[pressed][::-1], -np.array(curve_stress)[pressed][::-1]
+    pulled = tension_by_rules(strain, stress, cauchy)
+    return np.r_[-strain[::-1], strain], np.r_[-stress[::-1], pulled]
 
 
 def cauchy_odd(strain: Floats, stress: Floats) -> Floats:

@@ -197,7 +197,7 @@ def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, designs), strict=True):
-        budget = f"up to {row['budget_g']:g} g, " if row["budget_g"] > 0.0 else ""
+        budget = f"up to {row['budget_g']:.4g} g, " if row["budget_g"] > 0.0 else ""
         if frames := read_frames(file, row["case_id"]):
             winners[f"{budget}{row['scene']}: {design}"] = frames
     return winners

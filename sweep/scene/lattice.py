@@ -66,7 +66,7 @@ def build_scene(case: Case) -> Scene:
     fixed = np.union1d(held(numbering, platen, base_moves), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
-    tied, below = (2 * row + 1 for row in _tied(numbering, platen, base_moves))
+    tied, below = follow_platens(numbering, platen, base_moves)
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
     masses = masses_of(mesh, numbering, printed, case.loading)
@@ -94,10 +94,11 @@ def build_scene(case: Case) -> Scene:
     )  # fmt: skip
 
 
-def _tied(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
-    """Nodes that follow the upper and the lower platen in y; a row held at rest follows none."""
-    below = platen in (*BONDED, BASE) and base_moves
-    return numbering.top if platen in BONDED else NONE, numbering.bottom if below else NONE
+def follow_platens(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
+    """Coordinates that follow the upper and the lower platen; those of a held row follow none."""
+    above = numbering.top if platen in BONDED else NONE
+    below = numbering.bottom if platen in (*BONDED, BASE) and base_moves else NONE
+    return 2 * above + 1, 2 * below + 1
 
 
 def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:

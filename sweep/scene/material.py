@@ -193,6 +193,22 @@ def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
     return StressLaw(spline.x, np.ascontiguousarray(spline.c[::-1].T))
 
 
+def with_compression(
+    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...], cauchy: float
+) -> tuple[Floats, Floats]:
+    """Strains and stresses of a curve with another compression, by its tension: the share
+    ``cauchy`` of `upper`, and the rest of `lower`.
+    """
+    pulled = np.array(curve_strain) >= 0.0
+    strain, stress = np.array(curve_strain)[pulled], np.array(curve_stress)[pulled]
+    knots, values, slopes = _knots(tuple(strain.tolist()), tuple(stress.tolist()))
+    tension = knots >= 0.0
+    pressed, _ = _compression(
+        COMPRESSION, knots[tension], values[tension], slopes[tension], 1.0 - cauchy, cauchy
+    )
+    return np.r_[COMPRESSION, strain], np.r_[pressed, stress]
+
+
 def _knots(
     curve_strain: tuple[float, ...], curve_stress: tuple[float, ...]
 ) -> tuple[Floats, Floats, Floats]:
@@ -221,15 +237,20 @@ def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
 
 
 def _compression(
-    strain: Floats, knots: Floats, values: Floats, slopes: Floats
+    strain: Floats,
+    knots: Floats,
+    values: Floats,
+    slopes: Floats,
+    lower_weight: float = LOWER_WEIGHT,
+    upper_weight: float = UPPER_WEIGHT,
 ) -> tuple[Floats, Floats]:
     """Stress and slope at compressive strains, derived from the tension curve."""
     stretch = 1.0 + strain
     lower, lower_slope = _tension(-strain, knots, values, slopes)
     cauchy, cauchy_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
-    stress = -LOWER_WEIGHT * lower - UPPER_WEIGHT * cauchy / stretch**2
+    stress = -lower_weight * lower - upper_weight * cauchy / stretch**2
     upper_slope = cauchy_slope / stretch**4 + 2.0 * cauchy / stretch**3
-    return stress, LOWER_WEIGHT * lower_slope + UPPER_WEIGHT * upper_slope
+    return stress, lower_weight * lower_slope + upper_weight * upper_slope
 
 
 def _tension(

@@ -12,11 +12,11 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.scene.beams import bends
-from sweep.scene.coordinates import BONDED, held, leaders
+from sweep.scene.coordinates import held, leaders
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
-from sweep.scene.lattice import initial_velocity, load_of, reported, rest_of
+from sweep.scene.lattice import follow_platens, initial_velocity, load_of, reported, rest_of
 from sweep.scene.mesh import Ints, bow, row_nodes
-from sweep.scene.terms import Scene, assemble, striker_of
+from sweep.scene.terms import Scene, add_bodies, assemble, target_of
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def build_tied(case: Case) -> Scene:
     free = np.array([float(case.widens), 0.0])
     images = images_of(numbering, leader, (numbering.width, numbering.width), free)
     parts, force = parts_of(case, period, numbering, leader, images)
-    parts.mass[numbering.high] = striker_of(loading).mass
+    add_bodies(parts.mass, numbering, loading)
     parts = parts._replace(load=load_of(numbering, case))
     rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
     return Scene(
@@ -71,11 +71,10 @@ def _numbering(period: Period) -> BesideEachOther:
 
 def _leaders(numbering: BesideEachOther, case: Case) -> Ints:
     """The coordinate that each one follows."""
-    platen = case.loading.platen
-    fixed = np.concatenate([held(numbering, platen), numbering.unused])
+    platen, base_moves = case.loading.platen or "none", target_of(case.loading) is not None
+    fixed = np.concatenate([held(numbering, platen, base_moves), numbering.unused])
     if not case.widens:
         fixed = np.append(fixed, numbering.width)
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
-    tied = 2 * numbering.top + 1 if platen in BONDED else numbering.top[:0]
-    return leaders(numbering, fixed, tied)
+    return leaders(numbering, fixed, *follow_platens(numbering, platen, base_moves))

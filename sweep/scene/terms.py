@@ -241,10 +241,14 @@ def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) 
     share = mesh.node_area
     masses = np.zeros(numbering.size)
     masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    masses[numbering.high] = striker_of(loading).mass
-    if (target := target_of(loading)) is not None:
-        masses[numbering.low] = target
+    add_bodies(masses, numbering, loading)
     return masses
+
+
+def add_bodies(masses: Floats, numbering: BetweenPlatens, loading: Loading) -> None:
+    """Enter a striker and a base that moves freely among ``masses``, (n,) kg, in place."""
+    masses[numbering.high] = striker_of(loading).mass
+    masses[numbering.low] = target_of(loading) or 0.0
 
 
 def friction_of(case: Case) -> friction.Friction:

@@ -10,6 +10,7 @@ import numpy as np
 from kernels.geometry.specimen_height import height
 from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
+from kernels.terms.profile import free_path
 from sweep.config.case import Case, complete
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
@@ -271,7 +272,7 @@ class _Run:
                     return energy_gained(self.case)
                 if outcome != outcomes.CONVERGED:
                     return self._failed(outcome, phase.name)
-                if self.struck and self._is_over():
+                if self.struck and (self._is_over() or self._has_passed()):
                     break
         if not self._balances(self.done):
             self.curable = True
@@ -317,6 +318,20 @@ class _Run:
         last = back[0] if len(back) else again
         self.done = self.done if last is None else int(last) + 1
         return last is not None
+
+    def _has_passed(self) -> bool:
+        """True if a striker that is not flat is below the base, and no wall is in its way for as
+        far as it can fall until `duration`: it touches the lattice no more.
+        """
+        loading, touch = self.case.loading, self.scene.terms.contact
+        if not isinstance(loading, Impact) or loading.striker == "flat":
+            return False
+        row = self.rows[self.done - 1]
+        speed, left = -float(row.speed), loading.duration - float(row.time)
+        if speed <= 0.0 or self._strain(row.height) <= 1.0:
+            return False
+        fall = speed * left + 0.5 * loading.weight / loading.striker_mass * left**2
+        return bool(free_path(self.state.x, touch.profiles, touch.high, -1.0) > fall)
 
     @property
     def cycles(self) -> list[CycleRows]:

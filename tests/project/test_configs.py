@@ -120,8 +120,8 @@ def test_rammed_holds_its_numbers():
     assert (case.lattice.cells_x, case.lattice.cells_y) == (17, 3)
     summary = simulate(case).summary
     assert summary["status"] == "converged"
-    assert summary["peak_force_N"] == pytest.approx(5869.8, rel=1e-3)
-    assert summary["target_speed_m_per_s"] == pytest.approx(3.3195, rel=1e-3)
+    assert summary["peak_force_N"] == pytest.approx(4318.6, rel=1e-3)
+    assert summary["target_speed_m_per_s"] == pytest.approx(3.3031, rel=1e-3)
 
 
 def test_reuse_holds_its_numbers():
@@ -131,20 +131,20 @@ def test_reuse_holds_its_numbers():
     assert summary["status"] == "converged"
     assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
     assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
-    assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(20.009, rel=1e-3)
-    assert summary["second_cycle_share"] == pytest.approx(0.6453, rel=1e-3)
+    assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(25.825, rel=1e-3)
+    assert summary["second_cycle_share"] == pytest.approx(0.7169, rel=1e-3)
 
 
 def test_reuse_softens_as_it_says():
-    """A strip that is stretched by 20 % absorbs 0.7 of the first cycle; 0.79 without softening."""
+    """A strip that is stretched by 20 % absorbs 0.75 of the first cycle; 0.84 without softening."""
     (material,) = {case.material for case in expand(load_config(CONFIGS / "reuse.toml"))}
     relaxing = material_with(loss=material.loss)
     assert relaxing.softening_r is None
     works = [pulled(each, 0.2, 50.0) for each in (material_with(), relaxing, material)]
     shares = [second / first for first, _, second, _ in works]
-    assert shares == pytest.approx([1.0, 0.79, 0.70], abs=0.01)
+    assert shares == pytest.approx([1.0, 0.84, 0.75], abs=0.005)
     lost = [1.0 + back / there for there, back, *_ in works]
-    assert lost == pytest.approx([0.0, 0.38, 0.48], abs=0.01)
+    assert lost == pytest.approx([0.0, 0.283, 0.385], abs=0.005)
 
 
 def test_slicer_holds_its_numbers():
@@ -242,7 +242,7 @@ def test_which_way_presses_one_print_in_both_directions():
     assert summary["direction"] == "out_of_plane"
 
 
-def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_40_percent():
+def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_30_percent():
     """Pressed by 1 % and let go, one loses a little more than a strip does until its force is
     zero.
     """
@@ -251,11 +251,11 @@ def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_40_perc
     for case, other in zip(cases, elastic, strict=True):
         assert case.lattice == other.lattice
         assert case.loading.stroke == other.loading.stroke
-        assert (case.material.loss, case.loading.unload) == (0.4, True)
+        assert (case.material.loss, case.loading.unload) == (0.3, True)
     along = next(case for case in cases if case.loading.direction == "out_of_plane")
     summary = pressed_a_little(along, nodes_per_wall=2, steps=20)
     assert summary["status"] == "converged"
-    assert summary["lost_share"] == pytest.approx(0.447, abs=2e-3)
+    assert summary["lost_share"] == pytest.approx(0.3245, abs=2e-3)
 
 
 def seed(model, hinges):

@@ -211,6 +211,24 @@ def test_worst_book_is_below_a_millionth():
     assert rows["status"] == ["converged"] * len(left)
 
 
+FAMILIES = {"honeycomb": "hex", "triangles": "triangle", "re-entrant": "reentrant"}
+
+
+def test_winners_are_the_first_of_the_rankings():
+    """README has a cell for each front and mass, docs/rammed.md the ranking behind it."""
+    rankings = re.findall(
+        r"^## (.*?)\n+```text\n(.*?)^```", readme.PAGES["docs/rammed.md"], re.M | re.S
+    )
+    first = {}
+    for title, text in rankings:
+        (row,) = [line.split() for line in text.splitlines() if line.startswith(("1*", " 1*"))]
+        first[title] = row[1], f"{row[5]} mm: {row[7]} N"
+    cells = [cell for row in readme.table("front") for cell in row[1:]]
+    said = [cell.split(", ") for cell in cells]
+    assert [(FAMILIES[name], rest) for name, rest in said] == list(first.values())
+    assert [title.rpartition(" lb")[0][-1] for title in first] == ["1", "3"] * 3
+
+
 @pytest.fixture(scope="module")
 def quick_armor(tmp_path_factory):
     """A folder with the results of those designs of armor.toml that take no time."""

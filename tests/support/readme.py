@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[2]
-DOCS = ("questions", "results", "accuracy", "published", "speed")
+DOCS = ("questions", "rammed", "results", "accuracy", "published", "speed")
 NAMES = (
     *("README.md", *(f"docs/{name}.md" for name in DOCS)),
     *("configs/README.md", "kernels/README.md", "GLOSSARY.md"),

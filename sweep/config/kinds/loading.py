@@ -127,14 +127,9 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
         allowed = '"displacement" if lattice.boundary is "periodic"'
         raise RefusedError("loading.mode", mode, allowed, because)
     platen = given.get("platen")
-    if pressed.tied and "target_mass" in given:
-        raise RefusedError("loading.target_mass", given["target_mass"], f"none {pressed.unending}")
-    if (
-        pressed.tied
-        and not pressed.sheet
-        and platen in (None, "none")
-        and (platen or mode == "force")
-    ):
+    if pressed.sheet and "target_mass" in given:
+        raise RefusedError("loading.target_mass", given["target_mass"], f"none {pressed.where}")
+    if pressed.tied and not shells and platen in (None, "none") and (platen or mode == "force"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
     if shells and platen not in (None, "glued", "clamped", "contact"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {pressed.where}")

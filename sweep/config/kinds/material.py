@@ -29,6 +29,7 @@ BY_NUMBERS = "by numbers"
 SOFTENING_BETA = 0.1
 FIBRE_COUNT = 7
 FIBRES = '"section" or "fibres"'
+RULES = {"compression": (0.0, 1.0), "tension": (1.0, 0.0)}  # see `Material.uncertain`
 # JSON returns lists, so that lists are accepted too.
 Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Range = Annotated[tuple[str, float, float], Field(strict=False)]
@@ -69,7 +70,9 @@ class Material(Table):
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve. `uncertain`: key, low and high
-    end of each number that is the record's and has a range there.
+    end of each number that is the record's and has a range there; and "compression" or "tension",
+    if the record does not measure it, with the share of the rule of Cauchy stress
+    (`sweep.scene.material`) that makes it soft, and that which makes it stiff.
     """
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
@@ -289,10 +292,15 @@ def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]
 def _uncertain(
     record: Record, inputs: Given, values: dict[str, Any]
 ) -> tuple[tuple[str, float, float], ...]:
-    """The ranges of the record's numbers that a material uses, without those that it is given."""
+    """The ranges of the record's numbers that a material uses, without those that it is given, and
+    of the branch of its curve that is not measured.
+    """
     used = [key for key in record.ranges if key not in inputs]
     used = [key for key in used if values.get(key) is not None or key == "friction"]
-    return tuple((key, *record.ranges[key]) for key in used)
+    ranges = dict(record.ranges)
+    if record.derived and "curve_strain" in values:
+        used, ranges[record.derived] = [*used, record.derived], RULES[record.derived]
+    return tuple((key, *ranges[key]) for key in used)
 
 
 def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:

@@ -18,12 +18,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
 from pathlib import Path
+from typing import Literal
 
 from sweep.config.faults import MisfitError
 from sweep.config.materials.material_header import (
     STRAIN_UNITS,
     STRESS_UNITS,
     Stated,
+    assumed,
     comments,
     stated,
     with_units,
@@ -80,6 +82,15 @@ class Record:
     plasticity: Mapping[str, float]
     ranges: Mapping[str, tuple[float, float]]
     comments: tuple[str, ...]
+
+    @property
+    def derived(self) -> Literal["compression", "tension"] | None:
+        """The branch of the curve that is no measurement: which the file does not have, or calls an
+        assumption.
+        """
+        if self.strain and self.strain[0] >= 0.0:
+            return "compression"
+        return "tension" if "Tension" in assumed(self.comments) else None
 
 
 def available() -> list[str]:

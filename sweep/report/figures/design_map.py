@@ -72,7 +72,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         ax.margins(y=0.15)
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.budgets_g:
-            mark(ax, budget, f"{budget:g} g")
+            mark(ax, budget, f"{budget:.4g} g")
         words = [_in_lines(line) for line in titled(ax.get_title("left"), ranking).split("\n")]
         for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")

@@ -2,7 +2,8 @@
 
 The same in every panel: colour = cells; sign = pattern, or material if there is only one pattern;
 size = wall thickness; open and dashed = doubtful. If patterns and materials vary, the colour
-stands for cells and material; if the direction varies, also for that.
+stands for cells and material; if the direction varies, also for that. Where all of this follows
+from the pattern, as of cells of one size, the colour stands for the pattern too.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ class Looks(NamedTuple):
 
     colors: values of the columns `tint` -> colour. signs: values of the column `sign` -> marker.
     areas: wall thickness (m) -> area of a marker (points^2). tint: `cells_x`, `cells_y` and, if the
-    sign stands for the pattern, `material`; `direction` if that varies. doubtful: True if some
-    designs are doubtful.
+    sign stands for the pattern, `material`; `direction` if that varies; the pattern alone if these
+    follow from it. doubtful: True if some designs are doubtful.
     """
 
     tint: list[str]
@@ -75,11 +76,18 @@ class Looks(NamedTuple):
         walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
         whose width is that of the walls.
         """
-        heading, words = _tint_words(self.tint, list(self.colors))
         noun = "pattern" if self.sign == "lattice_kind" else self.sign
+        signs: dict[str, dict[str, Any]] = {n: {"marker": s} for n, s in self.signs.items()}
+        tints: dict[str, dict[str, dict[str, Any]]] = {}
+        if self.tint == [self.sign]:
+            signs = {name: look | {"color": self.colors[name,]} for name, look in signs.items()}
+        else:
+            heading, words = _tint_words(self.tint, list(self.colors))
+            colors = zip(words, self.colors.values(), strict=True)
+            tints = {heading: {word: {"color": color} for word, color in colors}}
         groups: dict[str, dict[str, dict[str, Any]]] = {
-            heading: {w: {"color": c} for w, c in zip(words, self.colors.values(), strict=True)},
-            noun: {name: {"marker": sign} for name, sign in self.signs.items()},
+            **tints,
+            noun: signs,
             "wall": {
                 text_in(t, "mm", 3): LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
                 for t, area in self.areas.items()
@@ -103,6 +111,8 @@ def looks(designs: DataFrame) -> Looks:
     turned = len(designs["direction"].unique()) > 1
     tint = ["cells_x", "cells_y", *(["material"] * patterned), *(["direction"] * turned)]
     sign = "lattice_kind" if patterned else "material"
+    if patterned and not _vary_alone(designs, tint, sign):
+        tint = [sign]
     values = sorted(set(_rows(designs, tint)))
     walls = sorted(designs["wall_thickness_m"].unique())
     return Looks(
@@ -113,6 +123,12 @@ def looks(designs: DataFrame) -> Looks:
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
         bool(doubtful(designs).any()),
     )
+
+
+def _vary_alone(designs: DataFrame, tint: list[str], sign: str) -> bool:
+    """Whether the columns ``tint`` are the same for all designs, or vary among those of a sign."""
+    values = designs[[sign, *tint]].drop_duplicates()
+    return len(values[tint].drop_duplicates()) == 1 or bool(values[sign].duplicated().any())
 
 
 def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
@@ -181,7 +197,7 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
     winners = [
-        (f"up to {budget:g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
+        (f"up to {budget:.4g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
         for budget in ranking.budgets_g
         for limit in [greatest_mass(budget)]
     ]

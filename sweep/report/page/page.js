@@ -77,6 +77,14 @@ function wish(name, range, unit, on) {
 }
 
 const gramsPerUnit = () => Number($("unit").value);
+
+// The unit in which all budgets are hundredths; the first one if none is.
+function unitOf(budgets) {
+  const isRound = (unit) => budgets.every((grams) => Math.abs((100 * grams) / unit - Math.round((100 * grams) / unit)) < 1e-6);
+  const units = [...$("unit").options].map((option) => option.value);
+  return units.find((unit) => isRound(Number(unit))) ?? units[0];
+}
+
 const showBudget = wish("budget", massRange, gramsPerUnit, (grams) => (asked.budget = grams));
 const showForce = wish("force", forceRange, () => 1, (newtons) => (asked.force = newtons));
 const setSide = (side) => (mm) => {
@@ -88,7 +96,7 @@ const setSide = (side) => (mm) => {
 const showWidth = wish("width", () => LENGTH, () => 1, setSide(0));
 const showHeight = wish("height", () => LENGTH, () => 1, setSide(1));
 
-function picks(box, values, unit, key, chosen) {
+function picks(box, values, words, key, chosen) {
   box.replaceChildren(
     ...values.map((value) =>
       element(
@@ -101,7 +109,7 @@ function picks(box, values, unit, key, chosen) {
             refresh();
           },
         },
-        `${Number(value.toPrecision(6))} ${unit}`,
+        words(value),
       ),
     ),
   );
@@ -175,7 +183,9 @@ function requiredText() {
   const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
   const designs = now.rows.filter((row) => row.mass <= greatestMass(data, asked)).length;
   const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
-  return `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}. ${designs - now.missing.length} of ${designs} designs${within} ` +
+  const required = `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}.`;
+  if (!designs) return required;
+  return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
 }
 
@@ -211,6 +221,7 @@ function* nearestText() {
 }
 
 function showAsked() {
+  $("scene-words").textContent = scene().label;
   showRequired();
   const { low, high } = massRange();
   $("budget-on").checked = asked.budget !== null;
@@ -223,9 +234,9 @@ function showAsked() {
   const [width, height] = asked.panel ?? ["width", "height"].map((name) => toSI(Number($(name).value), "mm") || 0.1);
   showWidth(inUnits(width, "mm"));
   showHeight(inUnits(height, "mm"));
-  picks($("budgets"), data.question.budgets_g, "g", "budget", asked.budget);
+  picks($("budgets"), data.question.budgets_g, (grams) => inUnit(grams), "budget", asked.budget);
   const forces = data.energies.map((energy) => energy.force).filter((force) => force !== null);
-  picks($("forces"), ofPanel(asked) ? [] : forces, "N", "force", asked.force);
+  picks($("forces"), ofPanel(asked) ? [] : forces, (newtons) => `${Number(newtons.toPrecision(6))} N`, "force", asked.force);
   $("force-of").textContent = ofOne();
 }
 
@@ -515,7 +526,7 @@ function notes() {
   if (storedEnergy(data, asked) < 0)
     lines.push(
       `These energies are read from curves of at most ${data.points} points: their error is at most ` +
-        `${inUnits(data.doubt, "%").toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
+        `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar)
@@ -812,6 +823,7 @@ function start() {
   asked.panel = panel;
   asked.require = { ...data.question.require };
   asked.per = data.question.per;
+  $("unit").value = unitOf(budgets);
   makeRequired();
   data.scenes.forEach(({ label }, i) => $("scene").append(element("option", { value: i }, label)));
   $("scenes").hidden = data.scenes.length < 2;

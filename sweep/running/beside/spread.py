@@ -1,9 +1,10 @@
 """The spread of the best designs: each simulated again at both ends of every uncertain number.
 
 Uncertain are the numbers of a material whose file states a range (`config.material_header`), as far
-as the config does not give them itself, and the friction. One number at a time is at an end of its
-range; the shape of the specimen stays. A modulus scales the whole curve. Along the cells, a lattice
-also has other imperfections, as there are many ways to fold.
+as the config does not give them itself, the branch of its curve that is derived from the other one,
+by two rules, and the friction. One number at a time is at an end of its range; the shape of the
+specimen stays. A modulus scales the whole curve. Along the cells, a lattice also has other
+imperfections, as there are many ways to fold.
 
 These corners are ordinary cases, in a results file of their own beside that of the sweep, so that
 they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
@@ -16,15 +17,18 @@ from typing import Any, NamedTuple
 from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
+from sweep.coupon.curve import with_tension
 from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.cluster import Scheduler
+from sweep.scene.material import with_compression
 from sweep.store.read import ONLY_MISSING, Rerun, read_case
 
 FRICTION = (
     0.2,
     0.9,
 )  # of TPU on TPU or steel, assumed: no source gives it (configs/materials/README.md)
+BRANCHES = {"compression": with_compression, "tension": with_tension}
 BEST = 5  # designs of a ranking
 SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
 
@@ -83,7 +87,11 @@ def _moved(design: Case, name: str, value: float) -> Case:
 
 
 def _other(material: Material, name: str, value: float) -> dict[str, Any]:
-    """What differs in a material with another value of a number."""
+    """What differs in a material with another value of a number, or of the share of a rule."""
+    if name in BRANCHES:
+        strain, stress = BRANCHES[name](material.curve_strain, material.curve_stress, value)
+        curve = {"curve_strain": strain, "curve_stress": stress}
+        return {key: tuple(values.tolist()) for key, values in curve.items()}
     change: dict[str, Any] = {name: value}
     if name == "modulus":
         scale = value / material.modulus

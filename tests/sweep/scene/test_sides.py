@@ -184,6 +184,28 @@ def test_images_move_with_their_originals_in_an_impact(platen, integrator):
     assert borne == pytest.approx(given, rel=0.05)
 
 
+@pytest.mark.parametrize("falls", [False, True])
+@pytest.mark.parametrize("platen", STRUCK)
+def test_two_periods_below_twice_the_mass_are_as_good_as_one(platen, falls):
+    """On a target, or with the weight of the striker. Momentum and book: `test_target`."""
+
+    def hit(n):
+        base = dict(gravity=True) if falls else dict(target_mass=0.01 * n)
+        struck = dict(mode="impact", striker_mass=5e-3 * n, striker_speed=0.5, platen=platen)
+        lattice, solver = strip("hex", (n, 2), 0.1), dict(joints="points")
+        return Case.of(lattice=lattice, loading=struck | base, solver=solver)
+
+    one, two = (simulate(hit(n)).summary for n in (1, 2))
+    assert one["status"] == two["status"] == "converged"
+    if falls:
+        sunk = 5e-3 * 9.80665 * one["indentation_m"]
+        assert one["absorbed_energy_J"] == pytest.approx(0.5 * 5e-3 * 0.25 + sunk, rel=2e-3)
+    else:
+        assert one["target_speed_m_per_s"] > 0.1
+    for name in ("indentation_m", "peak_deceleration_m_per_s2", "rebound_share"):
+        assert two[name] == pytest.approx(one[name], rel=1e-5)
+
+
 def test_a_load_does_the_work_on_a_period_that_a_wide_lattice_gains():
     """With the same load on every column, of which free sides have one more."""
 

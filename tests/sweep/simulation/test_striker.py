@@ -235,11 +235,40 @@ def test_a_striker_that_still_sinks_is_a_failure():
     assert result.history["time_s"][-1] == pytest.approx(2e-3, rel=0.01)
 
 
-def test_a_striker_that_slips_off_has_passed_the_lattice():
-    shaped = dict(striker="round", striker_radius=1e-4, striker_at=1.0, platen="contact")
-    result = simulate(struck(striker_mass=0.1, striker_speed=5.0, duration=1e-2, **shaped))
-    assert result.status == "slipped"
-    assert "the striker has passed the lattice" in result.message
+@pytest.mark.parametrize(
+    "shape",
+    [
+        dict(striker="round", striker_radius=1e-4),
+        dict(striker="round", striker_radius=1e-3),
+        dict(striker="punch", striker_width=1e-3, striker_tip=1e-4),
+    ],
+)
+def test_a_run_ends_when_the_striker_has_passed_the_lattice(shape, monkeypatch):
+    """Without this it goes on to `duration`, and touches nothing any more."""
+    hit = dict(striker_mass=0.1, striker_speed=5.0, striker_at=1.0, platen="contact")
+    case = struck(duration=2e-2, **hit, **shape)
+    ended = simulate(case)
+    monkeypatch.setattr("sweep.simulation.simulate._Run._has_passed", lambda run: False)
+    whole = simulate(case)
+    for result in (ended, whole):
+        assert result.status == "slipped"
+        assert "the striker has passed the lattice" in result.message
+    force, rows = whole.history["reaction_top_N"], len(ended.history["time_s"])
+    assert whole.history["time_s"][-1] > 3.0 * ended.history["time_s"][-1]
+    np.testing.assert_array_equal(force[:rows], ended.history["reaction_top_N"])
+    assert np.abs(force[rows:]).max() < 1e-6 * np.abs(force).max()  # round-off of m v / dt
+
+
+def test_a_striker_below_the_base_that_bends_the_lattice_has_not_passed_it():
+    """A thin panel between far ribs bends by more than its height, and throws the striker back."""
+    panel = dict(kind="square", cells_x=10, cells_y=1, width=0.05, height=2.5e-3)
+    panel["wall_thickness"] = 0.4e-3
+    ribs = dict(base="ribs", base_span=0.045, striker="round", striker_radius=3e-3)
+    hit = dict(mode="impact", striker_mass=1e-3, striker_speed=2.0, platen="contact")
+    result = simulate(Case.of(lattice=panel, material={"name": "cheetah"}, loading=hit | ribs))
+    assert result.status == "converged"
+    assert result.history["top_displacement_m"].max() > 2.5e-3
+    assert result.summary["rebound_speed_m_per_s"] > 0.1
 
 
 def test_a_lattice_that_slips_away_from_a_striker_is_not_ranked():

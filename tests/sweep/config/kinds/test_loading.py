@@ -58,10 +58,13 @@ def test_measured_memory_acts_only_if_asked_for(own_record):
 
 def test_uncertain_are_the_numbers_of_the_record_that_are_used(own_record):
     name = str(own_record(MEASURED))
-    poisson, loss = ("poisson", 0.45, 0.48), ("loss", 0.2, 0.4)
-    assert material_with(name=name).uncertain == (poisson,)
-    assert set(material_with(name=name, memory="measured").uncertain) == {poisson, loss}
-    assert material_with(name=name, memory="measured", poisson=0.4).uncertain == (loss,)
+    poisson, loss, rules = ("poisson", 0.45, 0.48), ("loss", 0.2, 0.4), ("compression", 0.0, 1.0)
+    assert material_with(name=name).uncertain == (poisson, rules)
+    assert set(material_with(name=name, memory="measured").uncertain) == {poisson, loss, rules}
+    assert material_with(name=name, memory="measured", poisson=0.4).uncertain == (loss, rules)
+    assert material_with(name=name, stretch="linear").uncertain == (poisson,)
+    from_origin = str(own_record(MEASURED.replace("stress_Pa\n", "stress_Pa\n0,0\n")))
+    assert material_with(name=from_origin).uncertain == (poisson, rules)
     assert material_with(modulus=12e6, density=1190.0).uncertain == ()
 
 

@@ -73,12 +73,12 @@ def test_materials_have_signs(table):
 
 
 def test_patterns_have_signs_where_there_are_several(table):
-    kinds = table.assign(lattice_kind=["brick", "hex", "square", "hex"])
+    kinds = table.assign(lattice_kind=["brick", "hex", "hex", "square"])
     look = looks(kinds)
     assert entries(kinds)[4:8] == ["pattern", "brick", "hex", "square"]
     assert (look.signs["hex"], look.signs["square"]) == ("h", "s")
     assert len({*look.signs.values()}) == 3
-    assert [look.of(kinds[k : k + 1])["marker"] for k in (1, 2)] == ["h", "s"]
+    assert [look.of(kinds[k : k + 1])["marker"] for k in (1, 3)] == ["h", "s"]
     assert look.colors.keys() == {(n, n, "ninjaflex") for n in (2, 3, 10)}
     assert entries(kinds)[:4] == entries(table)[:4]
 
@@ -89,6 +89,22 @@ def test_of_several_patterns_colours_tell_the_material_too(table):
     colours = ["2 x 2, cheetah", "2 x 2, ninjaflex", "3 x 3, ninjaflex", "10 x 10, cheetah"]
     assert entries(both)[:5] == ["cells, material", *colours]
     assert entries(both.assign(cells_x=3, cells_y=3))[:3] == ["material", "cheetah", "ninjaflex"]
+
+
+def test_where_cells_follow_from_the_pattern_colours_tell_the_pattern(table):
+    kinds = ["hex", "hex", "square", "square"]
+    one_size = table.assign(lattice_kind=kinds, cells_x=[16, 16, 17, 17], cells_y=3)
+    look = looks(one_size)
+    assert look.colors.keys() == {("hex",), ("square",)}
+    entries = {entry["label"]: entry for entry in look.legend()}
+    assert "cells" not in entries
+    for name in ("hex", "square"):
+        assert (entries[name]["color"], entries[name]["marker"]) == (
+            look.colors[name,],
+            look.signs[name],
+        )
+    other = looks(one_size.assign(cells_x=[16, 20, 17, 17]))
+    assert other.tint[:2] == ["cells_x", "cells_y"]
 
 
 def test_colours_tell_the_direction_where_there_are_both(table):

@@ -147,11 +147,38 @@ def test_answer_comes_first_and_names_the_winner(tab):
     assert tab.run("document.querySelectorAll('img, #static').length") == 0
 
 
+def test_budgets_in_ounces_stay_in_ounces(chromium, tmp_path, table):
+    file = write(tmp_path / "trial.h5", table, {"config": "{}"})
+    question = Question([1.5 * 28.349523125e-3, 2 * 28.349523125e-3])
+    chromium.open(write_page(file, table, question, tmp_path / "trial.html"))
+    said = chromium.run('document.getElementById("sentence").textContent')
+    assert said.startswith("The best design up to 2 oz is ")
+    picks = "[...document.querySelectorAll('#budgets button')].map((pick) => pick.textContent)"
+    assert chromium.run(picks) == ["1.5 oz", "2 oz"]
+    command = chromium.run('document.querySelector("#command code").textContent')
+    assert command.endswith('--budget "2 oz"')
+
+
+@pytest.mark.parametrize(("width", "seen"), [(390, True), (1280, False)])
+def test_a_phone_shows_the_whole_scene(chromium, file, width, seen):
+    """The end of what a narrow list shows is cut off."""
+    chromium.open(file.replace(".h5", ".html"), width, 800)
+    put(chromium, "scene", "2", event="change")
+    chosen = 'document.getElementById("scene").selectedOptions[0].textContent'
+    words = 'document.getElementById("scene-words")'
+    assert chromium.run(f"{words}.textContent === {chosen}")
+    assert (chromium.run(f"{words}.offsetHeight") > 0) == seen
+
+
 def test_a_budget_below_the_lightest_design_is_answered(tab):
     put(tab, "budget", "0.5")
     assert tab.run(ROWS) == []
     said = tab.run('document.getElementById("sentence").textContent')
     assert said.startswith("No design weighs 0.5 g or less; the lightest weighs ")
+    put(tab, "max_force", "60")
+    more = tab.run('document.getElementById("detail").textContent')
+    assert "force at most 60 N." in more
+    assert "0 of 0" not in more
 
 
 def test_requirements_that_nothing_fulfils_are_answered(tab):

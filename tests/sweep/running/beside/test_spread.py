@@ -1,5 +1,6 @@
 """Corners of the best designs: which cases they are, and that none runs twice."""
 
+import numpy as np
 import pytest
 
 from sweep.config.case import Case
@@ -11,12 +12,14 @@ from sweep.running.beside.spread import (
     corners_of,
     run_corners,
 )
+from sweep.scene.material import stress_law
 from sweep.store.read import read_summary
 from tests.support.materials.records import HEADER
 from tests.support.results.standin import cases, simulate, write
 
 PRESSED = dict(mode="displacement", strain=0.3)
 FRICTIONS = [f"friction {value:g}" for value in FRICTION]
+COMPRESSION = ["compression low", "compression high"]
 
 
 def named(**tables):
@@ -27,7 +30,7 @@ def named(**tables):
 
 def test_one_number_at_a_time_is_at_an_end():
     design, found = named(material=dict(name="ultimaker_tpu95a"))
-    assert list(found) == ["poisson low", "modulus low", "modulus high", *FRICTIONS]
+    assert list(found) == ["poisson low", "modulus low", "modulus high", *COMPRESSION, *FRICTIONS]
     soft = found["modulus low"].material
     assert soft.modulus == 61e6
     scaled = [61.0 / 67.0 * stress for stress in design.material.curve_stress]
@@ -42,12 +45,50 @@ def test_numbers_that_the_config_gives_are_certain():
     _, found = named(material=dict(modulus=12e6, density=1190.0))
     assert list(found) == FRICTIONS
     _, found = named(material=dict(name="cheetah", modulus=80e6, poisson=0.45))
-    assert list(found) == FRICTIONS
+    assert list(found) == [*COMPRESSION, *FRICTIONS]
 
 
 def test_numbers_without_effect_have_no_corner():
     _, found = named(material=dict(plane="stress"), contact=dict(model="none"))
-    assert list(found) == ["modulus low", "modulus high", "density high"]
+    assert list(found) == ["modulus low", "modulus high", "density high", *COMPRESSION]
+
+
+def test_a_compression_that_is_not_measured_goes_by_either_rule():
+    """Stress odd in nominal strain is the least, Cauchy stress odd in log strain the greatest."""
+    design, found = named()
+    given, low, high = (
+        stress_law(case.material) for case in (design, *map(found.get, COMPRESSION))
+    )
+    pulled, pressed = np.array([0.05, 0.2, 0.4]), -np.array([0.05, 0.2, 0.4])
+    for law in (low, high):
+        np.testing.assert_array_equal(law.at(pulled), given.at(pulled))
+    np.testing.assert_allclose(low.at(pressed), -given.at(pulled), rtol=1e-3)
+    odd = -given.at(1 / (1 + pressed) - 1) / (1 + pressed) ** 2
+    np.testing.assert_allclose(high.at(pressed), odd, rtol=1e-2)
+    np.testing.assert_allclose(0.7 * low.at(pressed) + 0.3 * odd, given.at(pressed), rtol=1e-3)
+
+
+STRAINS = np.array([0.05, 0.1, 0.2])
+PUCK = (
+    "-0.2,-3e5\n-0.1,-1.2e5\n-0.05,-5.5e4\n-0.01,-1e4\n0.01,1e4\n0.05,4.9e4\n0.1,9e4\n0.2,1.8e5\n"
+)
+
+
+@pytest.mark.parametrize("says", [True, False])
+def test_a_tension_that_is_not_measured_goes_by_either_rule(own_record, says):
+    """A file with both branches has corners if it calls one of them an assumption."""
+    text = ("# Tension [A]: derived from compression.\n" if says else "") + HEADER + PUCK
+    design, found = named(material=dict(name=str(own_record(text))))
+    ends = ["tension low", "tension high"]
+    assert set(ends) & set(found) == (set(ends) if says else set())
+    if not says:
+        return
+    given, low, high = (stress_law(case.material) for case in (design, *map(found.get, ends)))
+    for law in (low, high):
+        np.testing.assert_allclose(law.at(-STRAINS), given.at(-STRAINS), rtol=1e-12)
+    np.testing.assert_allclose(high.at(STRAINS), -given.at(-STRAINS), rtol=1e-12)
+    assert np.all(low.at(STRAINS) < given.at(STRAINS))
+    assert np.all(given.at(STRAINS) < high.at(STRAINS))
 
 
 def test_friction_that_the_sweep_varies_stays():
@@ -109,7 +150,8 @@ def test_lattices_fold_along_their_cells_in_other_ways():
     loading = dict(direction="out_of_plane", strain=0.3)
     found = {c.name: c.case for c in corners(Case.of(loading=loading))}
     seeds = {f"imperfection {seed}": seed for seed in SEEDS}
-    assert list(found) == ["modulus low", "modulus high", "density high", *FRICTIONS, *seeds]
+    numbers = ["modulus low", "modulus high", "density high", *COMPRESSION, *FRICTIONS]
+    assert list(found) == [*numbers, *seeds]
     assert {n: found[n].lattice.imperfection_seed for n in seeds} == seeds
     assert found["imperfection 1"].axes == {"lattice.imperfection_seed": 1}
     straight = Case.of(loading=loading, lattice=dict(imperfection=0.0))
