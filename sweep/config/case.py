@@ -324,6 +324,6 @@ def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
     if kind is CustomStructure:
         made = custom_structure(given)
     else:
-        made = sliced(given, density) if kind is Sliced else cells(given, density)
+        made = sliced(given, density) if kind is Sliced else cells(given, density, along)
     check_printable(made)
     return upright(made, given) if along else across(made)

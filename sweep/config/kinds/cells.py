@@ -137,12 +137,16 @@ class Cells(Laid):
         return super().thickest / float(gradient(self.geometry).max())
 
 
-def cells(given: Given, density: float) -> Cells:
-    """The cells of these values; density (kg/m^3): of the material."""
+def cells(given: Given, density: float, along: bool) -> Cells:
+    """The cells of these values; density (kg/m^3): of the material. along: whether they are pressed
+    along themselves, so that periodic sides are those of both directions.
+    """
     made = Cells.model_validate(
         {"nodes_per_wall": nodes_of(given.get("kind", "square"))} | chosen(given, Cells)
     )
     check_proportion(made)
+    if along and made.tied:
+        made = made.model_copy(update={"layers": made.layers or 1})
     made = made.model_copy(update=_lines(made))
     if made.cell_size is not None:
         made = _divided(made, made.cell_size, given)
@@ -264,17 +268,9 @@ def _check_period(made: Cells) -> None:
         if getattr(made, key) != value:
             text = "none" if value is None else f"{value:g}"
             raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
-    check_rows(made, (True, made.endless))
-
-
-def check_rows(made: Cells, repeats: tuple[bool, bool]) -> None:
-    """Refuse an odd number of rows that repeat, if every other row is shifted.
-
-    repeats: whether the lattice repeats in x and in y.
-    """
     flat = made.orientation == "flat"
     key, row = ("cells_x", "column") if flat else ("cells_y", "row")
-    if repeats[0 if flat else 1] and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
-        endless = ENDLESS if made.endless else TIED
+    repeats = made.geometry.periodic[0 if flat else 1]
+    if repeats and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
         allowed = f"an even number {endless}, as every other {row} of {made.kind} is shifted"
         raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)

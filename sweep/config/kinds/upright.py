@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from sweep.config.kinds.cells import TIED, Cells, check_rows
+from sweep.config.kinds.cells import TIED, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.lattice import Lattice
@@ -38,9 +38,6 @@ def upright(made: Lattice, given: Given) -> Lattice:
     from sweep.design.upright_plan import layers_of, mirror_fault, most_layers, plan_of, quads_along
 
     _check(made)
-    if isinstance(made, Cells) and made.tied:
-        check_rows(made, (True, True))
-        made = made.model_copy(update={"layers": made.layers or 1})
     changes: dict[str, Any] = {}
     if isinstance(made, Cells) and "nodes_per_wall" not in given:
         changes["nodes_per_wall"] = NODES

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import DataFrame
 
+from sweep.design.surfaces.names import SHEETS
 from sweep.modes import MODES
 from sweep.numbers import in_unit, percent, text_in
 from sweep.ranking.scenes import scene_label
@@ -46,13 +47,13 @@ def headline(row: Mapping[str, Any]) -> str:
 def design_and_scene(row: Mapping[str, Any]) -> tuple[str, str]:
     """Design and scene of a case in words."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
-    if pattern == "custom":
+    if pattern == "custom" or pattern in SHEETS:
         cells = ""
     if row["infill_share"] > 0.0:  # NaN without a slicer
         cells = f", {text_in(row['infill_share'], '%', 3)} infill"
     wall = f"wall {text_in(row['wall_thickness_m'], 'mm', 3)}"
     if row["direction"] == ALONG:
-        wall += ", along its cells"
+        wall += ", along its print axis" if pattern in SHEETS else ", along its cells"
     return f"{pattern}{cells}, {wall}, {row['material']}", scene_label(DataFrame([row]))
 
 

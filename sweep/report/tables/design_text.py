@@ -9,6 +9,7 @@ from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import describe_column
+from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 
@@ -100,7 +101,8 @@ def about_direction(row: Series) -> list[str]:
     """Sentences about what the model of plates leaves out; none for a case across its cells."""
     if row["direction"] != "out_of_plane":
         return []
-    lines = ["pressed along its cells; delamination of printed layers is not modelled"]
+    axis = "print axis" if row["lattice_kind"] in SHEETS else "cells"
+    lines = [f"pressed along its {axis}; delamination of printed layers is not modelled"]
     solid, strain = row["solid_strain"], row["peak_strain"]
     if strain > solid:
         share = text_in(solid, "%", 3)

@@ -5,6 +5,7 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.keys import QUANTITIES, case_keys, nearest, table_keys
 from sweep.design.infill import families
+from sweep.design.surfaces.names import SHEETS
 
 
 def test_every_unit_of_the_keys_is_described():
@@ -25,7 +26,8 @@ OTHERS = {
     "square": "grid",
 }
 KINDS = ", ".join(
-    f'"{kind}" ("{OTHERS[kind]}")' if kind in OTHERS else f'"{kind}"' for kind in families()
+    f'"{kind}" ("{OTHERS[kind]}")' if kind in OTHERS else f'"{kind}"'
+    for kind in (*families(), *SHEETS)
 )
 
 
