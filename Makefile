@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank warm test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed \
+.PHONY: help setup sweep rank warm test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
         bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces bench published experiment along figures lint clean
 .DELETE_ON_ERROR:
 
@@ -83,6 +83,11 @@ rammed: setup  ## ram a panel with three fronts; the rankings and the picture of
 	@$(PYTHON) -m sweep rank results/rammed.h5 --top 5
 	@$(PYTHON) -m sweep rank results/rammed.h5 --out results/rammed
 	@cp results/rammed/winners.png docs/pictures/rammed.png
+
+gyroid: setup  ## press a gyroid and prisms both ways; the ranking and the picture of README.md (10 min)
+	@$(PYTHON) -m sweep run configs/gyroid.toml
+	@$(PYTHON) -m sweep show results/gyroid.h5 5
+	@cp results/gyroid/*/shapes.png docs/pictures/gyroid.png
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
 	@$(PYTHON) -m tests.studies.rankings.bars results/bars
