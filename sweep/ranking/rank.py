@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame
 
-from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
+from sweep.columns import TIED_SIDES, describe_column, error_column, is_grid_key, less_is_better
 from sweep.modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
@@ -241,10 +241,16 @@ def _least(rows: DataFrame) -> str | None:
 
 
 def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:
-    """Rows of one scene with its label and their Pareto flag; the front is of trusted designs."""
+    """Rows of one scene with its label and their Pareto flag; the front is of trusted designs.
+
+    Periods of a wide panel, whose sizes mean nothing, are compared by mass and energy per area.
+    """
     sound = rows[~doubtful(rows)]
-    merit = sound[names.energy] if least is None else -sound[least]
-    front = sound.index[pareto(sound[names.mass], merit)]
+    mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]
+    if least is None and sound["sides"].str.startswith(TIED_SIDES).all():
+        area = sound["outer_width_m"] * sound["depth_m"]
+        mass, merit = (values / area * area.mean() for values in (mass, merit))
+    front = sound.index[pareto(mass, merit)]
     return rows.assign(scene=label, pareto=rows.index.isin(front))
 
 

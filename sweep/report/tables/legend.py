@@ -78,7 +78,8 @@ only unloading tells is not known (–)."""
 OTHER_BOW = """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 ONE_PERIOD = """\
-Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel."""
+Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel; the
+Pareto front compares mass and energy per pressed area."""
 CROSSED = """\
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others."""

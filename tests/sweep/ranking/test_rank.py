@@ -48,6 +48,17 @@ def test_round_off_of_equal_masses_is_no_merit():
     assert list(pareto(mass, energy)) == [False, True, False]
 
 
+def test_pareto_compares_periods_of_panels_per_area():
+    """All are as heavy per area, so that the one that absorbs most per area is best."""
+    rows = designs([4.0, 1.0, 2.0], [0.4, 0.11, 0.19], depth_m=0.01, sides="tied, fixed period")
+    for row, width in zip(rows, (0.04, 0.01, 0.02), strict=True):
+        row["outer_width_m"] = width
+    table = rank(summary(*rows)).set_index("mass_g")
+    assert dict(table["pareto"]) == {4.0: False, 1.0: True, 2.0: False}
+    free = rank(summary(*(row | {"sides": "free"} for row in rows)))
+    assert free["pareto"].all()
+
+
 def test_pareto_looks_at_all_rows_of_the_scene():
     table = summary(*designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.6]))
     ranking = rank(table, by="mass_g", top=2)
