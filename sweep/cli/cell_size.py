@@ -9,7 +9,7 @@ from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.numbers import in_unit, tenths, text_in
+from sweep.numbers import in_unit, text_in
 
 
 def cell_sentences(cases: Iterable[Case]) -> list[str]:
@@ -24,12 +24,12 @@ def cell_sentences(cases: Iterable[Case]) -> list[str]:
 
 
 def _of_sheet(made: Surface) -> str:
-    """A line such as "gyroid: 2 periods of 6.25 mm in a height of 12.5 mm, print axis pressed"."""
+    """A line: "gyroid, pressed along the print axis: 2 x 6.25 mm, the period, in 12.5 mm"."""
     height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
-    count = f"{made.pressed_height / made.period:.4g} periods of {period}"
-    axis = "pressed" if made.pressed == ALONG else "across"
-    share = f", {tenths(made.infill)} %" if isinstance(made, SlicedSheet) else ""
-    return f"{made.sheet}{share}: {count} in a height of {height}, print axis {axis}"
+    count = f"{made.pressed_height / made.period:.4g} x {period}"
+    axis = "along" if made.pressed == ALONG else "across"
+    share = f", {text_in(made.infill, '%', 3)}" if isinstance(made, SlicedSheet) else ""
+    return f"{made.sheet}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
 
 
 def _sentence(made: Cells) -> str:

@@ -105,6 +105,11 @@ def _of_start(question: Question, arguments: Namespace, start: Sequence[Case]) -
     from sweep.running.applicable import check_required
 
     check_required(question.require or {}, start)
+    if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
+        allowed = (
+            "lattices that are parts: one period of a sheet has no mass of its own; use [grid]"
+        )
+        raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
     mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):
         return question

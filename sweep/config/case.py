@@ -108,10 +108,10 @@ class Case(BaseModel):
         """Whether the period of tied sides is free: no platen holds it, nor does inertia.
 
         Between platens without friction the mean lateral force of a crush is zero. An endless panel
-        that moves cannot widen in a finite time.
+        that moves cannot widen in a finite time. The periods of shells are fixed.
         """
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
-        return self.lattice.tied and loose and self.loading.quasi_static
+        return self.lattice.tied and not self.shells and loose and self.loading.quasi_static
 
     @cached_property
     def case_id(self) -> str:

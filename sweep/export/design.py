@@ -66,9 +66,10 @@ def design_of(case: Case) -> Design:
             "no part; allowed: .csv, .pvd, .vtu, .gif"
         )
     if case.lattice.tied:
+        free = "" if case.lattice.sheet else 'lattice.sides = "free", or '
         raise ExportError(
             f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
-            'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
+            f"allowed: {free}.csv, .pvd, .vtu, .gif"
         )
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)

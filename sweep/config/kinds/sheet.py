@@ -15,6 +15,8 @@ THICKEST = 0.2  # of a period, about half of the clear width of a channel
 S = TypeVar("S", bound="Surface")
 LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
+MOST_QUADS = 20_000  # with six unknowns for each
+MOST_IMPERFECTION = 1.0  # in wall thicknesses
 
 
 class Surface(Specimen):
@@ -114,7 +116,7 @@ def sheet(given: Given, density: float, along: bool) -> Sheet:
     along the print axis.
     """
     wanted = given.get("cell_size", CELL_SIZE * pressed_height(given, along))
-    sides = fitted(given["kind"], given, along, wanted)
+    sides = fitted(given["kind"], given, along, wanted, "cell_size")
     made = Sheet.model_validate(chosen(given, Sheet) | sides)
     if made.mass is not None:
         made = _weighing(made, made.mass, given, density)
@@ -128,17 +130,18 @@ def pressed_height(given: Given, along: bool) -> float:
     return height
 
 
-def fitted(name: str, given: Given, along: bool, wanted: float) -> dict[str, Any]:
+def fitted(name: str, given: Given, along: bool, wanted: float, key: str) -> dict[str, Any]:
     """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
-    the one ``wanted`` (m).
+    the one ``wanted`` (m), which follows from a ``key``.
     """
     direction, height = ALONG if along else ACROSS, pressed_height(given, along)
     cut = SHEETS[name].cuts[direction]
     period = height / (cut.step * max(round(height / (cut.step * wanted)), 1))
     if not LEAST <= period / wanted <= MOST:
-        most = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm at this height"
-        allowed = f"periods of {most}; {TO_MM * wanted:.4g} mm here"
-        raise RefusedError("lattice." + ("depth" if along else "height"), height, allowed)
+        most = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm"
+        pressed = f"a {'depth' if along else 'height'} of {TO_MM * height:.4g} mm"
+        allowed = f"periods of {most} in {pressed}; {TO_MM * wanted:.4g} mm here"
+        raise RefusedError(f"lattice.{key}", given.get(key), allowed)
     across, pressed = ("height", "depth") if along else ("depth", "height")
     return {
         "width": cut.across * period,
@@ -150,15 +153,27 @@ def fitted(name: str, given: Given, along: bool, wanted: float) -> dict[str, Any
 
 
 def checked(made: S) -> S:
-    """The sheet, if its mesh is not too fine and its walls are not too thick."""
-    if made.nodes_per_wall > MOST_NODES:
-        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, f"at most {MOST_NODES}")
-    most = THICKEST * made.period
-    if made.wall_thickness >= most:
-        allowed = f"below a fifth of the period, {most:.4g} m here"
-        raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
+    """The sheet, if its mesh and its walls are neither too fine nor too coarse or thick.
+
+    Keys of upright walls that it does not have are taken away.
+    """
+    if not 1 <= made.nodes_per_wall <= MOST_NODES:
+        allowed = f"1 to {MOST_NODES}, in half a period of a sheet"
+        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
+    if made.elements > MOST_QUADS:
+        allowed = f"at most {MOST_QUADS:,} quads, {made.elements:,} here: a larger period, or fewer"
+        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
+    if made.imperfection > MOST_IMPERFECTION:
+        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, of a sheet"
+        raise RefusedError("lattice.imperfection", made.imperfection, allowed)
+    if made.wall_thickness >= THICKEST * made.period:
+        thick, most = (TO_MM * size for size in (made.wall_thickness, THICKEST * made.period))
+        allowed = f"one with walls below a fifth of the period, {most:.4g} mm; {thick:.4g} mm here"
+        key = next((key for key in ("infill", "mass") if made.value(key)), "wall_thickness")
+        raise RefusedError(f"lattice.{key}", made.value(key), allowed)
     seed = (made.imperfection_seed or 0) if made.imperfection else None
-    return made.model_copy(update={"imperfection_seed": seed})
+    unused = {"layers": None, "symmetry": "none"}
+    return made.model_copy(update=unused | {"imperfection_seed": seed})
 
 
 def _weighing(made: Sheet, mass: float, given: Given, density: float) -> Sheet:

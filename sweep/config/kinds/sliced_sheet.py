@@ -53,7 +53,8 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
     _check(given, width, layer, lines)
     line = lines * line_of(given["slicer"], width, layer)
-    sides = fitted(GYROID, given, along, period_of(given["slicer"], given["infill"], line))
+    wanted = period_of(given["slicer"], given["infill"], line)
+    sides = fitted(GYROID, given, along, wanted, "infill")
     follows: dict[str, Any] = {
         "wall_thickness": line,
         "line_width": width,

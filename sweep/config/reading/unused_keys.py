@@ -154,7 +154,7 @@ def _is_crush(case: Case) -> bool:
 def _why_shells(case: Case) -> str:
     """Why the walls of a case are shells."""
     if case.lattice.sheet:
-        return f'lattice.kind is "{case.lattice.sheet}"'
+        return case.lattice.because
     return f'loading.direction is "{case.loading.direction}"'
 
 
@@ -170,8 +170,8 @@ def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
 
 def _reason_in_lattice(key: str, case: Case) -> str:
     if case.lattice.sheet and key != "lattice.imperfection_seed":
-        return f'lattice.kind is "{case.lattice.sheet}", one period of which is computed'
-    if key in ONLY_ALONG and not case.along:
+        return case.lattice.because
+    if key in ONLY_ALONG and not case.shells:
         return 'loading.direction is "in_plane"'
     if key == "lattice.imperfection_seed":
         return "lattice.imperfection is 0"

@@ -9,9 +9,10 @@ import sys
 import time
 from itertools import product
 
+from sweep.design.surfaces.names import SHEETS
 from tests.studies.surfaces import moduli, shells, wall
 from tests.studies.surfaces.extrapolated import limit
-from tests.studies.surfaces.period import GYROID, best_period
+from tests.studies.surfaces.period import best_period
 
 GRIDS = {0.1: 48, 0.2: 32, 0.3: 32}
 """Solid share of the period, and the coarsest of three grids."""
@@ -44,7 +45,7 @@ def shell_lines(poisson, of, nets):
     for n, net in nets.items():
         stiffness, area = shells.stiffness(net, of.thickness, 1.0, poisson)
         cubic, _ = moduli.cubic(stiffness)
-        for name, factor in (("", 1.0), (", by exact area", GYROID.area / area)):
+        for name, factor in (("", 1.0), (", by exact area", SHEETS["gyroid"].area / area)):
             away = factor * cubic.moduli / of.moduli - 1.0
             cells = [f"{100.0 * a:+.2f}%" for a in away]
             yield _line(f"  shells, n = {n}{name}", [*cells, f"{factor * area * of.thickness:.3%}"])
@@ -57,7 +58,7 @@ def main(out=sys.stdout):
     out.write(_line("nets", ["quads", "area", "quality", "uneven"]) + "\n")
     for n, net in nets.items():
         stiffness, area = shells.stiffness(net, wall.thickness_of(0.1))
-        cells = [len(net.quads), f"{area / GYROID.area - 1.0:+.2%}", f"{net.quality:.2f}"]
+        cells = [len(net.quads), f"{area / SHEETS['gyroid'].area - 1.0:+.2%}", f"{net.quality:.2f}"]
         out.write(_line(f"  n = {n}", [*cells, f"{moduli.cubic(stiffness)[1]:.2%}"]) + "\n")
     for poisson, (share, n) in product(POISSON, GRIDS.items()):
         of = limit(share, n, poisson)

@@ -6,6 +6,7 @@ area, and K the integral of the Gaussian curvature, 2 pi times the Euler charact
 
 import numpy as np
 
+from sweep.design.surfaces.names import SHEETS
 from tests.studies.surfaces.period import GYROID
 
 CURVATURE = -16.0 * np.pi
@@ -16,12 +17,12 @@ FLAT = 1e-3  # slope, below which no foot is found
 
 def density(thickness):
     """The share of the period that is solid."""
-    return GYROID.area * thickness + CURVATURE * thickness**3 / 12.0
+    return SHEETS["gyroid"].area * thickness + CURVATURE * thickness**3 / 12.0
 
 
 def thickness_of(share):
     """The thickness of the wall that fills this share of the period."""
-    roots = np.roots([CURVATURE / 12.0, 0.0, GYROID.area, -share])
+    roots = np.roots([CURVATURE / 12.0, 0.0, SHEETS["gyroid"].area, -share])
     return float(min(root.real for root in roots if abs(root.imag) < 1e-12 and root.real > 0.0))
 
 

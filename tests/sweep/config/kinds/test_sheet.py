@@ -61,7 +61,11 @@ def test_walls_are_shells_whichever_way_it_is_pressed():
 REFUSED = [
     ({"wall_thickness": 2 * MM}, {}, "below a fifth of the period"),
     ({"cell_size": 80 * MM}, {}, "periods of at most"),
-    ({"nodes_per_wall": 20}, {}, "at most 11"),
+    ({"nodes_per_wall": 20}, {}, "1 to 11"),
+    ({"nodes_per_wall": 0}, {}, "1 to 11"),
+    ({"cell_size": 0.1 * MM, "wall_thickness": 0.01 * MM}, {}, "at most 20,000 quads"),
+    ({"imperfection": 5.0}, {}, "at most 1, in wall thicknesses"),
+    ({"mass": 0.02}, {}, "lattice.mass"),
     ({"mass": 1e-4, "wall_thickness": 0.1 * MM}, {}, "give one of them"),
     ({}, {"mode": "force"}, '"displacement" or "impact" if lattice.kind is "gyroid"'),
     ({}, {"platen": "sliding"}, '"glued", "clamped" or "contact" if lattice.kind is "gyroid"'),
@@ -75,6 +79,20 @@ def test_what_a_sheet_does_not_have_is_refused(lattice, loading, words):
     with pytest.raises(RefusedError, match="allowed") as refused:
         case(loading, **lattice)
     assert words in str(refused.value)
+
+
+def test_keys_of_upright_walls_do_not_count():
+    way = {"direction": "out_of_plane", "platen": "contact"}
+    assert case(way, layers=4, symmetry="quarter").case_id == case(way).case_id
+
+
+def test_the_period_is_fixed_even_without_friction():
+    loose = Case.of(
+        lattice={"kind": "gyroid"},
+        loading={"mode": "displacement", "platen": "contact"},
+        contact={"friction": 0.0},
+    )
+    assert not loose.widens
 
 
 def test_keys_of_drawn_lattices_are_refused():
