@@ -83,7 +83,7 @@ class DesignSpace:
     def _limited(self, size: Interval, least: Case) -> Interval | None:
         """The axis up to its greatest value within the budget; None if its least exceeds that."""
         match least.lattice:
-            case CustomStructure():
+            case CustomStructure() | Surface():
                 return size
             case Sliced():
                 return self._limited_of_slicer(size, least)
@@ -152,10 +152,11 @@ def _with_walls(case: Case, thickness: float) -> Case:
 def _mass(case: Case) -> float:
     """Mass of a specimen (kg) as budgets count it."""
     lattice = case.lattice
+    if isinstance(lattice, Surface):  # one period, which `cli.optimize` refuses
+        return case.material.density * lattice.wall_thickness * lattice.area
     if isinstance(lattice, CustomStructure):
         area = network_of(lattice).printed_area
     else:
-        assert not isinstance(lattice, Surface)  # a period, which `cli.optimize` refuses
         area = counted_area(lattice.geometry)
     return case.material.density * lattice.depth * area
 

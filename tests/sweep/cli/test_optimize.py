@@ -67,6 +67,19 @@ def test_budget_that_no_design_keeps(capsys, config, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["sought.toml"]
 
 
+@pytest.mark.parametrize(
+    "range_",
+    ['cell_size" = ["5 mm", "7 mm"]', 'wall_thickness" = {from = "0.3 mm", to = "0.6 mm"}'],
+)
+def test_a_period_of_a_sheet_is_no_part(capsys, config, tmp_path, range_):
+    path = tmp_path / "sheet.toml"
+    sheet = '[lattice]\nkind = "gyroid"\n[loading]\nmode = "displacement"\n[search]\n'
+    path.write_text(f'{sheet}"lattice.{range_}\n')
+    status, out, err = crumple(capsys, "optimize", str(path), "--budget", "1 g")
+    assert (status, out) == (2, "")
+    assert "gyroid in [search]; allowed: lattices that are parts" in err
+
+
 def test_rows_of_another_loading_are_left_alone(capsys, config):
     for strain in ("0.5", "0.6"):
         config.write_text(TOML.replace("0.6", strain))
