@@ -112,7 +112,8 @@ def test_a_prediction_that_does_not_come_out_again_is_told(capsys, folder):
 
 def test_a_case_that_has_not_converged_is_told(capsys, folder):
     (folder / "mine.toml").write_text(
-        CONFIG + 'solver.time_limit = "1e-9 s"\nsolver.retry = false\n'
+        CONFIG.replace("load_steps = 4", "load_steps = 20000")
+        + 'solver.time_limit = "1e-9 s"\nsolver.retry = false\n'
     )
     status, _, err = crumple(capsys, "published", "--add", "mine.toml")
     assert status == 1
