@@ -10,10 +10,8 @@ import numpy as np
 from kernels.geometry.space import crossing, surface
 from kernels.plates.layout import PER_NODE
 from sweep.scene.mesh import Floats
-from sweep.scene.plates import repeats
-from sweep.scene.plates.mesh import PlateMesh
 from sweep.scene.plates.scene import Scene
-from sweep.scene.plates.sheet import SheetMesh
+from sweep.scene.plates.shell_mesh import ShellMesh
 from sweep.scene.plates.unfolded import unfolded
 
 CORNERS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])  # of a quad, in s and z
@@ -72,7 +70,7 @@ def principal(c: Floats) -> tuple[Floats, Floats]:
     return low, high
 
 
-def _measures(position: Floats, mesh: PlateMesh | SheetMesh) -> tuple[Floats, Floats]:
+def _measures(position: Floats, mesh: ShellMesh) -> tuple[Floats, Floats]:
     """First and second form (f, m, 3) of the quads: 11, 22, 12, at their middles; position (f, n,
     3) in m, the second form in 1/m.
     """
@@ -95,7 +93,7 @@ def _slopes(corner: Floats, size: Floats) -> tuple[Floats, Floats]:
     return along / size[:, :1], up / size[:, 1:]
 
 
-def _normals(position: Floats, mesh: PlateMesh | SheetMesh) -> Floats:
+def _normals(position: Floats, mesh: ShellMesh) -> Floats:
     """Normals (f, m, 4, 3) of the wall of each quad at its corners."""
     corner = position[:, mesh.quads]
     diagonal = np.cross(corner[:, :, 2] - corner[:, :, 0], corner[:, :, 3] - corner[:, :, 1])
@@ -107,7 +105,7 @@ def _normals(position: Floats, mesh: PlateMesh | SheetMesh) -> Floats:
     return np.asarray(np.moveaxis(total[place], 2, 0))
 
 
-def surface_crossings(position: Floats, mesh: PlateMesh | SheetMesh) -> int:
+def surface_crossings(position: Floats, mesh: ShellMesh) -> int:
     """Greatest number of edges that pass through triangles in a shape, position (f, N, 3) in m of
     the whole of a mesh; images beyond mirror planes, or a period away, are part of it.
 
@@ -115,7 +113,7 @@ def surface_crossings(position: Floats, mesh: PlateMesh | SheetMesh) -> int:
     """
     triangles = unfolded(mesh).triangles
     if mesh.shift.any():
-        triangles, position = mesh.triangles, repeats.with_images(mesh, position)
+        triangles, position = mesh.triangles, mesh.with_images(position)
     edges, _ = surface.edges_of(triangles, position.shape[1])
     unsure = np.empty((0, 2), np.int64)
     counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]

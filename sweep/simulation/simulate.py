@@ -21,13 +21,14 @@ from sweep.config.kinds.solver import Arcs
 from sweep.config.kinds.table import Given
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.numbers import to_si
-from sweep.result import Result, Status
+from sweep.result import Result, Status, failed_result
 from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, cycle_rows, stages, tolerances
 from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
+from sweep.scene.plates.law import UnstableMaterialError
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.profiles import outlines
@@ -84,7 +85,10 @@ def simulate(case: Case, stop: np.ndarray | None = None, seconds: float | None =
     """
     started = time.thread_time()
     left = case.solver.time_limit if seconds is None else seconds
-    result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop, left)
+    try:
+        result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop, left)
+    except UnstableMaterialError as error:
+        return failed_result(case, Status.STOPPED, str(error))
     spent = time.thread_time() - started  # includes the time to free the memory of the run
     return replace(result, summary={**result.summary, "cpu_s": spent})
 

@@ -77,17 +77,12 @@ def rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus):
     )  # fmt: skip
 
 
-def curved(x, frames, quads, thickness, directors, shear_modulus, fold_modulus):
+def curved(x, frames, quads, size, thickness, directors, shear_modulus, fold_modulus):
     """Return the `Shell` of any quads, without stress at ``x`` (n,).
 
     frames (n_nodes, 9): of the nodes.
     """
-    points = x[: 6 * len(frames)].reshape(-1, 6)[:, :3][quads]
-    along = np.linalg.norm(points[:, [1, 2]] - points[:, [0, 3]], axis=2).mean(axis=1)
-    up = np.linalg.norm(points[:, [3, 2]] - points[:, [0, 1]], axis=2).mean(axis=1)
-    made = rectangles(
-        quads, np.column_stack([along, up]), thickness, directors, shear_modulus, fold_modulus
-    )
+    made = rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus)
     m = len(quads)
     made = made._replace(axes=np.zeros((m, 4, 3)), layered=np.zeros((m, 4, layers.REST)))
     scratch = make_scratch()

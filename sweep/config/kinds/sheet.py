@@ -1,5 +1,6 @@
 """A sheet that divides space in two, such as the gyroid: one period of a panel between platens."""
 
+from abc import abstractmethod
 from math import isclose
 from typing import Any, ClassVar, Literal, TypeVar
 
@@ -42,9 +43,9 @@ class Surface(Specimen):
         return {key: value for key, value in super().given().items() if key != lateral}
 
     @property
+    @abstractmethod
     def sheet(self) -> str:
         """The name of the surface."""
-        raise NotImplementedError
 
     @property
     def name(self) -> str:

@@ -1,8 +1,8 @@
 """Periodic functions whose zero levels are close to minimal surfaces.
 
-    gyroid    sin x cos y + sin y cos z + sin z cos x
-    primitive cos x + cos y + cos z                                   (Schwarz P)
-    diamond   cos x cos y cos z - sin x sin y sin z                   (Schwarz D)
+    gyroid     sin x cos y + sin y cos z + sin z cos x
+    schwarz_p  cos x + cos y + cos z                        (primitive)
+    schwarz_d  cos x cos y cos z - sin x sin y sin z        (diamond)
 
 each in phases of 2 pi a period (K. Michielsen and J. Kole, Phys. Rev. B 68, 2003). Slicers print
 the first as "gyroid".
@@ -54,7 +54,7 @@ def _diamond_gradient(p: Floats) -> Floats:
 
 LEVEL_SETS = {
     "gyroid": LevelSet(_gyroid, _gyroid_gradient),
-    "primitive": LevelSet(_primitive, _primitive_gradient),
-    "diamond": LevelSet(_diamond, _diamond_gradient),
+    "schwarz_p": LevelSet(_primitive, _primitive_gradient),
+    "schwarz_d": LevelSet(_diamond, _diamond_gradient),
 }
-"""By name."""
+"""By the name in `lattice.kind`."""

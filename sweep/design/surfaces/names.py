@@ -24,11 +24,10 @@ class Cut(NamedTuple):
 
 
 class SheetName(NamedTuple):
-    """A sheet. level: of `level_set`. In a period, from a net of 24 quads: area, in units of the
+    """A sheet. In a period, from a net of 24 quads: area, in units of the
     squared period; steep: mean of |n_xy|, n its unit normal. cuts: by `loading.direction`.
     """
 
-    level: str
     area: float
     steep: float
     cuts: dict[str, Cut]
@@ -36,7 +35,6 @@ class SheetName(NamedTuple):
 
 SHEETS = {
     "gyroid": SheetName(
-        "gyroid",
         3.0915,
         0.7953,
         {
@@ -45,13 +43,11 @@ SHEETS = {
         },
     ),
     "schwarz_p": SheetName(
-        "primitive",
         2.3517,
         0.8017,
         {"out_of_plane": Cut(0.0, 0.5), "in_plane": Cut(0.0, 0.5 * ROOT, ROOT, 1.0, True)},
     ),
     "schwarz_d": SheetName(
-        "diamond",
         3.8387,
         0.7939,
         {"out_of_plane": Cut(0.125, 0.25), "in_plane": Cut(0.0, 0.25 * ROOT, ROOT, 1.0, True)},

@@ -109,8 +109,8 @@ def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
     """The first net of `GOOD` quads, else the best one, on a grid of about so many cells.
 
     How a grid lies on the surface decides which quads meet at a node, and so how slender some of
-    them are. Nothing else changes if the box moves along x and y; up to one more cell along each
-    axis is tried, too.
+    them are. Nothing else changes if the box moves along x and y; up to two more cells along each
+    axis are tried, too.
     """
     best = None
     for more in MORE:

@@ -18,11 +18,10 @@ def net_of(name: str, direction: str, period: float, height: float, quads: int) 
 
     direction: `loading.direction`. period, height: m. Along z of the net the sheet is pressed.
     """
-    sheet = SHEETS[name]
-    cut = sheet.cuts[direction]
+    cut = SHEETS[name].cuts[direction]
     size = np.array([cut.across * period, cut.along * period, height])
     axes = DIAGONAL if cut.turned else np.eye(3)
     phase = 2.0 * np.pi / period * axes.T
-    box = Box(LEVEL_SETS[sheet.level], size, phase, phase[:, 2] * cut.start * period)
+    box = Box(LEVEL_SETS[name], size, phase, phase[:, 2] * cut.start * period)
     across, along, up = (max(round(quads * side / period), 2) for side in size)
     return best_net(box, (across, along, up))

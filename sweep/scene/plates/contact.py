@@ -7,27 +7,26 @@ from kernels.plates.contacts.mirror import NO_MIRROR, Mirror
 from kernels.plates.layout import PER_NODE
 from sweep.config.case import Case
 from sweep.scene.plates.coordinates import BONDED, Numbering, heights
-from sweep.scene.plates.mesh import PlateMesh
-from sweep.scene.plates.sheet import SheetMesh
+from sweep.scene.plates.shell_mesh import ShellMesh
 
 MOST_MOVE = 1.0  # longest move that neighbour lists cover, in typical widths of walls
 
 
-def mirror_of(mesh: PlateMesh | SheetMesh, case: Case) -> Mirror:
+def mirror_of(mesh: ShellMesh, case: Case) -> Mirror:
     """Contact of walls with their images beyond mirror planes, unless the model is "none"."""
-    if isinstance(mesh, SheetMesh) or mesh.copies == 1 or case.contact.model == "none":
+    if mesh.copies == 1 or case.contact.model == "none":
         return NO_MIRROR
     nodes = [np.flatnonzero(~mesh.on[:, axis]) for axis in (0, 1)]
-    places = [mesh.plan.planes[axis] - mesh.rest[nodes[axis], axis] for axis in (0, 1)]
+    places = [mesh.planes[axis] - mesh.rest[nodes[axis], axis] for axis in (0, 1)]
     return Mirror(
         coordinate=np.concatenate([PER_NODE * nodes[axis] + axis for axis in (0, 1)]),
         node=np.concatenate(nodes),
-        place=np.repeat(mesh.plan.planes, [len(each) for each in nodes]),
+        place=np.repeat(mesh.planes, [len(each) for each in nodes]),
         rest=np.concatenate(places),
     )
 
 
-def contact_of(mesh: PlateMesh | SheetMesh, numbering: Numbering, case: Case) -> contact.Contact:
+def contact_of(mesh: ShellMesh, numbering: Numbering, case: Case) -> contact.Contact:
     """Contact of all walls over their thickness, and of nodes that no platen holds with platens.
 
     With the contact model "none", only loose platens touch nodes.

@@ -20,8 +20,7 @@ from kernels.plates.layout import PER_NODE
 from sweep.design.drawing import Indices
 from sweep.scene.coordinates import BetweenPlatens
 from sweep.scene.mesh import Floats
-from sweep.scene.plates.mesh import PlateMesh
-from sweep.scene.plates.sheet import SheetMesh
+from sweep.scene.plates.shell_mesh import ShellMesh
 
 BONDED = ("glued", "clamped")
 ALONG, UP, NORMAL = range(3)  # axes of a node inside a wall
@@ -48,7 +47,7 @@ class Numbering(BetweenPlatens):
         return np.asarray(PER_NODE * nodes + 3 + axis)
 
 
-def leaders(mesh: PlateMesh | SheetMesh, platen: str) -> Indices:
+def leaders(mesh: ShellMesh, platen: str) -> Indices:
     """The coordinate that each one follows, (6 n + 2,): itself, that of the upper platen, or -1; of
     an image, that of its original.
     """
@@ -71,7 +70,7 @@ def leaders(mesh: PlateMesh | SheetMesh, platen: str) -> Indices:
     return leader[numbering.of_nodes(mesh.original)]
 
 
-def _mirrored(mesh: PlateMesh | SheetMesh, numbering: Numbering) -> list[Indices]:
+def _mirrored(mesh: ShellMesh, numbering: Numbering) -> list[Indices]:
     """Coordinates that the mirror planes of `lattice.symmetry` "quarter" hold; walls cross these
     planes at right angles.
     """
@@ -83,7 +82,7 @@ def _mirrored(mesh: PlateMesh | SheetMesh, numbering: Numbering) -> list[Indices
     return coordinates
 
 
-def heights(mesh: PlateMesh | SheetMesh, platen: str) -> tuple[float, float]:
+def heights(mesh: ShellMesh, platen: str) -> tuple[float, float]:
     """Heights of the platens at rest, m.
 
     Bonded ones are at the ends of the walls. Loose ones touch these from half a thickness on, as
@@ -93,13 +92,13 @@ def heights(mesh: PlateMesh | SheetMesh, platen: str) -> tuple[float, float]:
     return -gap, mesh.height + gap
 
 
-def at_rest(mesh: PlateMesh | SheetMesh, platen: str) -> Floats:
+def at_rest(mesh: ShellMesh, platen: str) -> Floats:
     """All coordinates at rest, (6 n + 2,)."""
     nodes = np.hstack([mesh.rest, np.zeros_like(mesh.rest)])
     return np.concatenate([nodes.ravel(), heights(mesh, platen)])
 
 
-def masses(mesh: PlateMesh | SheetMesh, total: float, striker: float) -> Floats:
+def masses(mesh: ShellMesh, total: float, striker: float) -> Floats:
     """Lumped mass of each coordinate, (6 n + 2,) kg, which sums to ``total`` along each axis.
 
     Rotations have none, as the solver re-bases them; the upper platen has that of the ``striker``.

@@ -11,10 +11,20 @@ from sweep.config.kinds.material import Material
 from sweep.scene.material import Floats, StressLaw, stress_law
 from sweep.scene.relaxation import relaxation_of
 
+UNSTABLE = """\
+walls that are shells need a stable rubber, and the curve of this material is none: its Cauchy \
+stress falls in tension, or at its last compressive strain; try another curve"""
+
+
+class UnstableMaterialError(ValueError):
+    """The curve of a material is not that of a stable rubber."""
+
 
 @lru_cache(maxsize=64)
 def law_of_sheet(material: Material) -> RelaxingSheet:
     """The law of an incompressible sheet in plane stress; neo-Hookean if the material is linear.
+
+    Raises `UnstableMaterialError`.
 
     The curve, times the instantaneous modulus over that at the reference time, is followed down to
     its least strain, beyond which the sheet stiffens.
@@ -30,7 +40,10 @@ def _elastic(material: Material, factor: float) -> sheet.Sheet:
         return sheet.neo_hookean(factor * material.modulus)
     curve = stress_law(material)
     slope = float(_with_slope(curve, np.zeros(1), factor)[1][0])
-    return sheet.measured(lambda strain: _with_slope(curve, strain, factor), curve.knots[0], slope)
+    try:
+        return sheet.measured(lambda e: _with_slope(curve, e, factor), curve.knots[0], slope)
+    except ValueError as error:
+        raise UnstableMaterialError(UNSTABLE) from error
 
 
 def shear_moduli(material: Material) -> tuple[float, float]:

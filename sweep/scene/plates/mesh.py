@@ -1,80 +1,69 @@
 """From a plan of walls to a grid of quads: nodes, directors, areas, triangles for contact."""
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
+from kernels.plates.element import shell
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.upright import quads_wanted
 from sweep.config.network import network_of
 from sweep.design.period import Endless
 from sweep.design.upright_plan import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.plates import repeats
 from sweep.scene.plates.imperfection import amplitudes, bow
+from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
 STRAIGHT = 1e-9  # sine of the angle below which two walls are in one plane
 UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class PlateMesh:
-    """Upright walls, divided into quads: n nodes, m quads, c columns of nodes one above another.
+class PlateMesh(ShellMesh):
+    """Upright walls, divided into quads: c columns of nodes one above another.
 
     Columns are the points of the plan, then those inside walls; the nodes of a column are numbered
     upwards, so that node = column x (layers + 1) + level. The axes of a wall are e_s along it, e_z
-    up, and its normal n = e_s x e_z to the right.
+    up, and its normal n = e_s x e_z to the right; those of a node are (e_s, e_z, n) where all of
+    its quads are in one plane, else x, y and z. Nodes are bowed by the imperfection, sizes are
+    those of flat quads, and triangles have alternate diagonals.
 
-    rest (n, 3): nodes at rest, bowed by the imperfection, m. frames (n, 9): axes of each node at
-    rest as columns of a matrix, row by row: (e_s, e_z, n) where all of its quads are in one plane,
-    else x, y and z. quads (m, 4): nodes (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): lengths
-    along s and z of the flat quad, m. thickness (m,), m. wall (m,): of the plan. directors (m, 4,
-    3): normal of the quad in the axes of each of its nodes. flat (n,): whether all quads of a node
-    are in one plane; its turn about n, the third axis, has then no stiffness. level (n,): of a
-    node. on (n, 2): whether a node is on the mirror plane of x and of y. triangles (k, 3): two of
-    each quad, with alternate diagonals and normals as the quads; of copies of quads too, where the
-    plan repeats. original, shift, period: as in `repeats.Repeating`.
+    wall (m,): of the plan. level (n,): of a node. is_flat (n,), is_on (n, 2): `flat` and `on`.
     """
 
     plan: Plan
-    height: float
-    rest: Floats
-    frames: Floats
-    quads: Ints
-    size: Floats
-    thickness: Floats
     wall: Ints
-    directors: Floats
-    flat: np.ndarray
     level: Ints
-    on: np.ndarray
-    triangles: Ints
-    original: Ints
-    shift: Ints
-    period: Floats
+    is_flat: np.ndarray
+    is_on: np.ndarray
 
     @property
-    def n_nodes(self) -> int:
-        """Number of nodes."""
-        return len(self.rest)
+    def flat(self) -> np.ndarray:
+        """As of `ShellMesh`."""
+        return self.is_flat
 
-    @cached_property
-    def own(self) -> Ints:
-        """Nodes that are no images of others."""
-        return repeats.own(self)
+    @property
+    def on(self) -> np.ndarray:
+        """As of `ShellMesh`."""
+        return self.is_on
+
+    @property
+    def planes(self) -> Floats:
+        """As of `ShellMesh`."""
+        return self.plan.planes
+
+    @property
+    def quad_area(self) -> Floats:
+        """As of `ShellMesh`."""
+        return np.asarray(self.size.prod(axis=1))
 
     @property
     def smooth_corners(self) -> Ints:
-        """A number for each pair of a node and a wall, by corner of the quads, (m, 4)."""
+        """A number for each pair of a node and a wall, (m, 4)."""
         pairs = self.original[self.quads] * len(self.plan.walls) + self.wall[:, None]
         _, place = np.unique(pairs, return_inverse=True)
         return np.asarray(place.reshape(self.quads.shape))
-
-    @property
-    def copies(self) -> int:
-        """Equal parts of the whole, of which this is one."""
-        return self.plan.copies
 
     @property
     def cell(self) -> float:
@@ -83,7 +72,7 @@ class PlateMesh:
 
     @property
     def force(self) -> float:
-        """Typical force over modulus, m^2: the least t^3 / (12 l) of a wall of width l."""
+        """As of `ShellMesh`."""
         return float(np.min(self.plan.thickness**3 / (12.0 * self.plan.span)))
 
     @property
@@ -101,25 +90,11 @@ class PlateMesh:
         """Nodes of the upper ends of the walls."""
         return np.flatnonzero(self.level == self.layers)
 
-    @cached_property
-    def area(self) -> Floats:
-        """A quarter of the area of each quad at a node, (n,) m^2."""
-        return repeats.quarters(self, self.size.prod(axis=1))
-
-    @cached_property
-    def volume(self) -> Floats:
-        """A quarter of the volume of each quad at a node, (n,) m^3; joints count for each wall."""
-        return repeats.quarters(self, self.size.prod(axis=1) * self.thickness)
-
-    @property
-    def node_thickness(self) -> Floats:
-        """Mean thickness of the walls at a node, (n,) m."""
-        return np.asarray((self.volume[self.own] / self.area[self.own])[self._place])
-
-    @property
-    def _place(self) -> Ints:
-        """Place of the original of each node among those of the period, (n,)."""
-        return np.searchsorted(self.own, self.original)
+    def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
+        """Flat rectangles, without stress in the bowed shape at rest."""
+        made = shell.rectangles(self.quads, self.size, self.thickness, self.directors, *moduli)
+        shell.measure_rest(x_rest, self.frames, made, shell.make_scratch())
+        return made
 
 
 @lru_cache(maxsize=16)
@@ -187,10 +162,10 @@ def extruded(
         thickness=plan.thickness[wall][own],
         wall=wall[own],
         directors=np.repeat(directors, layers, axis=0)[own],
-        flat=np.repeat(flat, layers + 1),
+        is_flat=np.repeat(flat, layers + 1),
         level=level,
-        on=np.repeat(on, layers + 1, axis=0),
-        triangles=_triangles(quads, level, np.repeat(number, layers)),
+        is_on=np.repeat(on, layers + 1, axis=0),
+        triangles=cut(quads, (np.repeat(number, layers) + level[quads[:, 0]]) % 2 == 0),
         original=(origin[:, None] * (layers + 1) + np.arange(layers + 1)).ravel(),
         shift=np.repeat(shift, layers + 1, axis=0),
         period=np.full(2, np.inf) if endless is None else endless.period,
@@ -213,15 +188,6 @@ def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) ->
     origin[inner] = first[of] + inner - first[wall]
     shift[inner] = endless.shift[endless.walls[wall, 0]] - endless.shift[endless.walls[of, 0]]
     return origin, shift
-
-
-def _triangles(quads: Ints, level: Ints, number: Ints) -> Ints:
-    """Two triangles of each quad, (2 m, 3). number (m,): of a quad along its wall."""
-    a, b, c, d = quads.T
-    even = (number + level[a]) % 2 == 0
-    one = np.where(even[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
-    two = np.where(even[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
-    return np.stack([one, two], axis=1).reshape(-1, 3)
 
 
 def _bow_walls(

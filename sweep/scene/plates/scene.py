@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernels.plates.element import shell
 from kernels.plates.layout import PER_NODE, Layout
 from kernels.plates.problem import PlateScene, at_rest
 from kernels.solve import march
@@ -20,8 +19,9 @@ from sweep.scene.plates import coordinates
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.law import law_of_sheet, shear_moduli
-from sweep.scene.plates.mesh import PlateMesh, build_mesh
-from sweep.scene.plates.sheet import SheetMesh, mesh_of_sheet, solid_of
+from sweep.scene.plates.mesh import build_mesh
+from sweep.scene.plates.sheet import mesh_of_sheet, solid_of
+from sweep.scene.plates.shell_mesh import ShellMesh
 from sweep.scene.terms import driven_by, friction_of, heavy, roles, striker_of
 
 NONE = np.empty(0, np.int64)
@@ -34,7 +34,7 @@ class Scene:
     Forces and energies are those of the walls in ``mesh``, one of `Plan.copies` equal parts.
     """
 
-    mesh: PlateMesh | SheetMesh
+    mesh: ShellMesh
     network: Network | None
     terms: PlateScene
     x_rest: Floats
@@ -82,9 +82,7 @@ def build_scene(case: Case) -> Scene:
     return scene_of(case, mesh, network, printed)
 
 
-def scene_of(
-    case: Case, mesh: PlateMesh | SheetMesh, network: Network | None, whole: float
-) -> Scene:
+def scene_of(case: Case, mesh: ShellMesh, network: Network | None, whole: float) -> Scene:
     """Build the arrays of a case from its mesh; whole: mass of the lattice, kg."""
     loading, striker = case.loading, striker_of(case.loading)
     numbering, platen = Numbering(mesh.n_nodes), loading.platen
@@ -99,7 +97,7 @@ def scene_of(
     terms = PlateScene(
         coordinates=_coordinates(mesh, numbering, layout, masses, load),
         law=law_of_sheet(case.material),
-        shell=_shell(mesh, x_rest, case),
+        shell=mesh.shells(x_rest, shear_moduli(case.material)),
         contact=contact_of(mesh, numbering, case),
         mirror=mirror_of(mesh, case),
         # The loop for the forces of the end does not settle where folds snap against each other.
@@ -118,7 +116,7 @@ def scene_of(
 
 
 def _coordinates(
-    mesh: PlateMesh | SheetMesh, numbering: Numbering, layout: Layout, masses: Floats, load: Floats
+    mesh: ShellMesh, numbering: Numbering, layout: Layout, masses: Floats, load: Floats
 ) -> Coordinates:
     """The data of the coordinates that the solver needs; a rotation w turns by 4 w."""
     scale = np.where(_is_rotation(numbering), 4.0 * mesh.size.mean(), 1.0)
@@ -143,23 +141,7 @@ def _is_rotation(numbering: Numbering) -> np.ndarray:
     return np.asarray((place >= 3) & (np.arange(numbering.size) < numbering.low))
 
 
-def _shell(mesh: PlateMesh | SheetMesh, x_rest: Floats, case: Case) -> shell.Shell:
-    """The shells, without stress in their shape at rest."""
-    if isinstance(mesh, SheetMesh):
-        return shell.curved(
-            x_rest, mesh.frames, mesh.quads, mesh.thickness, mesh.directors,
-            *shear_moduli(case.material),
-        )  # fmt: skip
-    made = shell.rectangles(
-        mesh.quads, mesh.size, mesh.thickness, mesh.directors, *shear_moduli(case.material)
-    )
-    shell.measure_rest(x_rest, mesh.frames, made, shell.make_scratch())
-    return made
-
-
-def _layout(
-    mesh: PlateMesh | SheetMesh, numbering: Numbering, leader: Indices, case: Case
-) -> Layout:
+def _layout(mesh: ShellMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
     """Constraints, and the places of the unknowns: node by node, then the upper platen."""
     driven = driven_by(case.loading, numbering)
     own, low = np.arange(leader.size), numbering.low
@@ -194,12 +176,12 @@ def _layout(
     )
 
 
-def _stiffness(mesh: PlateMesh | SheetMesh, case: Case) -> tuple[float, float]:
+def _stiffness(mesh: ShellMesh, case: Case) -> tuple[float, float]:
     """Stiffness of a node in stretching (N/m) and in bending by w (N m), of the thickest wall."""
     thickness = float(mesh.thickness.max())
     return case.material.modulus * thickness, case.material.modulus * thickness**3 * 4.0 / 3.0
 
 
-def _force_scale(mesh: PlateMesh | SheetMesh, case: Case) -> float:
+def _force_scale(mesh: ShellMesh, case: Case) -> float:
     """Typical force, N: the least Y t^3 / (12 l) of a wall of width l."""
     return case.material.modulus * mesh.force

@@ -1,22 +1,18 @@
-"""One period of a sheet between platens: its net of quads, and images of its nodes around it.
-
-Quads at the sides of the period reach nodes of the next one: images, which move as their originals.
-Further images carry copies of triangles that the period may touch. An image has no mass and no
-area, so that each pair of surfaces counts once.
-"""
+"""One period of a sheet between platens: its net of quads, and images of its nodes around it."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
+from kernels.plates.element import shell
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.plates import repeats
+from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
 AROUND = 0.5  # of a period: how far images of triangles stand around it
 WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
@@ -25,110 +21,55 @@ SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j
 
 
 @dataclass(frozen=True)
-class SheetMesh:
-    """A sheet as quads: n nodes, those of the period first, then images; m quads; k triangles.
+class SheetMesh(ShellMesh):
+    """A sheet as quads. Nodes of the period come first; the axes of a node are horizontal, rising,
+    and its normal. Sizes are means of two opposite sides; the shorter diagonal cuts a quad.
 
-    net: of the period. rest (n, 3): nodes at rest, m. frames (n, 9): axes of each node at rest as
-    columns of a matrix, row by row: horizontal, rising, normal. original (n,): the node of which a
-    node is an image, or itself; shift (n, 2): by how many periods along x and y it is moved. quads
-    (m, 4) with their thickness (m,) in m. triangles (k, 3): of the quads, then of their images.
+    net: of the period.
     """
 
     net: Net
-    rest: Floats
-    frames: Floats
-    original: Ints
-    shift: Ints
-    quads: Ints
-    thickness: Floats
-    triangles: Ints
-
-    @property
-    def n_nodes(self) -> int:
-        """Number of nodes, images too."""
-        return len(self.rest)
-
-    @property
-    def height(self) -> float:
-        """Distance of the platens at rest, m."""
-        return float(self.net.box.size[2])
 
     @property
     def bottom(self) -> Ints:
-        """Nodes at the lower platen."""
+        """As of `ShellMesh`."""
         return self.net.bottom
 
     @property
     def top(self) -> Ints:
-        """Nodes at the upper platen."""
+        """As of `ShellMesh`."""
         return self.net.top
-
-    @cached_property
-    def own(self) -> Ints:
-        """Nodes of the period."""
-        return repeats.own(self)
-
-    @property
-    def smooth_corners(self) -> Ints:
-        """The number of the original of each corner of the quads, (m, 4)."""
-        return np.asarray(self.original[self.quads])
-
-    @property
-    def period(self) -> Floats:
-        """Periods along x and y, m."""
-        return self.net.box.size[:2]
 
     @property
     def flat(self) -> np.ndarray:
-        """Whether all quads of a node share its tangent plane, (n,): everywhere on a sheet."""
+        """As of `ShellMesh`: a sheet is smooth everywhere."""
         return np.ones(self.n_nodes, np.bool_)
 
     @property
-    def on(self) -> np.ndarray:
-        """Whether a node is on a mirror plane, (n, 2): nowhere."""
-        return np.zeros((self.n_nodes, 2), np.bool_)
+    def quad_area(self) -> Floats:
+        """As of `ShellMesh`."""
+        return self.net.area
 
     @property
-    def copies(self) -> int:
-        """Equal parts of the whole, of which this is one."""
-        return 1
-
-    @property
-    def directors(self) -> Floats:
-        """Normals at the corners in the axes of their nodes, (m, 4, 3)."""
-        return np.tile([0.0, 0.0, 1.0], (len(self.quads), 4, 1))
-
-    @cached_property
-    def size(self) -> Floats:
-        """Mean lengths of the two pairs of opposite sides of each quad, (m, 2) in m."""
-        side = np.linalg.norm(np.roll(self.net.corners, -1, axis=1) - self.net.corners, axis=2)
-        return np.column_stack([side[:, [0, 2]].mean(axis=1), side[:, [1, 3]].mean(axis=1)])
+    def smooth_corners(self) -> Ints:
+        """The original of each corner of the quads, (m, 4)."""
+        return np.asarray(self.original[self.quads])
 
     @property
     def cell(self) -> float:
-        """Typical width of a wall between two others, m: half of the shorter period."""
-        return float(0.5 * self.net.box.size[:2].min())
+        """Half of the shorter period, m."""
+        return float(0.5 * self.period.min())
 
     @property
     def force(self) -> float:
-        """Typical force over modulus, m^2: t^3 / (12 l) of a wall of width l."""
+        """As of `ShellMesh`."""
         return float(np.min(self.thickness) ** 3 / (12.0 * self.cell))
 
-    @cached_property
-    def area(self) -> Floats:
-        """A quarter of the area of each quad at a node, (n,) m^2."""
-        return repeats.quarters(self, self.net.area)
-
-    @cached_property
-    def volume(self) -> Floats:
-        """A quarter of the volume of each quad at a node, (n,) m^3."""
-        return repeats.quarters(self, self.net.area * self.thickness)
-
-    @cached_property
-    def node_thickness(self) -> Floats:
-        """Mean thickness at a node, (n,) m."""
-        own = self.own
-        return np.asarray((self.volume[own] / self.area[own])[self.original])
+    def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
+        """Quads of any shape."""
+        return shell.curved(
+            x_rest, self.frames, self.quads, self.size, self.thickness, self.directors, *moduli
+        )
 
 
 @lru_cache(maxsize=16)
@@ -191,18 +132,29 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
     node = np.concatenate([net.quads[rows] for rows in near])
     key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
-    own = np.column_stack([np.arange(n), np.zeros((n, 2), np.int64)])
-    nodes, corner = _numbered(np.concatenate([own, key]))
+    first = np.column_stack([np.arange(n), np.zeros((n, 2), np.int64)])
+    nodes, corner = _numbered(np.concatenate([first, key]))
     quads = corner[n:].reshape(-1, 4)
     original, shift = nodes[:, 0], nodes[:, 1:]
     rest = net.points[original]
     rest[:, :2] += shift * period
-    cut = np.concatenate([_shorter(net.corners)[rows] for rows in near])
-    frames = _frames(net.normals)
+    shorter = np.concatenate([_shorter(net.corners)[rows] for rows in near])
+    side = np.linalg.norm(np.roll(net.corners, -1, axis=1) - net.corners, axis=2)
+    own = quads[: len(net.quads)]
     return SheetMesh(
-        net, rest, frames[original], original, shift, quads[: len(net.quads)], thickness,
-        _triangles(quads, cut),
-    )  # fmt: skip
+        height=float(net.box.size[2]),
+        rest=rest,
+        frames=_frames(net.normals)[original],
+        quads=own,
+        size=np.column_stack([side[:, [0, 2]].mean(axis=1), side[:, [1, 3]].mean(axis=1)]),
+        thickness=thickness,
+        directors=np.tile([0.0, 0.0, 1.0], (len(own), 4, 1)),
+        triangles=cut(quads, shorter),
+        original=original,
+        shift=shift,
+        period=period,
+        net=net,
+    )
 
 
 def _numbered(keys: Ints) -> tuple[Ints, Ints]:
@@ -226,14 +178,6 @@ def _shorter(corners: Floats) -> np.ndarray:
     """Whether the diagonal of a quad from its first corner is the shorter one, (m,)."""
     one, two = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     return np.asarray((one**2).sum(axis=1) < (two**2).sum(axis=1))
-
-
-def _triangles(quads: Ints, first: np.ndarray) -> Ints:
-    """Two triangles of each quad, cut along the diagonal from its first corner or the other."""
-    a, b, c, d = quads.T
-    one = np.where(first[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))
-    two = np.where(first[:, None], np.column_stack([a, c, d]), np.column_stack([b, c, d]))
-    return np.stack([one, two], axis=1).reshape(-1, 3)
 
 
 def _frames(normals: Floats) -> Floats:

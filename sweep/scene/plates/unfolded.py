@@ -5,9 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.plates import repeats
-from sweep.scene.plates.mesh import PlateMesh
-from sweep.scene.plates.sheet import SheetMesh
+from sweep.scene.plates.shell_mesh import ShellMesh
 
 
 @dataclass(frozen=True)
@@ -34,16 +32,16 @@ class Unfolded:
         return whole
 
 
-def unfolded(mesh: PlateMesh | SheetMesh) -> Unfolded:
+def unfolded(mesh: ShellMesh) -> Unfolded:
     """The whole of a mesh: its period where it repeats. Images of a node on a mirror plane are one
     node.
     """
     n, m = mesh.n_nodes, len(mesh.quads)
-    if mesh.copies == 1 or isinstance(mesh, SheetMesh):
-        shown, parts = repeats.shown(mesh), (mesh.quads, mesh.triangles[: 2 * m])
+    if mesh.copies == 1:
+        shown, parts = mesh.shown, (mesh.quads, mesh.triangles[: 2 * m])
         of_quads, of_triangles = (np.searchsorted(shown, part) for part in parts)
         none = np.zeros((len(shown), 2), np.bool_)
-        return Unfolded(np.full(2, np.inf), shown, none, of_quads, np.arange(m), of_triangles)
+        return Unfolded(mesh.planes, shown, none, of_quads, np.arange(m), of_triangles)
     images = np.array([[False, False], [True, False], [False, True], [True, True]])  # bits of k
     own = np.empty((4, n), np.int64)  # the node of the whole for each image of a node
     node: list[Ints] = []
@@ -62,6 +60,6 @@ def unfolded(mesh: PlateMesh | SheetMesh) -> Unfolded:
         for nodes in (mesh.quads, mesh.triangles)
     )
     return Unfolded(
-        mesh.plan.planes, np.concatenate(node), np.concatenate(at), np.concatenate(quads),
+        mesh.planes, np.concatenate(node), np.concatenate(at), np.concatenate(quads),
         np.tile(np.arange(m), 4), np.concatenate(triangles),
     )  # fmt: skip

@@ -138,9 +138,11 @@ def smooth(
     x = np.zeros((len(points), 6))
     x[:, :3] = points
     shear_modulus = 5.0 / 12.0 * modulus / (1.0 + poisson)
+    side = np.linalg.norm(points[quads] - points[np.roll(quads, -1, axis=1)], axis=2)
+    size = np.column_stack([side[:, [0, 2]].mean(axis=1), side[:, [1, 3]].mean(axis=1)])
     shells = shell.curved(
-        np.append(x.ravel(), [0.0, 0.0]), frames, quads, np.full(len(quads), thickness), directors,
-        shear_modulus, shear_modulus,
+        np.append(x.ravel(), [0.0, 0.0]), frames, quads, size, np.full(len(quads), thickness),
+        directors, shear_modulus, shear_modulus,
     )  # fmt: skip
     return Structure(points, frames, shells)
 

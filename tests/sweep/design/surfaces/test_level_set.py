@@ -24,7 +24,7 @@ def test_both_sides_of_the_sheet_are_alike(name):
     of = LEVEL_SETS[name]
     turned = {
         "gyroid": -PHASES,
-        "primitive": PHASES + np.pi,
-        "diamond": PHASES + np.array([np.pi, np.pi, np.pi]),
+        "schwarz_p": PHASES + np.pi,
+        "schwarz_d": PHASES + np.array([np.pi, np.pi, np.pi]),
     }[name]
     np.testing.assert_allclose(of.value(turned), -of.value(PHASES), atol=1e-14)

@@ -3,9 +3,16 @@
 import numpy as np
 import pytest
 
-from sweep.scene.material import stress_law
-from sweep.scene.plates.law import law_of_sheet, shear_moduli
+from sweep.config.case import Case
+from sweep.scene.material import stress_law, with_compression
+from sweep.scene.plates.law import (
+    UNSTABLE,
+    UnstableMaterialError,
+    law_of_sheet,
+    shear_moduli,
+)
 from sweep.scene.relaxation import relaxation_of
+from sweep.simulation.simulate import simulate
 from tests.support.designs.tables import material_with
 
 
@@ -57,3 +64,15 @@ def test_a_material_that_relaxes_has_its_curve_at_the_reference_time(table):
     assert (lasting, at_once) == pytest.approx(
         (shear_moduli(elastic)[0], instant * shear_moduli(elastic)[0])
     )
+
+
+def test_a_material_that_is_no_stable_rubber_fails_with_a_sentence():
+    """The softer of the two rules for the compression of cheetah, which `--spread` runs."""
+    case = Case.of(material={"name": "cheetah"}, loading={"direction": "out_of_plane"})
+    strain, stress = with_compression(case.material.curve_strain, case.material.curve_stress, 0.0)
+    curve = {"curve_strain": tuple(strain.tolist()), "curve_stress": tuple(stress.tolist())}
+    material = case.material.model_copy(update=curve)
+    with pytest.raises(UnstableMaterialError, match="need a stable rubber"):
+        law_of_sheet(material)
+    result = simulate(case.model_copy(update={"material": material}))
+    assert (result.status, result.message) == ("stopped", UNSTABLE)

@@ -82,6 +82,13 @@ def tied(of, x):
     return rest + move
 
 
+def slope(function, x, move):
+    """Fourth-order difference of ``function`` at ``x`` along ``move``."""
+    step = STEP * move
+    near, far = (function(x + k * step) - function(x - k * step) for k in (1, 2))
+    return (8 * near - far) / (12 * STEP)
+
+
 STATES = {"bent": lambda of: tied(of, shaken(of, of.x_rest, 1, 0.05)), "squeezed": squeezed}
 
 
@@ -121,11 +128,9 @@ def test_the_gradient_is_that_of_the_energy(name, state):
         assert args.problem.neighbours.touching.count[0] > 20
     for seed in range(3):
         move = R.T @ unit(of) * np.random.default_rng(seed).uniform(-1, 1, R.shape[1])
-        along = STEP * (R @ move)
-        near = args.energy(x + along) - args.energy(x - along)
-        far = args.energy(x + 2 * along) - args.energy(x - 2 * along)
-        slope = (8 * near - far) / (12 * STEP)
-        assert slope == pytest.approx(g @ move, abs=1e-8 * np.linalg.norm(g * move))
+        assert slope(args.energy, x, R @ move) == pytest.approx(
+            g @ move, abs=1e-8 * np.linalg.norm(g * move)
+        )
 
 
 @pytest.mark.parametrize("state", STATES)
@@ -138,10 +143,7 @@ def test_the_matrix_is_the_hessian(name, state):
     H, size = args.entries(), R.T @ unit(of)
     for seed in range(2):
         move = size * np.random.default_rng(seed).uniform(-1, 1, size.size)
-        along = STEP * (R @ move)
-        near = args.gradient(x + along) - args.gradient(x - along)
-        far = args.gradient(x + 2 * along) - args.gradient(x - 2 * along)
-        found = size * (R.T @ (8 * near - far) / (12 * STEP))
+        found = size * (R.T @ slope(args.gradient, x, R @ move))
         expected = size * (H @ move)
         assert np.linalg.norm(found - expected) < 1e-6 * np.linalg.norm(expected)
 

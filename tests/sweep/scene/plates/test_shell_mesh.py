@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree
 from kernels.shared.rows import CONTACT
 from sweep.config.case import Case
 from sweep.config.network import network_of
-from sweep.scene.plates import repeats
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.simulate import simulate
 from tests.support.kernels.pressed_plates import shaken, whole
@@ -61,8 +60,8 @@ def test_the_walls_of_a_period_have_all_its_area(kind):
 
 def test_positions_of_images_follow_from_those_that_are_stored():
     mesh = scene("hex").mesh
-    stored = mesh.rest[None, repeats.shown(mesh)]
-    np.testing.assert_allclose(repeats.with_images(mesh, stored)[0], mesh.rest, atol=1e-12)
+    stored = mesh.rest[None, mesh.shown]
+    np.testing.assert_allclose(mesh.with_images(stored)[0], mesh.rest, atol=1e-12)
 
 
 def test_two_periods_take_twice_the_energy_of_one():
