@@ -24,6 +24,7 @@ class Column:
 
 
 TIED_SIDES = "tied"
+ALONG = "out_of_plane"  # of the column `direction`
 """First word of the column `sides` where they are tied to each other."""
 
 COLUMNS: dict[str, Column] = {

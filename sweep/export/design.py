@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from sweep.columns import ALONG
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.network import network_of
 from sweep.export.errors import ExportError
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.config.kinds.lattice import Lattice
     from sweep.design.network import Network
-
-ALONG = "out_of_plane"
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ AT_DENSIFICATION = (
 UNTIL_PACKED = "absorbed_energy_until_packed_J"
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
+SAME_AREA = 1e-6  # relative: periods of one area
 
 
 class Compared(NamedTuple):
@@ -167,6 +168,26 @@ def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
         if (count < 1).any():
             raise RankError(too_small(side, frame[one].max()))
     return counts._replace(across=counts.across.astype(int), behind=counts.behind.astype(int))
+
+
+def pressed_area(frame: DataFrame) -> Series:
+    """The area that is pressed, m^2."""
+    return frame["outer_width_m"] * frame["depth_m"]
+
+
+def unequal_periods(frame: DataFrame) -> bool:
+    """Whether some rows are periods of a wide panel, not all of the same area."""
+    areas = pressed_area(frame[frame["sides"].str.startswith(TIED_SIDES)])
+    return bool(len(areas) and areas.max() > (1.0 + SAME_AREA) * areas.min())
+
+
+def check_budgets(frame: DataFrame, budgets: Sequence[Quantity]) -> None:
+    """Refuse a budget where the masses of periods of unequal area would be compared with it."""
+    if budgets and unequal_periods(frame):
+        raise RankError(
+            f'budget = "{budgets[0]}"; allowed: none where lattice.sides is "periodic" and periods '
+            "differ in area: their masses say nothing about the panel"
+        )
 
 
 def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:

@@ -21,7 +21,7 @@ from sweep.modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import Compared, doubtful, merits
+from sweep.ranking.merit import Compared, check_budgets, doubtful, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
@@ -165,6 +165,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     whole, names = merits(summary, question)
     compared = finished = loaded(whole)
     check(compared, required)
+    check_budgets(compared, question.budgets)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
@@ -248,7 +249,7 @@ def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared)
     sound = rows[~doubtful(rows)]
     mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]
     if least is None and sound["sides"].str.startswith(TIED_SIDES).all():
-        area = sound["outer_width_m"] * sound["depth_m"]
+        area = pressed_area(sound)
         mass, merit = (values / area * area.mean() for values in (mass, merit))
     front = sound.index[pareto(mass, merit)]
     return rows.assign(scene=label, pareto=rows.index.isin(front))

@@ -15,6 +15,7 @@ from sweep.numbers import in_unit
 from sweep.plain_text import without_formulas
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
+from sweep.ranking.merit import unequal_periods
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.report.figures import case_plots, cushion_plots, design_map
@@ -115,7 +116,7 @@ def _sweep_figures(
     file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequence[float] = ()
 ) -> Named:
     """Figures: merit over mass, patterns, trends with wall thickness, energy-absorption diagrams,
-    cushion curves, shapes of the winners.
+    cushion curves, shapes of the winners. Masses of periods of unequal area are not compared.
     """
     for name, figure in _pictures(file, shown, ranking, drop_heights):
         case_plots.footnote(figure, picture_note(shown))
@@ -126,7 +127,7 @@ def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequenc
     pictures = [(mode.picture, name) for name, mode in sorted(MODES.items()) if mode.picture]
     drawn = {picture: _some_scenes(ranking, mode) for picture, mode in pictures}
     for name, part in drawn.items():
-        if not part.table.empty:
+        if not (part.table.empty or unequal_periods(part.table)):
             figure = case_plots.blank(*_size(part.table))
             design_map.design_map(figure, part)
             yield name, figure

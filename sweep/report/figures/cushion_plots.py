@@ -55,6 +55,8 @@ def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Cr
             bottom = min(crush.work[-1] for _, crush in curves) / SHOWN
             ax.set_ylim(bottom=bottom)
             ax.set_xlim(MARGIN * min(c.greatest[c.work >= bottom].min() for _, c in curves))
+            round_ticks(ax.xaxis)
+            round_ticks(ax.yaxis)
         ax.set_xlabel("greatest stress / modulus" if related else "greatest stress, kPa")
         ax.set_ylabel("energy per volume / modulus" if related else "energy per volume, kJ/m³")
     legend(fig, [*look.legend(lines=True), _entry("shoulder"), PLAIN | ENVELOPE | MOST])

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pandas import DataFrame
 
+from sweep.columns import ALONG
 from sweep.design.surfaces.names import SHEETS
 from sweep.modes import MODES
 from sweep.numbers import in_unit, percent, text_in
 from sweep.ranking.scenes import scene_label
-
-ALONG = "out_of_plane"
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
-from sweep.columns import describe_column
+from sweep.columns import ALONG, describe_column
 from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_label
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 ID = 4  # letters of an id in a sentence, if no other id begins so
-WAYS = {"in_plane": "across", "out_of_plane": "along"}
+WAYS = {"in_plane": "across", ALONG: "along"}
 """How a lattice is pressed, by the column `direction`: across its cells or along them."""
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
@@ -99,7 +99,7 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
 
 def about_direction(row: Series) -> list[str]:
     """Sentences about what the model of plates leaves out; none for a case across its cells."""
-    if row["direction"] != "out_of_plane":
+    if row["direction"] != ALONG:
         return []
     axis = "print axis" if row["lattice_kind"] in SHEETS else "cells"
     lines = [f"pressed along its {axis}; delamination of printed layers is not modelled"]
@@ -144,7 +144,7 @@ def _sizes_vary(among: DataFrame, name: str) -> bool:
     """
     if name != "depth_m" or "direction" not in among:
         return _varies(among, name)
-    along = among["direction"] == "out_of_plane"
+    along = among["direction"] == ALONG
     plan = among[along].round(9)
     inner = (plan["depth_m"] - plan["wall_thickness_m"]).round(9)
     return _varies(among[~along], name) or (_varies(plan, name) and len(inner.unique()) > 1)

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
-from sweep.columns import TIED_SIDES
+from sweep.columns import ALONG, TIED_SIDES
 from sweep.modes import MODES, Mode, has
 from sweep.numbers import percent
+from sweep.ranking.merit import unequal_periods
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
@@ -80,6 +81,9 @@ b: simulated with another imperfection, as it stopped with the one asked for (re
 ONE_PERIOD = """\
 Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel; the
 Pareto front compares mass and energy per pressed area."""
+STRUCK_PERIODS = """\
+Periods differ in area, and a striker brings more energy per area to a smaller one: only forces of
+equal areas can be compared."""
 CROSSED = """\
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others."""
@@ -106,8 +110,9 @@ def legend(ranking: Ranking) -> str:
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
     period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
+    period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
     shaped = [SHAPED] if _is_shaped(rows) else []
-    upright = [FIRST_LOADING] if rows["solid_strain"].notna().any() else []
+    upright = [FIRST_LOADING] if (rows["direction"] == ALONG).any() else []
     return [*_meanings(rows, mode), *shaped, *upright, *period]
 
 

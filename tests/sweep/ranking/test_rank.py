@@ -59,6 +59,16 @@ def test_pareto_compares_periods_of_panels_per_area():
     assert free["pareto"].all()
 
 
+def test_budgets_are_refused_where_periods_differ_in_area():
+    rows = designs([4.0, 1.0], [0.4, 0.1], depth_m=0.01, sides="tied, fixed period")
+    equal = [row | {"outer_width_m": 0.02} for row in rows]
+    assert len(rank(summary(*equal), budget="5 g")) == 2
+    equal[0]["outer_width_m"] = 0.04
+    with pytest.raises(RankError, match="periods differ in area"):
+        rank(summary(*equal), budget="5 g")
+    assert len(rank(summary(*equal))) == 2
+
+
 def test_pareto_looks_at_all_rows_of_the_scene():
     table = summary(*designs([1.0, 2.0, 3.0], [0.3, 0.2, 0.6]))
     ranking = rank(table, by="mass_g", top=2)

@@ -92,3 +92,12 @@ def test_patterns_of_both_directions_have_their_drawings(published):
     both = designs([1.0, 1.0], [0.2, 0.4])
     both[0] |= {"direction": "out_of_plane", "lattice_kind": "hex", "solid_strain": 0.7}
     assert {"patterns.png", "winners.png"} <= set(published(summary(*both)))
+
+
+def test_masses_of_unequal_periods_are_in_no_picture(published):
+    """As in a ranking, whose Pareto front then is per pressed area."""
+    rows = designs([1.0, 4.0], [0.2, 0.4], depth_m=0.01, sides="tied, fixed period")
+    equal = [row | {"outer_width_m": 0.02} for row in rows]
+    assert "absorption.png" in published(summary(*equal))
+    unequal = [equal[0], equal[1] | {"outer_width_m": 0.04}]
+    assert "absorption.png" not in published(summary(*unequal))
