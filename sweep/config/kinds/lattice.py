@@ -8,7 +8,7 @@ from sweep.config.kinds.cells import CUSTOM, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.sliced_sheet import GYROID, SlicedSheet
+from sweep.config.kinds.sliced_sheet import SHEET_PATTERNS, SlicedSheet
 from sweep.config.kinds.table import Given
 from sweep.design.surfaces.names import SHEETS
 
@@ -37,4 +37,4 @@ def kind_of(given: Given) -> type[Cells | Sliced | Sheet | SlicedSheet | CustomS
         return CustomStructure
     if given.get("slicer") is None:
         return Sheet if given.get("kind") in SHEETS else Cells
-    return SlicedSheet if given.get("pattern") == GYROID else Sliced
+    return SlicedSheet if given.get("pattern") in SHEET_PATTERNS else Sliced

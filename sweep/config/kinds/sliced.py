@@ -214,7 +214,7 @@ def _checked_pattern(given: Given) -> str:
     if given["slicer"] not in SLICERS:
         raise RefusedError("lattice.slicer", given["slicer"], ", ".join(SLICERS))
     patterns, pattern = SLICERS[given["slicer"]], given.get("pattern")
-    key, names = "lattice.pattern", ", ".join(map('"{}"'.format, [*patterns, "gyroid"]))
+    key, names = "lattice.pattern", names_in(given["slicer"])
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
@@ -226,6 +226,12 @@ def _checked_pattern(given: Given) -> str:
         allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
         raise RefusedError("lattice.fill_multiline", count, allowed)
     return patterns[pattern]
+
+
+def names_in(slicer: str) -> str:
+    """The patterns of a slicer that can be computed, in its own words."""
+    program = PROGRAMS[slicer]
+    return ", ".join(f'"{name}"' for name in (*program.patterns, *program.sheets))
 
 
 def _no_prism(pattern: str, patterns: dict[str, str]) -> str:

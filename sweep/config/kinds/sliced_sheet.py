@@ -1,23 +1,22 @@
-"""A gyroid as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
+"""A sheet as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
 
-from math import pi
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from sweep.config.kinds.sheet import Surface, checked, fitted
-from sweep.config.kinds.sliced import MOST_LINES
+from sweep.config.kinds.sliced import MOST_LINES, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
 from sweep.config.kinds.table import Given, Length, RefusedError, Share, chosen
-from sweep.design.slicer.patterns import PROGRAMS, line_of
+from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of
 from sweep.design.surfaces.names import SHEETS
 
-GYROID = "gyroid"
+SHEET_PATTERNS = {name for program in PROGRAMS.values() for name in program.sheets}
 LEAST_SHARE = 0.02
 
 
 class SlicedSheet(Surface):
-    """The infill "gyroid" of a slicer, without perimeters.
+    """The infill "gyroid" or "tpmsd" of a slicer, without perimeters.
 
     A line of mean thickness s, or several side by side, makes the sheet s |n_xy| thick, n its
     normal, and at least as thick as a layer is high. `infill` is the share whose period fits the
@@ -28,7 +27,7 @@ class SlicedSheet(Surface):
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
 
     slicer: Literal["prusa", "orca", "cura"]
-    pattern: Literal["gyroid"]
+    pattern: Literal["gyroid", "tpmsd"]
     infill: Share
     fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     line_width: Length
@@ -37,6 +36,11 @@ class SlicedSheet(Surface):
     @property
     def sheet(self) -> str:
         """The name of the surface."""
+        return PROGRAMS[self.slicer].sheets[self.pattern].sheet
+
+    @property
+    def name(self) -> str:
+        """The slicer's own name of the pattern."""
         return self.pattern
 
     @property
@@ -46,33 +50,38 @@ class SlicedSheet(Surface):
 
 
 def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
-    """The gyroid of these values; along: whether it is pressed along the print axis."""
-    program = PROGRAMS[given["slicer"]]
+    """The sheet of these values; along: whether it is pressed along the print axis."""
+    program, pattern = _program(given)
     width = given.get("nozzle", Specimen.model_fields["nozzle"].default)
     width = given.get("line_width", width * program.nozzles)
     layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
     _check(given, width, layer, lines)
     line = lines * line_of(given["slicer"], width, layer)
-    wanted = period_of(given["slicer"], given["infill"], line)
-    sides = fitted(GYROID, given, along, wanted, "infill")
+    wanted = pattern.period * line / given["infill"]
+    sides = fitted(pattern.sheet, given, along, wanted, "infill")
     follows: dict[str, Any] = {
         "wall_thickness": line,
         "line_width": width,
-        "infill": period_of(given["slicer"], 1.0, line) / sides["period"],
+        "infill": pattern.period * line / sides["period"],
     }
     return checked(SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows))
 
 
-def period_of(slicer: str, share: float, line: float) -> float:
-    """Period (m) of a gyroid of a share r of infill; line: s, m.
-
-    2 pi s / (2.44 r) in PrusaSlicer and OrcaSlicer, 2.41 s / r in Cura, as read in their sources.
-    """
-    return (2.0 * pi / 2.44 if PROGRAMS[slicer].rounded else 2.41) * line / share
+def _program(given: Given) -> tuple[Program, SheetPattern]:
+    """The slicer and its pattern; refused is what it does not print."""
+    slicer, name = given["slicer"], given["pattern"]
+    if slicer not in PROGRAMS:
+        raise RefusedError("lattice.slicer", slicer, ", ".join(PROGRAMS))
+    program = PROGRAMS[slicer]
+    if name not in program.sheets:
+        other = next(other for other, program in PROGRAMS.items() if name in program.sheets)
+        allowed = f'{names_in(slicer)}; "{name}" with lattice.slicer "{other}"'
+        raise RefusedError("lattice.pattern", name, allowed)
+    return program, program.sheets[name]
 
 
 def _check(given: Given, width: float, layer: float, lines: int) -> None:
-    """Refuse a share, a mass or lines that a slicer's gyroid does not have; width, layer: m."""
+    """Refuse a share, a layer or lines that a slicer's sheet does not have; width, layer: m."""
     if "infill" not in given:
         raise RefusedError("lattice.infill", None, 'a share such as "15 %"')
     if given["infill"] < LEAST_SHARE:

@@ -66,17 +66,28 @@ PATTERNS = {
 """Patterns by their names in PrusaSlicer."""
 
 
+class SheetPattern(NamedTuple):
+    """A pattern whose lines follow, in each layer, a sheet of `design.surfaces`.
+
+    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s.
+    """
+
+    sheet: str
+    period: float
+
+
 class Program(NamedTuple):
     """A slicer.
 
     title: its name for people. patterns: those that it prints as prisms, its own name -> the name
-    in `PATTERNS`. rounded: whether it counts lines with round sides. nozzles: width of a line by
-    default. lines: the most that it lays side by side in a wall. reads: whether it reads settings
-    from a .3mf.
+    in `PATTERNS`. sheets: those that it prints as sheets, by its own name. rounded: whether it
+    counts lines with round sides. nozzles: width of a line by default. lines: the most that it lays
+    side by side in a wall. reads: whether it reads settings from a .3mf.
     """
 
     title: str
     patterns: dict[str, str]
+    sheets: dict[str, SheetPattern]
     rounded: bool = True
     nozzles: float = WIDTH_PER_NOZZLE
     lines: int = 1
@@ -84,7 +95,11 @@ class Program(NamedTuple):
 
 
 PROGRAMS = {
-    "prusa": Program("PrusaSlicer", {name: name for name in PATTERNS}),
+    "prusa": Program(
+        "PrusaSlicer",
+        {name: name for name in PATTERNS},
+        {"gyroid": SheetPattern("gyroid", 2.0 * pi / 2.44)},
+    ),
     "orca": Program(
         "OrcaSlicer",
         {
@@ -94,16 +109,22 @@ PROGRAMS = {
             "honeycomb": "honeycomb",
             "alignedrectilinear": "alignedrectilinear",
         },
+        {
+            "gyroid": SheetPattern("gyroid", 2.0 * pi / 2.44),
+            "tpmsd": SheetPattern("schwarz_d", 2.0 * pi / 2.1),
+        },
         lines=10,
     ),
     "cura": Program(
         "Cura",
         {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
+        {"gyroid": SheetPattern("gyroid", 2.41)},
         rounded=False,
         nozzles=1.0,
         reads=False,
     ),
 }
+"""Numbers of sheets as read in the sources of libslic3r (`DensityAdjust`) and of CuraEngine."""
 SLICERS = {name: program.patterns for name, program in PROGRAMS.items()}
 """Slicer -> its patterns: their own names -> the names in `PATTERNS`."""
 
@@ -157,7 +178,6 @@ NO_PRISMS = {
     "zig-zag": TURNS,
     "zig_zag": TURNS,
     "monotonic": TURNS,
-    "tpmsd": WANDERS,
     "tpmsfk": WANDERS,
     "3dhoneycomb": WANDERS,
     "crosshatch": WANDERS,

@@ -1,11 +1,10 @@
-"""The gyroid of slicers: period and line by their formulas, the nearest share that fits."""
+"""Sheets of slicers: period and line by their formulas, the nearest share that fits."""
 
 from math import pi
 
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.kinds.sliced_sheet import period_of
 from sweep.config.kinds.table import RefusedError
 from sweep.design.slicer.patterns import ROUNDED
 
@@ -13,34 +12,38 @@ MM = 1e-3
 LINE = 0.45 * MM - 0.2 * MM * ROUNDED
 
 
-def gyroid(**lattice):
+def sheet(**lattice):
     values = {"slicer": "prusa", "pattern": "gyroid", "infill": 0.15, "height": 25 * MM}
     return Case.of(lattice=values | lattice, loading={"mode": "displacement"}).lattice
 
 
-def test_the_period_is_that_of_the_slicer():
-    assert period_of("prusa", 0.15, LINE) == pytest.approx(2 * pi / 2.44 * LINE / 0.15)
-    assert period_of("orca", 0.15, LINE) == period_of("prusa", 0.15, LINE)
-    assert period_of("cura", 0.2, 0.4 * MM) == pytest.approx(2.41 * 0.4 * MM / 0.2)
-
-
-def test_the_share_is_the_nearest_that_fits():
-    made = gyroid()
+@pytest.mark.parametrize(
+    ("slicer", "pattern", "line", "period"),
+    [
+        ("prusa", "gyroid", LINE, 2 * pi / 2.44),
+        ("orca", "gyroid", LINE, 2 * pi / 2.44),
+        ("cura", "gyroid", 0.4 * MM, 2.41),
+        ("orca", "tpmsd", LINE, 2 * pi / 2.1),
+    ],
+)
+def test_the_share_is_the_nearest_whose_period_fits(slicer, pattern, line, period):
+    made = sheet(slicer=slicer, pattern=pattern)
     assert made.infill == pytest.approx(0.15, rel=0.06)
-    assert made.period == pytest.approx(period_of("prusa", made.infill, LINE), rel=1e-12)
-    again = gyroid(infill=made.infill)
+    assert made.period == pytest.approx(period * line / made.infill, rel=1e-12)
+    again = sheet(slicer=slicer, pattern=pattern, infill=made.infill)
     assert again.infill == pytest.approx(made.infill, rel=1e-12)
 
 
-def test_what_is_extruded_is_nearly_the_share_of_the_box():
-    """2.44 is a number of the slicer's makers: lines fill 0.955 of the share."""
-    made = gyroid(infill=0.2)
-    filled = made.extruded / (made.width * made.height * made.depth)
-    assert filled == pytest.approx(0.955 * made.infill, rel=2e-3)
+@pytest.mark.parametrize(("pattern", "filled"), [("gyroid", 0.955), ("tpmsd", 1.0186)])
+def test_what_is_extruded_is_nearly_the_share_of_the_box(pattern, filled):
+    """2.44 and 2.1 are numbers of the slicer's makers."""
+    made = sheet(slicer="orca", pattern=pattern, infill=0.2)
+    share = made.extruded / (made.width * made.height * made.depth)
+    assert share == pytest.approx(filled * made.infill, rel=2e-3)
 
 
 def test_several_lines_make_a_thicker_wall_at_the_same_share():
-    one, two = gyroid(slicer="orca"), gyroid(slicer="orca", fill_multiline=2)
+    one, two = sheet(slicer="orca"), sheet(slicer="orca", fill_multiline=2)
     assert two.wall_thickness == pytest.approx(2 * one.wall_thickness)
     assert two.period == pytest.approx(2 * one.period, rel=0.15)
 
@@ -53,9 +56,11 @@ def test_several_lines_make_a_thicker_wall_at_the_same_share():
         ({"fill_multiline": 2}, 'more with lattice.slicer "orca"'),
         ({"layer_height": 0.6 * MM}, "at most the line width"),
         ({"infill": 0.6}, "below a fifth of the period"),
+        ({"pattern": "tpmsd"}, '"tpmsd" with lattice.slicer "orca"'),
+        ({"slicer": "kiri"}, "prusa, orca, cura"),
     ],
 )
 def test_what_a_slicer_does_not_print_is_refused(values, words):
     with pytest.raises(RefusedError) as refused:
-        gyroid(**values)
+        sheet(**values)
     assert words in str(refused.value)
