@@ -48,6 +48,11 @@ class Surface(Specimen):
         """The name of the surface."""
 
     @property
+    def turned(self) -> bool:
+        """Whether it is pressed between two of its axes, not along one."""
+        return False
+
+    @property
     def name(self) -> str:
         """The name of the surface."""
         return self.sheet
@@ -131,12 +136,14 @@ def pressed_height(given: Given, along: bool) -> float:
     return height
 
 
-def fitted(name: str, given: Given, along: bool, wanted: float, key: str) -> dict[str, Any]:
+def fitted(
+    name: str, given: Given, along: bool, wanted: float, key: str, turned: bool = False
+) -> dict[str, Any]:
     """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
-    the one ``wanted`` (m), which follows from a ``key``.
+    the one ``wanted`` (m), which follows from a ``key``; turned: as of `Surface`.
     """
     direction, height = ALONG if along else ACROSS, pressed_height(given, along)
-    cut = SHEETS[name].cuts[direction]
+    cut = SHEETS[name].cut(turned)
     period = height / (cut.step * max(round(height / (cut.step * wanted)), 1))
     if not LEAST <= period / wanted <= MOST:
         most = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm"

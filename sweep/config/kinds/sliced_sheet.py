@@ -1,13 +1,15 @@
 """A sheet as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
 
+from math import cos, isclose
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from sweep.config.kinds.direction import ACROSS
 from sweep.config.kinds.sheet import Surface, checked, fitted
-from sweep.config.kinds.sliced import MOST_LINES, names_in
+from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
-from sweep.config.kinds.table import Given, Length, RefusedError, Share, chosen
+from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
 from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of
 from sweep.design.surfaces.names import SHEETS
 
@@ -20,7 +22,8 @@ class SlicedSheet(Surface):
 
     A line of mean thickness s, or several side by side, makes the sheet s |n_xy| thick, n its
     normal, and at least as thick as a layer is high. `infill` is the share whose period fits the
-    height pressed, nearest to the one given.
+    height pressed, nearest to the one given. At a `fill_angle` of 45 degrees its axes lie along the
+    sides of the part, at 0 and 90 degrees between them.
     """
 
     because: ClassVar[str] = "lattice.slicer prints a sheet, one period of which is computed"
@@ -29,6 +32,7 @@ class SlicedSheet(Surface):
     slicer: Literal["prusa", "orca", "cura"]
     pattern: Literal["gyroid", "tpmsd"]
     infill: Share
+    fill_angle: Angle = FILL_ANGLE
     fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     line_width: Length
     layer_height: Length = LAYER_HEIGHT
@@ -37,6 +41,11 @@ class SlicedSheet(Surface):
     def sheet(self) -> str:
         """The name of the surface."""
         return PROGRAMS[self.slicer].sheets[self.pattern].sheet
+
+    @property
+    def turned(self) -> bool:
+        """As of `Surface`."""
+        return self.pressed == ACROSS and not _parallel(self.fill_angle, FILL_ANGLE)
 
     @property
     def name(self) -> str:
@@ -56,9 +65,11 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     width = given.get("line_width", width * program.nozzles)
     layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
     _check(given, width, layer, lines)
+    angle = _angle(given, pattern, along)
     line = lines * line_of(given["slicer"], width, layer)
     wanted = pattern.period * line / given["infill"]
-    sides = fitted(pattern.sheet, given, along, wanted, "infill")
+    turned = not along and not _parallel(angle, FILL_ANGLE)
+    sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
     follows: dict[str, Any] = {
         "wall_thickness": line,
         "line_width": width,
@@ -78,6 +89,22 @@ def _program(given: Given) -> tuple[Program, SheetPattern]:
         allowed = f'{names_in(slicer)}; "{name}" with lattice.slicer "{other}"'
         raise RefusedError("lattice.pattern", name, allowed)
     return program, program.sheets[name]
+
+
+def _parallel(angle: float, other: float) -> bool:
+    """Whether two angles (rad) differ by quarter turns."""
+    return isclose(cos(4.0 * (angle - other)), 1.0)
+
+
+def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
+    """The fill angle, rad; refused is one at which no period of the sheet fits the panel."""
+    angle: float = given.get("fill_angle", FILL_ANGLE)
+    if pattern.angle is None and "fill_angle" in given:
+        raise RefusedError("lattice.fill_angle", angle, f"none: {given['slicer']} turns no sheet")
+    if not (along or any(_parallel(angle, other) for other in (0.0, FILL_ANGLE))):
+        allowed = "0, 45 or 90 degrees, where it is pressed across the print axis"
+        raise RefusedError("lattice.fill_angle", angle, allowed)
+    return angle
 
 
 def _check(given: Given, width: float, layer: float, lines: int) -> None:

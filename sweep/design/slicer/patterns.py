@@ -69,11 +69,13 @@ PATTERNS = {
 class SheetPattern(NamedTuple):
     """A pattern whose lines follow, in each layer, a sheet of `design.surfaces`.
 
-    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s.
+    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s. angle:
+    fill angle (rad) at which its axes lie along those of the part; None where they always do.
     """
 
     sheet: str
     period: float
+    angle: float | None = radians(45.0)
 
 
 class Program(NamedTuple):
@@ -118,13 +120,15 @@ PROGRAMS = {
     "cura": Program(
         "Cura",
         {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
-        {"gyroid": SheetPattern("gyroid", 2.41)},
+        {"gyroid": SheetPattern("gyroid", 2.41, angle=None)},
         rounded=False,
         nozzles=1.0,
         reads=False,
     ),
 }
-"""Numbers of sheets as read in the sources of libslic3r (`DensityAdjust`) and of CuraEngine."""
+"""Numbers of sheets as read in the sources of libslic3r (`DensityAdjust`, `CorrectionAngle`) and of
+CuraEngine.
+"""
 SLICERS = {name: program.patterns for name, program in PROGRAMS.items()}
 """Slicer -> its patterns: their own names -> the names in `PATTERNS`."""
 

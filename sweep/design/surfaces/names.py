@@ -12,45 +12,38 @@ ROOT = sqrt(2.0)
 
 class Cut(NamedTuple):
     """Faces of a panel. start: of the lower one; step: of others above it; across, along: periods
-    in its plane; all in periods of the surface. turned: whether its axes are the diagonals (1, -1,
-    0), z and (1, 1, 0) of the surface, as slicers turn it by 45 degrees, or x, y and z.
+    in its plane; all in periods of the surface.
     """
 
     start: float
     step: float
     across: float = 1.0
     along: float = 1.0
-    turned: bool = False
 
 
 class SheetName(NamedTuple):
-    """A sheet. In a period, from a net of 24 quads: area, in units of the
-    squared period; steep: mean of |n_xy|, n its unit normal. cuts: by `loading.direction`.
+    """A sheet. In a period, from a net of 24 quads: area, in units of the squared period; steep:
+    mean of |n_xy|, n its unit normal.
+
+    straight: a panel that is pressed along one of the axes of the surface, which are all alike.
+    turned: pressed along (1, 1, 0), the other axes of the panel are (1, -1, 0) and z.
     """
 
     area: float
     steep: float
-    cuts: dict[str, Cut]
+    straight: Cut
+    turned: Cut
+
+    def cut(self, turned: bool) -> Cut:
+        """Where a panel is cut from it."""
+        return self.turned if turned else self.straight
 
 
 SHEETS = {
     "gyroid": SheetName(
-        3.0915,
-        0.7953,
-        {
-            "out_of_plane": Cut(0.0, 0.25),
-            "in_plane": Cut(0.125 * ROOT, 0.25 * ROOT, ROOT, 1.0, True),
-        },
+        3.0915, 0.7953, Cut(0.0, 0.25), Cut(0.125 * ROOT, 0.25 * ROOT, across=ROOT)
     ),
-    "schwarz_p": SheetName(
-        2.3517,
-        0.8017,
-        {"out_of_plane": Cut(0.0, 0.5), "in_plane": Cut(0.0, 0.5 * ROOT, ROOT, 1.0, True)},
-    ),
-    "schwarz_d": SheetName(
-        3.8387,
-        0.7939,
-        {"out_of_plane": Cut(0.125, 0.25), "in_plane": Cut(0.0, 0.25 * ROOT, ROOT, 1.0, True)},
-    ),
+    "schwarz_p": SheetName(2.3517, 0.8017, Cut(0.0, 0.5), Cut(0.0, 0.5 * ROOT, across=ROOT)),
+    "schwarz_d": SheetName(3.8387, 0.7939, Cut(0.125, 0.25), Cut(0.0, 0.25 * ROOT, across=ROOT)),
 }
 """By the name in `lattice.kind`."""

@@ -13,14 +13,14 @@ DIAGONAL = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, np.sqrt(2.0)], [1.0, 1.0, 0.0]
 
 
 @lru_cache(maxsize=16)
-def net_of(name: str, direction: str, period: float, height: float, quads: int) -> Net:
+def net_of(name: str, turned: bool, period: float, height: float, quads: int) -> Net:
     """The net of a sheet of `names.SHEETS`, of ``quads`` a period.
 
-    direction: `loading.direction`. period, height: m. Along z of the net the sheet is pressed.
+    turned: as `SheetName.cut` takes it. period, height: m. Along z of the net the sheet is pressed.
     """
-    cut = SHEETS[name].cuts[direction]
+    cut = SHEETS[name].cut(turned)
     size = np.array([cut.across * period, cut.along * period, height])
-    axes = DIAGONAL if cut.turned else np.eye(3)
+    axes = DIAGONAL if turned else np.eye(3)
     phase = 2.0 * np.pi / period * axes.T
     box = Box(LEVEL_SETS[name], size, phase, phase[:, 2] * cut.start * period)
     across, along, up = (max(round(quads * side / period), 2) for side in size)

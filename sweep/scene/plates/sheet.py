@@ -77,7 +77,7 @@ def mesh_of_sheet(lattice: Surface) -> SheetMesh:
     """The mesh of a sheet."""
     net = net_of(
         lattice.sheet,
-        lattice.pressed,
+        lattice.turned,
         lattice.period,
         lattice.pressed_height,
         lattice.quads_per_period,

@@ -1,6 +1,6 @@
 """Sheets of slicers: period and line by their formulas, the nearest share that fits."""
 
-from math import pi
+from math import pi, radians, sqrt
 
 import pytest
 
@@ -42,6 +42,15 @@ def test_what_is_extruded_is_nearly_the_share_of_the_box(pattern, filled):
     assert share == pytest.approx(filled * made.infill, rel=2e-3)
 
 
+@pytest.mark.parametrize(("degrees", "turned"), [(45, False), (0, True), (90, True), (-45, False)])
+def test_the_fill_angle_turns_a_panel_that_is_pressed_across(degrees, turned):
+    made = sheet(fill_angle=radians(degrees))
+    assert made.turned == turned
+    assert made.width == pytest.approx(made.period * (sqrt(2) if turned else 1))
+    lattice = {"slicer": "orca", "pattern": "gyroid", "infill": 0.15, "fill_angle": 0.3}
+    assert not Case.of(lattice=lattice, loading={"direction": "out_of_plane"}).lattice.turned
+
+
 def test_several_lines_make_a_thicker_wall_at_the_same_share():
     one, two = sheet(slicer="orca"), sheet(slicer="orca", fill_multiline=2)
     assert two.wall_thickness == pytest.approx(2 * one.wall_thickness)
@@ -57,6 +66,8 @@ def test_several_lines_make_a_thicker_wall_at_the_same_share():
         ({"layer_height": 0.6 * MM}, "at most the line width"),
         ({"infill": 0.6}, "below a fifth of the period"),
         ({"pattern": "tpmsd"}, '"tpmsd" with lattice.slicer "orca"'),
+        ({"fill_angle": 0.3}, "0, 45 or 90 degrees"),
+        ({"slicer": "cura", "fill_angle": 0.0}, "cura turns no sheet"),
         ({"slicer": "kiri"}, "prusa, orca, cura"),
     ],
 )

@@ -8,13 +8,13 @@ from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import GOOD, Box, build_net
 from sweep.design.surfaces.panel import net_of
 
-PANELS = [(name, way) for name in SHEETS for way in SHEETS[name].cuts]
-IDS = [f"{name}, {way}" for name, way in PANELS]
+PANELS = [(name, turned) for name in SHEETS for turned in (False, True)]
+IDS = [f"{name}{', turned' * turned}" for name, turned in PANELS]
 
 
-def panel(name, way, quads=8):
+def panel(name, turned, quads=8):
     """A panel about one and a half periods high, of a period of 2."""
-    return net_of(name, way, 2.0, 2.0 * SHEETS[name].cuts[way].step * 4, quads)
+    return net_of(name, turned, 2.0, 2.0 * SHEETS[name].cut(turned).step * 4, quads)
 
 
 def sides(net):
@@ -27,9 +27,9 @@ def sides(net):
     return np.unique(rows, axis=0, return_counts=True), turned
 
 
-@pytest.mark.parametrize(("name", "way"), PANELS, ids=IDS)
-def test_all_nodes_are_on_the_surface_and_the_outer_ones_on_the_planes(name, way):
-    net = panel(name, way)
+@pytest.mark.parametrize(("name", "turned"), PANELS, ids=IDS)
+def test_all_nodes_are_on_the_surface_and_the_outer_ones_on_the_planes(name, turned):
+    net = panel(name, turned)
     slope = np.linalg.norm(net.box.gradient(net.points), axis=1)
     assert np.abs(net.box.value(net.points) / slope).max() < 1e-9
     np.testing.assert_array_equal(net.points[net.bottom, 2], 0.0)
@@ -39,9 +39,9 @@ def test_all_nodes_are_on_the_surface_and_the_outer_ones_on_the_planes(name, way
     assert net.points[inner, 2].max() < net.box.size[2]
 
 
-@pytest.mark.parametrize(("name", "way"), PANELS, ids=IDS)
-def test_sides_belong_to_two_quads_but_for_those_on_the_planes(name, way):
-    net = panel(name, way)
+@pytest.mark.parametrize(("name", "turned"), PANELS, ids=IDS)
+def test_sides_belong_to_two_quads_but_for_those_on_the_planes(name, turned):
+    net = panel(name, turned)
     (rows, counts), _ = sides(net)
     both = [np.isin(rows[:, :2], nodes).all(axis=1) for nodes in (net.bottom, net.top)]
     outer = np.logical_or(*both)
@@ -49,9 +49,9 @@ def test_sides_belong_to_two_quads_but_for_those_on_the_planes(name, way):
     np.testing.assert_array_equal(counts[outer], 1)
 
 
-@pytest.mark.parametrize(("name", "way"), PANELS, ids=IDS)
-def test_quads_are_even_and_face_the_gradient(name, way):
-    net = panel(name, way)
+@pytest.mark.parametrize(("name", "turned"), PANELS, ids=IDS)
+def test_quads_are_even_and_face_the_gradient(name, turned):
+    net = panel(name, turned)
     assert net.quality > GOOD
     facing = np.einsum("mci,mi->mc", net.normals[net.quads], net.directions)
     assert facing.min() > 0.4
@@ -60,7 +60,7 @@ def test_quads_are_even_and_face_the_gradient(name, way):
 def test_areas_converge_to_that_of_the_surface_with_the_second_order():
     errors = []
     for quads in (8, 16):
-        net = net_of("gyroid", "out_of_plane", 2.0, 4.0, quads)
+        net = net_of("gyroid", False, 2.0, 4.0, quads)
         errors.append(net.area.sum() / (SHEETS["gyroid"].area * 8.0) - 1.0)
     assert 0.0 < errors[0] < 0.02
     assert errors[1] < 0.3 * errors[0]

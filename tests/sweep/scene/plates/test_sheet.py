@@ -25,18 +25,30 @@ def case(direction="out_of_plane", platen="glued", **lattice):
     """A gyroid of about one period of 4 mm."""
     sizes = {"height": HEIGHT, "depth": HEIGHT, "cell_size": HEIGHT, "wall_thickness": T}
     mesh = {"kind": "gyroid", "nodes_per_wall": 2}
+    return pressed(sizes | mesh | lattice, direction, platen)
+
+
+def pressed(lattice, direction, platen):
     return Case.of(
-        lattice=sizes | mesh | lattice,
+        lattice=lattice,
         material=dict(name="ultimaker_tpu95a", stretch="linear"),
         loading=dict(mode="displacement", strain=0.5, direction=direction, platen=platen),
     )
 
 
+PRINTED = dict(
+    slicer="prusa",
+    pattern="gyroid",
+    infill=0.165,
+    line_width=0.3e-3,
+    fill_angle=0.0,
+    nodes_per_wall=2,
+)
 CASES = {
     "glued": case(),
     "clamped": case(platen="clamped"),
     "loose": case(platen="contact"),
-    "across": case("in_plane"),
+    "turned": pressed(PRINTED | {"height": HEIGHT}, "in_plane", "glued"),
 }
 
 
