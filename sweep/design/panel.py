@@ -5,6 +5,9 @@ behind the other along the second: without a gap, so that walls go on in depth, 
 if they are pressed along their cells and so show their drawing from above. In each direction their
 number is the one with which the rectangle comes nearest to the length that is asked for. It
 may exceed that length, by less than half a specimen.
+
+A panel in one piece, of which one period was computed, is as long as is asked for, and its edges
+count as its middle.
 """
 
 from typing import Any, NamedTuple
@@ -39,12 +42,13 @@ class Panel(NamedTuple):
 def panel_of(sides: tuple[float, float], width: Any, depth: Any, gap: Any = 0.0) -> Panel:
     """The panel nearest to `sides` (m), of specimens of outer `width` x `depth` (m).
 
-    gap : of `BEHIND`, m.
+    gap : of `BEHIND`, m; NaN of periods of a panel in one piece, parts of which count, too.
     """
-    across = _nearest((sides[0] + BESIDE) / (width + BESIDE))
-    behind = _nearest((sides[1] + gap) / (depth + gap))
+    piece = np.isnan(gap)
+    across = np.where(piece, sides[0] / width, _nearest((sides[0] + BESIDE) / (width + BESIDE)))
+    behind = np.where(piece, sides[1] / depth, _nearest((sides[1] + gap) / (depth + gap)))
     lengths = across * (width + BESIDE) - BESIDE, behind * (depth + gap) - gap
-    return Panel(across, behind, *lengths)
+    return Panel(across, behind, *(np.where(piece, sides[k], lengths[k]) for k in (0, 1)))
 
 
 def too_small(side: float, specimen: float) -> str:

@@ -153,21 +153,28 @@ def through_solid(finished: DataFrame) -> Series:
 
 
 def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
-    """The panel of each design, in whole numbers."""
+    """The panel of each design, in whole numbers; of periods, as many as its area holds."""
     if isinstance(panel, str) or len(panel) != 2:
         raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
-    if frame["sides"].str.startswith(TIED_SIDES).any():
-        raise RankError(
-            f'panel = {panel!r}; allowed: none where lattice.sides is "periodic": a period is no '
-            "specimen, but the middle of a wide panel, whose energy per gram it has"
-        )
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
-    gap = frame["direction"].map(BEHIND)
-    counts = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap)
+    counts = panel_of(sides, frame["outer_width_m"], frame["depth_m"], gap_behind(frame))
+    whole = ~is_period(frame)
     for side, count, one in zip(sides, counts[:2], ("outer_width_m", "depth_m"), strict=True):
-        if (count < 1).any():
-            raise RankError(too_small(side, frame[one].max()))
+        if (whole & (count < 1)).any():
+            raise RankError(too_small(side, frame[one][whole].max()))
+    if not whole.all():
+        return counts
     return counts._replace(across=counts.across.astype(int), behind=counts.behind.astype(int))
+
+
+def is_period(frame: DataFrame) -> Series:
+    """Whether a row is one period of a wide panel."""
+    return frame["sides"].str.startswith(TIED_SIDES)
+
+
+def gap_behind(frame: DataFrame) -> Series:
+    """Gap (m) between specimens one behind the other in a panel; NaN for periods."""
+    return frame["direction"].map(BEHIND).where(~is_period(frame))
 
 
 def pressed_area(frame: DataFrame) -> Series:
@@ -177,16 +184,16 @@ def pressed_area(frame: DataFrame) -> Series:
 
 def unequal_periods(frame: DataFrame) -> bool:
     """Whether some rows are periods of a wide panel, not all of the same area."""
-    areas = pressed_area(frame[frame["sides"].str.startswith(TIED_SIDES)])
+    areas = pressed_area(frame[is_period(frame)])
     return bool(len(areas) and areas.max() > (1.0 + SAME_AREA) * areas.min())
 
 
-def check_budgets(frame: DataFrame, budgets: Sequence[Quantity]) -> None:
+def check_budgets(frame: DataFrame, question: Question) -> None:
     """Refuse a budget where the masses of periods of unequal area would be compared with it."""
-    if budgets and unequal_periods(frame):
+    if question.budgets and question.panel is None and unequal_periods(frame):
         raise RankError(
-            f'budget = "{budgets[0]}"; allowed: none where lattice.sides is "periodic" and periods '
-            "differ in area: their masses say nothing about the panel"
+            f'budget = "{question.budgets[0]}"; allowed with a panel, such as --panel "100 mm" '
+            '"50 mm": here lattice.sides is "periodic", and periods differ in area'
         )
 
 

@@ -165,7 +165,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     whole, names = merits(summary, question)
     compared = finished = loaded(whole)
     check(compared, required)
-    check_budgets(compared, question.budgets)
+    check_budgets(compared, question)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
     by = by and _column(compared, by)
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [

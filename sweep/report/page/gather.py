@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.columns import ABSORBED_AT, TIED_SIDES, correction_column, end_columns, error_column
-from sweep.design.panel import BEHIND, BESIDE
+from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
+from sweep.design.panel import BESIDE
 from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import SEVEN_DIGITS, merits, through_solid
+from sweep.ranking.merit import SAME_AREA, SEVEN_DIGITS, gap_behind, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -116,6 +116,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "round_off": ROUND_OFF,
         "round_off_of_curves": SEVEN_DIGITS,
         "beside": BESIDE,
+        "same_area": SAME_AREA,
         "factors": FACTORS,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
@@ -158,8 +159,6 @@ def _cases(
         if part.empty:
             continue
         least = compared(part)
-        tied = part["sides"].str.startswith(TIED_SIDES)  # a period fills no panel
-        width = part["outer_width_m"].where(~tied)
         energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
         columns = {
             "id": part["case_id"],
@@ -169,8 +168,8 @@ def _cases(
             or [()] * len(part),
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
             "mass": _exact(part[counted[0].names.mass]),
-            "outer": list(zip(_exact(width), _exact(part["depth_m"]), strict=True)),
-            "gap": _exact(part["direction"].map(BEHIND)),
+            "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
+            "gap": _exact(gap_behind(part)),
             "energies": list(zip(*energies, strict=True)),
             "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),

@@ -119,9 +119,13 @@ function picks(box, values, words, key, chosen) {
 function settle() {
   const designs = data.cases.filter((design) => design.scene === asked.scene);
   const sized = designs.every((design) => design.outer.every((side) => side > 0));
+  const areas = designs.filter(isPeriod).map(({ outer: [width, depth] }) => width * depth);
+  const unequal = !asked.panel && areas.length > 0 && Math.max(...areas) > (1 + data.same_area) * Math.min(...areas);
   $("panel-box").hidden = !sized;
+  $("budget-box").hidden = unequal;
   $("force-box").hidden = !crushed();
   if (!sized) asked.panel = null;
+  if (unequal) asked.budget = null; // their masses say nothing about the panel
   if (!crushed()) asked.force = null;
   $("per-box").hidden = !asked.panel && asked.per !== "panel";
 }
@@ -273,6 +277,11 @@ function panelText(row) {
   return row.panel.lengths.map((side) => Number(inUnits(side, "mm").toPrecision(3))).join(" x ");
 }
 
+// Of a panel in one piece, which has as many of them as its area does.
+function isPeriod(design) {
+  return design.gap === null;
+}
+
 // What an allowed force and requirements are of.
 function ofOne() {
   if (ofPanel(asked)) return "the panel";
@@ -319,14 +328,14 @@ function showAnswer() {
 
 function* words(best) {
   const panel = best.panel
-    ? `A panel of ${panelText(best)} mm, ${best.panel.specimens} specimens, weighs ${inUnit(best.mass)}`
+    ? `A panel of ${panelText(best)} mm${isPeriod(best.design) ? "" : `, ${best.panel.specimens} specimens,`} weighs ${inUnit(best.mass)}`
     : `It weighs ${inUnit(best.mass)}`;
   const absorbs = () => `absorbs ${best.early ? "at least " : ""}${energyText(best.energy)}`;
   if (scene().least) yield `${panel}.`;
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
     yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
-      `${asked.panel ? "a specimen" : "it"} then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
+      `${isPeriod(best.design) ? "one period" : asked.panel ? "a specimen" : "it"} then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
@@ -515,13 +524,13 @@ function near(id, on) {
 }
 
 function notes() {
-  const lines = [`*: on the Pareto front: no lighter design of the scene is as good. mass: of ${asked.panel ? "one specimen" : "the part"}.`];
+  const lines = [`*: on the Pareto front: no lighter design of the scene is as good. mass: of ${now.rows.every((row) => isPeriod(row.design)) ? "one period" : asked.panel ? "one specimen" : "the part"}.`];
   const rows = now.placed;
   lines.unshift(...partText());
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
   lines.push(...scene().narrow);
-  if (asked.panel && scene().struck) lines.push(data.struck_panel);
+  if (asked.panel && scene().struck && !now.rows.every((row) => isPeriod(row.design))) lines.push(data.struck_panel);
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
     lines.push(

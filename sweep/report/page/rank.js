@@ -110,8 +110,10 @@ function rectangle(data, rows, question) {
 
 // Numbers of specimens of an outer width x depth (m) side by side and one behind the other, with a
 // gap (m) there and `beside` between the former, of the panel nearest to two lengths (m), at least
-// one each, and its true lengths: sweep/design/panel.py.
+// one each, and its true lengths; without a gap, parts of periods of a panel in one piece:
+// sweep/design/panel.py.
 function panelOf([first, second], { outer: [width, depth], gap }, beside) {
+  if (gap === null) return { specimens: (first / width) * (second / depth), lengths: [first, second] };
   const across = Math.max(1, Math.floor((first + beside) / (width + beside) + 0.5));
   const behind = Math.max(1, Math.floor((second + gap) / (depth + gap) + 0.5));
   const lengths = [across * (width + beside) - beside, behind * (depth + gap) - gap];

@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.design.panel import BEHIND
 from sweep.modes import compared
-from sweep.ranking.merit import doubtful, through_solid
+from sweep.ranking.merit import doubtful, gap_behind, through_solid
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -160,7 +159,7 @@ def group_others(
     if rows.empty:
         return []
     columns = [counted[0].names.mass, counted[0].names.energy, "passed_on_N", "counted_stroke_m"]
-    axes, gap = rows[columns].to_numpy(float), rows["direction"].map(BEHIND).to_numpy(float)
+    axes, gap = rows[columns].to_numpy(float), gap_behind(rows).fillna(-1.0).to_numpy(float)
     values, forces = _values(counted, rows), [each.force for each in counted if each.force]
     count = max(GROUPS // scenes, 1)
     return [
@@ -210,7 +209,7 @@ def _values(counted: Sequence[Counted], rows: DataFrame) -> dict[str, Floats]:
     columns = LIMITS | {"mass": names.mass, "stroke": "counted_stroke_m", "depth": "depth_m"}
     columns |= {"width": "outer_width_m"}
     values = {name: rows[column].to_numpy(float) for name, column in columns.items()}
-    values["gap"] = rows["direction"].map(BEHIND).to_numpy(float)
+    values["gap"] = gap_behind(rows).to_numpy(float)
     never = (through_solid(rows) | rows["crossed"]).to_numpy(bool)
     last = len(counted)
     below = values[f"any below {last}"] = rows["absorbed_energy_J"].to_numpy(float)

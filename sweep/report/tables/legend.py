@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
-from sweep.columns import ALONG, TIED_SIDES
+from sweep.columns import ALONG
 from sweep.modes import MODES, Mode, has
 from sweep.numbers import percent
-from sweep.ranking.merit import unequal_periods
+from sweep.ranking.merit import is_period, unequal_periods
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
     column_notes,
@@ -109,7 +109,7 @@ def legend(ranking: Ranking) -> str:
 
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """What the columns mean that a table has for one kind of loading, whatever is asked."""
-    period = [ONE_PERIOD] if rows["sides"].str.startswith(TIED_SIDES).any() else []
+    period = [ONE_PERIOD] if is_period(rows).any() else []
     period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
     shaped = [SHAPED] if _is_shaped(rows) else []
     upright = [FIRST_LOADING] if (rows["direction"] == ALONG).any() else []

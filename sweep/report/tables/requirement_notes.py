@@ -8,10 +8,9 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from sweep.columns import TIED_SIDES
 from sweep.modes import MODES, has, mode_of
 from sweep.numbers import energy_text, in_unit, numerals, tenths, three_digits
-from sweep.ranking.merit import doubtful
+from sweep.ranking.merit import doubtful, is_period
 from sweep.ranking.requirement_table import MEASURES
 
 if TYPE_CHECKING:
@@ -27,6 +26,7 @@ PANEL = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
 )
+WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm, whose edges count as its middle."
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
@@ -63,10 +63,9 @@ def of_one(rows: DataFrame) -> str:
     """What masses and forces are of: the part that is printed, a specimen of a tiled panel, or a
     period.
     """
-    if "panel_specimens" in rows:
-        return "one specimen"
-    tied = rows["sides"].str.startswith(TIED_SIDES)
-    return "one period" if len(tied) and tied.all() else "the part"
+    if len(rows) and is_period(rows).all():
+        return "one period"
+    return "one specimen" if "panel_specimens" in rows else "the part"
 
 
 def of_which(ranking: Ranking) -> str:
@@ -248,6 +247,10 @@ def panel_note(rows: DataFrame) -> list[str]:
     """How many specimens a panel has, and what strikes them; none without a panel."""
     if "panel_specimens" not in rows or has(rows, "dead").all():
         return []
+    whole = is_period(rows)
+    if whole.all():
+        return [WHOLE_PANEL.format(next(iter(panel_size(rows)["panel mm"])))]
+    rows = rows[~whole]
     least, most = rows["panel_specimens"].min(), rows["panel_specimens"].max()
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"

@@ -64,9 +64,24 @@ def test_budgets_are_refused_where_periods_differ_in_area():
     equal = [row | {"outer_width_m": 0.02} for row in rows]
     assert len(rank(summary(*equal), budget="5 g")) == 2
     equal[0]["outer_width_m"] = 0.04
-    with pytest.raises(RankError, match="periods differ in area"):
+    with pytest.raises(RankError, match="allowed with a panel"):
         rank(summary(*equal), budget="5 g")
     assert len(rank(summary(*equal))) == 2
+
+
+def test_periods_fill_a_panel_in_parts():
+    """Of twice the area a period is twice as heavy: both panels weigh and absorb the same."""
+    rows = designs([4.0, 2.0], [0.4, 0.2], depth_m=0.01, sides="tied, fixed period")
+    for row, width in zip(rows, (0.04, 0.02), strict=True):
+        row["outer_width_m"] = width
+    ranking = rank(summary(*rows), panel=("100 mm", "50 mm"), budget=["49 g", "51 g"])
+    assert list(ranking["budget_g"]) == [51.0, 51.0]
+    assert dict(zip(ranking["mass_g"], ranking["panel_specimens"], strict=True)) == pytest.approx(
+        {4.0: 12.5, 2.0: 25.0}
+    )
+    assert list(ranking["panel_mass_g"]) == pytest.approx([50.0, 50.0])
+    assert list(ranking["panel_energy_J"]) == pytest.approx([5.0, 5.0])
+    assert list(ranking["panel_width_m"]) == pytest.approx([0.1, 0.1])
 
 
 def test_pareto_looks_at_all_rows_of_the_scene():
