@@ -65,10 +65,10 @@ def design_of(case: Case) -> Design:
             "no part; allowed: .csv, .pvd, .vtu, .gif"
         )
     if case.lattice.tied:
-        free = "" if case.lattice.sheet else 'lattice.sides = "free", or '
+        part = ".stl, .3mf" if case.lattice.sheet else 'lattice.sides = "free", or'
         raise ExportError(
             f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
-            f"allowed: {free}.csv, .pvd, .vtu, .gif"
+            f"allowed: {part}, .csv, .pvd, .vtu, .gif"
         )
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)

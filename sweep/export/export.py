@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.export.design import Design
     from sweep.export.outline import Layout
+    from sweep.export.solid import Body
 
 Kind = Literal["lattice", "settings"]
 SHOWN = 0.05  # mm: a difference of lengths that is reported
@@ -46,12 +47,18 @@ class Source:
     row: Mapping[str, Any]
 
     @cached_property
+    def case(self) -> Case:
+        """The case."""
+        from sweep.store.read import read_case
+
+        return read_case(self.file, self.row["case_id"])
+
+    @cached_property
     def design(self) -> Design:
         """What is printed."""
         from sweep.export.design import design_of
-        from sweep.store.read import read_case
 
-        return design_of(read_case(self.file, self.row["case_id"]))
+        return design_of(self.case)
 
     @property
     def history(self) -> DataFrame:
@@ -230,45 +237,65 @@ def _layout(source: Source | Planned, wish: Wish) -> Layout:
 
 
 def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.solid import solid
     from sweep.export.stl import write_stl
 
-    layout = _layout(source, wish)
-    write_stl(path, solid(layout, TO_MM3 * layout.specimens * source.design.volume))
-    return _description(layout, source, wish)
+    body, notes = _body(source, wish)
+    write_stl(path, body)
+    return notes
 
 
 def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     if wish.kind == "settings":
-        return _block(path, source, wish)
-    from sweep.export.solid import solid
+        return _filled_block(path, source, wish)
     from sweep.export.three_mf import write_3mf
 
+    body, notes = _body(source, wish)
+    write_3mf(path, body, source.case.case_id, {})
+    return [*notes, "print it with 100 % infill"]
+
+
+def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:
+    """The walls, and what they are in sentences."""
+    from sweep.export.solid import solid
+
+    if source.case.lattice.sheet:
+        from sweep.export.sheet import sheet_panel
+
+        return sheet_panel(source.case, wish.panel)
     layout = _layout(source, wish)
     body = solid(layout, TO_MM3 * layout.specimens * source.design.volume)
-    write_3mf(path, body, layout.name, {})
-    return [*_description(layout, source, wish), "print it with 100 % infill"]
+    return body, _description(layout, source, wish)
 
 
-def _block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     """A block, and what the slicer shall fill it with."""
     from sweep.export.slicer import by_hand, prusa_reads, settings_of, slicer_files
     from sweep.export.solid import extruded
     from sweep.export.three_mf import write_3mf
 
-    settings = settings_of(source.design.lattice)
-    layout = _layout(source, wish)
+    settings = settings_of(source.case.lattice)
+    layout, notes = _block(source, wish)
     body = extruded(layout)
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
     prusa = "PrusaSlicer reads the settings of the object from the file. "
     prusa = prusa if prusa_reads(settings) else ""
     return [
-        *_description(layout, source, wish),
+        *notes,
         f"{prusa}OrcaSlicer and Bambu Studio read only the block if "
         f"they say so; then set by hand: {by_hand(settings)}",
         "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
         "crossings twice, so that the block is heavier than the lattice",
     ]
+
+
+def _block(source: Source | Planned, wish: Wish) -> tuple[Layout, list[str]]:
+    """The block, and what it is in sentences."""
+    if source.case.lattice.sheet:
+        from sweep.export.sheet import sheet_block
+
+        return sheet_block(source.case, wish.panel)
+    layout = _layout(source, wish)
+    return layout, _description(layout, source, wish)
 
 
 def _svg(path: Path, source: Source | Planned, wish: Wish) -> list[str]:

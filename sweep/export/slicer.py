@@ -64,7 +64,7 @@ def prusa_keys(settings: SlicerSettings) -> dict[str, str]:
     return {
         "layer_height": f"{TO_MM * settings.layer_height:.4g}",
         "fill_density": f"{100 * settings.infill:.4g}%",
-        "fill_pattern": SLICERS[settings.slicer][settings.pattern],
+        "fill_pattern": SLICERS[settings.slicer].get(settings.pattern, settings.pattern),
         "fill_angle": f"{degrees(settings.fill_angle):.4g}",
         "infill_extrusion_width": infill,
         "perimeters": str(settings.perimeters),
@@ -83,7 +83,7 @@ def orca_keys(settings: SlicerSettings) -> dict[str, str]:
     prusa = prusa_keys(settings)
     own_names = {name: own for own, name in SLICERS["orca"].items()}
     keys = {ORCA_KEYS[key]: value for key, value in prusa.items()}
-    keys["sparse_infill_pattern"] = own_names[prusa["fill_pattern"]]
+    keys["sparse_infill_pattern"] = own_names.get(prusa["fill_pattern"], settings.pattern)
     lines = settings.fill_multiline
     return keys | ({"fill_multiline": str(lines)} if lines > 1 else {})
 
@@ -102,8 +102,10 @@ def by_hand(settings: SlicerSettings) -> str:
 
 
 def prusa_reads(settings: SlicerSettings) -> bool:
-    """Whether PrusaSlicer can lay these settings: it has no walls of several lines."""
-    return settings.fill_multiline <= PROGRAMS["prusa"].lines
+    """Whether PrusaSlicer can lay these settings: it has no walls of several lines, no TPMS-D."""
+    prusa = PROGRAMS["prusa"]
+    known = prusa_keys(settings)["fill_pattern"] in (*prusa.patterns, *prusa.sheets)
+    return known and settings.fill_multiline <= prusa.lines
 
 
 def slicer_files(settings: SlicerSettings, name: str, triangles: int) -> dict[str, bytes]:

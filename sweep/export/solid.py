@@ -37,10 +37,10 @@ class Body(NamedTuple):
         """
         _, place = np.unique(self.points.astype(np.float32), axis=0, return_inverse=True)
         corner = place.ravel()[self.triangles]
-        edges = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]], corner[:, [2, 0]]])
-        forth = np.unique(edges, axis=0)
-        back = np.unique(edges[:, ::-1], axis=0)
-        return len(forth) == len(edges) and np.array_equal(forth, back)
+        starts, ends = corner.ravel(), np.roll(corner, -1, axis=1).ravel()
+        forth = np.unique(starts * len(self.points) + ends)
+        back = np.unique(ends * len(self.points) + starts)
+        return len(forth) == len(starts) and np.array_equal(forth, back)
 
 
 def solid(layout: Layout, volume: float) -> Body:

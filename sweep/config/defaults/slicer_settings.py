@@ -5,7 +5,9 @@ from math import degrees, sqrt
 
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.lattice import Lattice
+from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.specimen import LAYER_HEIGHT
 from sweep.constants import TO_MM
 from sweep.design.slicer.patterns import (
@@ -59,7 +61,7 @@ class SlicerSettings:
 
 def slicer_settings(lattice: Lattice) -> SlicerSettings | None:
     """The settings that print a lattice; None if no infill of a slicer is like it (`unlike`)."""
-    if isinstance(lattice, Sliced):
+    if isinstance(lattice, Sliced | SlicedSheet):
         return _own(lattice)
     return _nearest(lattice) if isinstance(lattice, Cells) and not unlike(lattice) else None
 
@@ -70,6 +72,11 @@ def unlike(lattice: Lattice) -> str:
     One is if the lattice is whole and even, its cells are nearly regular, and its walls are as
     thick as the pattern's with lines at least as wide as the nozzle that fill at most `WIDEST`.
     """
+    if isinstance(lattice, Sheet):
+        return (
+            "walls of a slicer's sheet are thinner where it is inclined; allowed: lattice.slicer, "
+            'with lattice.pattern "gyroid" or, of orca, "tpmsd"'
+        )
     if not isinstance(lattice, Cells) or (lattice.kind, lattice.orientation) not in LIKE:
         kinds = ", ".join(dict.fromkeys(kind for kind, _ in LIKE))
         near = NEAREST.get(lattice.name)
@@ -124,7 +131,7 @@ def _nearest(lattice: Cells) -> SlicerSettings:
     )
 
 
-def _own(lattice: Sliced) -> SlicerSettings:
+def _own(lattice: Sliced | SlicedSheet) -> SlicerSettings:
     """The settings with which the lattice of a slicer is laid."""
     return SlicerSettings(
         lattice.slicer,
@@ -133,7 +140,7 @@ def _own(lattice: Sliced) -> SlicerSettings:
         lattice.line_width,
         lattice.layer_height,
         lattice.fill_angle,
-        lattice.perimeters,
+        lattice.perimeters if isinstance(lattice, Sliced) else 0,
         lattice.line_width,
         exact=True,
         fill_multiline=lattice.fill_multiline,
