@@ -27,6 +27,7 @@ SCALES = {
     "kg/m^3": ((1.0, "kg/m3"),),
     "J": ((1.0, "J"), (1e3, "mJ")),
     "Pa": ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa"), (1.0, "Pa")),
+    "rad": ((180.0 / math.pi, "deg"),),
     "1": ((1e2, "%"),),
 }
 """Units in which quantities are shown, with the factor from SI; a unit not named is shown as it is.

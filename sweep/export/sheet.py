@@ -18,7 +18,7 @@ from sweep.constants import TO_MM
 from sweep.design.surfaces.panel import net_of
 from sweep.export.errors import ExportError
 from sweep.export.outline import Layout
-from sweep.export.solid import Body
+from sweep.export.solid import Body, within_box
 from sweep.numbers import in_unit
 
 if TYPE_CHECKING:
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     Ints = NDArray[np.int64]
 
 QUADS = 16  # of the net, a period
-SHORTEST = 2e-3  # mm: shorter edges are left out
 MOST_PERIODS = 2_000  # a file of 150 MB
 BEYOND = 1  # period of the net around the panel
 
@@ -49,7 +48,8 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
         )
     net = net_of(lattice.sheet, lattice.turned, lattice.period, lattice.pressed_height, QUADS)
     walls = _walls(net, _half_thickness(lattice, net), (first, second))
-    body = _cut(walls, (first, second, lattice.pressed_height))
+    walls = walls._replace(points=TO_MM * walls.points)
+    body = within_box(walls, [TO_MM * side for side in (first, second, lattice.pressed_height)])
     if lattice.pressed != ALONG:
         body = body._replace(points=_laid_down(body.points))
     if not body.is_closed:
@@ -138,16 +138,6 @@ def _rim(quads: Ints) -> Ints:
     sides = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
     _, first, count = np.unique(np.sort(sides), axis=0, return_index=True, return_counts=True)
     return np.asarray(sides[first[count == 1]])
-
-
-def _cut(walls: Body, size: tuple[float, float, float]) -> Body:
-    """The walls within a box of this size (m), in mm, without edges that a file cannot show."""
-    from manifold3d import Manifold, Mesh64
-
-    whole = Manifold(Mesh64(TO_MM * walls.points, walls.triangles.astype(np.uint64)))
-    within = whole ^ Manifold.cube([TO_MM * side for side in size])
-    mesh = within.simplify(SHORTEST).to_mesh64()
-    return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))
 
 
 def _laid_down(points: Floats) -> Floats:

@@ -12,8 +12,11 @@ from sweep.export.outline import rings
 from sweep.numbers import text_in
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from sweep.export.outline import Layout
 
+SHORTEST = 2e-3  # mm
 CLOSE = 0.005  # greatest relative difference of the volume from the mass / density
 
 
@@ -65,4 +68,15 @@ def extruded(layout: Layout) -> Body:
 
     loops = [ring[:-1] for ring in rings(layout)]
     mesh = CrossSection(loops, FillRule.NonZero).extrude(layout.depth).to_mesh64()
+    return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))
+
+
+def within_box(body: Body, size: Sequence[float]) -> Body:
+    """What of a body is in a box of this size (mm) at the origin, without edges below `SHORTEST`,
+    whose ends a file in single precision may not tell apart.
+    """
+    from manifold3d import Manifold, Mesh64
+
+    whole = Manifold(Mesh64(body.points, body.triangles.astype(np.uint64)))
+    mesh = (whole ^ Manifold.cube(list(size))).simplify(SHORTEST).to_mesh64()
     return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))

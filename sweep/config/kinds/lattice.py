@@ -8,8 +8,9 @@ from sweep.config.kinds.cells import CUSTOM, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.sliced_sheet import SHEET_PATTERNS, SlicedSheet
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import Given
+from sweep.design.slicer.patterns import SHEET_PATTERNS
 from sweep.design.surfaces.names import SHEETS
 
 

@@ -13,7 +13,6 @@ from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, 
 from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of
 from sweep.design.surfaces.names import SHEETS
 
-SHEET_PATTERNS = {name for program in PROGRAMS.values() for name in program.sheets}
 LEAST_SHARE = 0.02
 
 

@@ -17,6 +17,8 @@ second moment 10/3 s^3 / 12. Paths cut corners, so that (4 - r) s / 3 is extrude
 from math import pi, radians, sqrt
 from typing import NamedTuple
 
+from sweep.design.surfaces.names import SHEETS
+
 WIDTH_PER_NOZZLE = 1.125
 OVERLAP = 0.25  # of a line: how far infill reaches into the perimeters
 ROUNDED = 1.0 - pi / 4.0
@@ -131,6 +133,15 @@ CuraEngine.
 """
 SLICERS = {name: program.patterns for name, program in PROGRAMS.items()}
 """Slicer -> its patterns: their own names -> the names in `PATTERNS`."""
+
+
+SHEET_PATTERNS = {name for program in PROGRAMS.values() for name in program.sheets}
+"""Patterns of slicers that are sheets."""
+
+
+def is_sheet(name: str) -> bool:
+    """Whether a lattice of this name, a kind or the pattern of a slicer, is a sheet."""
+    return name in SHEETS or name in SHEET_PATTERNS
 
 
 def family_of(name: str) -> str:

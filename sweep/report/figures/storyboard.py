@@ -10,7 +10,7 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.columns import ALONG
-from sweep.design.surfaces.names import SHEETS
+from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES
 from sweep.numbers import in_unit, percent, text_in
 from sweep.ranking.scenes import scene_label
@@ -46,13 +46,16 @@ def headline(row: Mapping[str, Any]) -> str:
 def design_and_scene(row: Mapping[str, Any]) -> tuple[str, str]:
     """Design and scene of a case in words."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
-    if pattern == "custom" or pattern in SHEETS:
+    if pattern == "custom" or is_sheet(pattern):
         cells = ""
     if row["infill_share"] > 0.0:  # NaN without a slicer
         cells = f", {text_in(row['infill_share'], '%', 3)} infill"
     wall = f"wall {text_in(row['wall_thickness_m'], 'mm', 3)}"
-    if row["direction"] == ALONG:
-        wall += ", along its print axis" if pattern in SHEETS else ", along its cells"
+    along = row["direction"] == ALONG
+    if is_sheet(pattern):
+        wall += f", {'along' if along else 'across'} its print axis"
+    elif along:
+        wall += ", along its cells"
     return f"{pattern}{cells}, {wall}, {row['material']}", scene_label(DataFrame([row]))
 
 

@@ -9,7 +9,7 @@ from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import ALONG, describe_column
-from sweep.design.surfaces.names import SHEETS
+from sweep.design.slicer.patterns import is_sheet
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 
@@ -98,16 +98,18 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
 
 
 def about_direction(row: Series) -> list[str]:
-    """Sentences about what the model of plates leaves out; none for a case across its cells."""
-    if row["direction"] != ALONG:
+    """Sentences about what the model of shells leaves out; none for prisms across their cells."""
+    sheet = is_sheet(row["lattice_kind"])
+    if row["direction"] != ALONG and not sheet:
         return []
-    axis = "print axis" if row["lattice_kind"] in SHEETS else "cells"
-    lines = [f"pressed along its {axis}; delamination of printed layers is not modelled"]
+    how = WAYS[row["direction"]]
+    axis = "print axis" if sheet else "cells"
+    lines = [f"pressed {how} its {axis}; delamination of printed layers is not modelled"]
     solid, strain = row["solid_strain"], row["peak_strain"]
     if strain > solid:
         share = text_in(solid, "%", 3)
         lines.append(
-            f"beyond a strain of {share} its walls fill the pressed area, which plates do not model"
+            f"beyond a strain of {share} its walls fill the pressed area, which shells do not model"
         )
     return lines
 
