@@ -11,7 +11,7 @@ REFUSALS = {
     f"{HOME}.config.materials.material_file": "RecordError",
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
-    f"{HOME}.cli.optimize": "OptimizeError",
+    f"{HOME}.running.searching.optimize": "OptimizeError",
     f"{HOME}.cli.find_case": "CaseError",
     f"{HOME}.cli.new": "NewError",
     f"{HOME}.published.table": "PublishedError",

@@ -77,6 +77,12 @@ class Case(BaseModel):
             _check_keys(getattr(case, name), name, values)
         return case
 
+    def __repr__(self) -> str:
+        words = f"{self.lattice.name} of {self.material.name}, {self.loading.mode}"
+        return f"<Case {self.case_id}: {words}>"
+
+    __str__ = __repr__
+
     @property
     def along(self) -> bool:
         """Whether the lattice is pressed along its cells, out of the plane of its drawing."""

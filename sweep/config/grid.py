@@ -19,6 +19,7 @@ from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import UNITS
 from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
+from sweep.numbers import counted
 
 MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
@@ -62,7 +63,7 @@ class LeftOut(NamedTuple):
     reasons: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Config:
     """A sweep: its cases, and what it asks of their results.
 
@@ -79,6 +80,10 @@ class Config:
     recipe: Recipe = field(default_factory=Recipe)
     left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
+
+    def __repr__(self) -> str:
+        searched = f", a search of {', '.join(self.recipe.search)}" if self.recipe.search else ""
+        return f"<Config {self.name}: {counted(len(self.cases), 'case')}{searched}>"
 
 
 def expand(config: Config) -> list[Case]:

@@ -34,6 +34,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
+NAMELESS = "sweep"  # the name of a config that has neither a name nor a file
 BRANCH = ("time", "share")  # keys of a branch of relaxation
 BY_MATERIAL = {
     "loading.strain_rate",
@@ -60,14 +61,15 @@ class Reader:
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
 
-    def config(self, document: dict[str, Any], path: Path) -> Config:
-        """The config of a whole document, without its cases."""
+    def config(self, document: dict[str, Any], path: Path | None) -> Config:
+        """The config of a whole document, without its cases; path: of its file, if it has one."""
         sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
+        usual = path.stem if path else NAMELESS
         return Config(
-            name=self._name(document["name"]) if "name" in document else path.stem,
+            name=self._name(document["name"]) if "name" in document else usual,
             recipe=self._recipe(document),
             rank=self._rank(self._question(document, "rank")),
             require=Require(**self._question(document, "require")),
