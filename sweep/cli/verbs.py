@@ -262,6 +262,7 @@ def _config(name: str) -> Config:
     config = load_config(name)
     if config.path and config.path.is_relative_to(EXAMPLES):
         hint([f"example {name}: {config.path} (copy it to change it)"])
+    hint(config.notes)
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
     hint(cell_sentences(config.cases))

@@ -69,7 +69,7 @@ class Config:
 
     cases: of a config with a search, those that the search has chosen so far. left_out: the
     combinations without a case. seed: of a search. recipe: what its file says; nothing for cases
-    without a file.
+    without a file. notes: sentences about what was read, of the profiles of slicers.
     """
 
     name: str
@@ -80,6 +80,7 @@ class Config:
     recipe: Recipe = field(default_factory=Recipe)
     left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         searched = f", a search of {', '.join(self.recipe.search)}" if self.recipe.search else ""
@@ -200,7 +201,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
     made: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
         written = recipe.base | _targets(chosen)
-        given = {key: value for key, (value, *_) in written.items()}
+        given = {key: value.value for key, value in written.items()}
         tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
         for key, value in given.items():
             table, name = key.split(".")
@@ -216,8 +217,11 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
 
 def _keys_to_use(recipe: Recipe) -> list[str]:
     """The keys of a case that a config sets, of which every one must have an effect."""
-    stated = [key for key in recipe.base if key not in MAY_BE_UNUSED]
-    return stated + [target for _, name, _ in _axes(recipe) for target in _keys(name)]
+    stated = [
+        key for key, value in recipe.base.items() if not (key in MAY_BE_UNUSED or value.implied)
+    ]
+    varied = [name for _, name, values in _axes(recipe) if not values[0].implied]
+    return stated + [target for name in varied for target in _keys(name)]
 
 
 def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:

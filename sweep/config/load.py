@@ -29,7 +29,7 @@ def load_config(path: Source) -> Config:
     path: path of a TOML file; if there is no such file, the name of an example, such as "smoke"; or
     a dict with what a file has: {"lattice": {"width": "50 mm"}, "grid": {"lattice.kind": [...]}}.
     Quantities are text with a unit there too. Paths in a dict are relative to the current folder,
-    and without a `name` it is the sweep "sweep".
+    and without a `name` it is "unnamed".
     """
     if isinstance(path, Mapping):
         document = document_of(path)
@@ -77,7 +77,7 @@ def _config(document: dict[str, Any], path: Path | None) -> Config:
     config = reader.config(document, path)
     try:
         cases, left_out = expanded(config.recipe)
-        config = replace(config, cases=cases, left_out=left_out)
+        config = replace(config, cases=cases, left_out=left_out, notes=tuple(reader.notes))
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:

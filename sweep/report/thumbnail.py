@@ -40,7 +40,7 @@ def thumbnail(frames: Mapping[str, Any]) -> str:
 
 def _plan(points: np.ndarray, quads: Any) -> np.ndarray:
     """Edges (m, 2) of the quads (k, 4) that lie on the ground."""
-    ground = points[:, 2] <= points[:, 2].min() + 1e-6 * np.ptp(points[:, 2])
+    ground = np.isclose(points[:, 2], points[:, 2].min(), atol=STRAIGHT * points[:, 2].std())
     quads = np.asarray(quads)
     sides = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
     return np.unique(np.sort(sides[ground[sides].all(axis=1)], axis=1), axis=0)

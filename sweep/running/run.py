@@ -22,6 +22,7 @@ from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.spread import BEST, corners_of, run_corners
 from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
 from sweep.running.threads import usual_workers
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary
@@ -46,6 +47,8 @@ def run(
     """
     config = config if isinstance(config, Config) else load_config(config)
     check_question(config)
+    for line in config.notes:
+        announce(line)
     path = Path(out or f"results/{config.name}.h5")
     with open_cluster(_where(workers, scheduler)) as cluster:
         how = How(workers or usual_workers(), cluster, rerun)

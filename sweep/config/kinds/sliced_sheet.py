@@ -9,7 +9,7 @@ from sweep.config.kinds.sheet import Surface, checked, fitted
 from sweep.config.kinds.sliced import MOST_LINES
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
 from sweep.config.kinds.table import Given, Length, RefusedError, Share, chosen
-from sweep.design.slicer.patterns import PROGRAMS, line_of
+from sweep.design.slicer.patterns import PROGRAMS, line_of, spread_lines
 from sweep.design.surfaces.names import SHEETS
 
 GYROID = "gyroid"
@@ -52,19 +52,20 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     width = given.get("line_width", width * program.nozzles)
     layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
     _check(given, width, layer, lines)
-    line = lines * line_of(given["slicer"], width, layer)
-    wanted = period_of(given["slicer"], given["infill"], line)
+    one = line_of(given["slicer"], width, layer)
+    line, spread = lines * one, spread_lines(given["slicer"], lines) * one
+    wanted = period_of(given["slicer"], given["infill"], spread)
     sides = fitted(GYROID, given, along, wanted, "infill")
     follows: dict[str, Any] = {
         "wall_thickness": line,
         "line_width": width,
-        "infill": period_of(given["slicer"], 1.0, line) / sides["period"],
+        "infill": period_of(given["slicer"], 1.0, spread) / sides["period"],
     }
     return checked(SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows))
 
 
 def period_of(slicer: str, share: float, line: float) -> float:
-    """Period (m) of a gyroid of a share r of infill; line: s, m.
+    """Period (m) of a gyroid of a share r of infill; line: s, m, or that of the lines of a wall.
 
     2 pi s / (2.44 r) in PrusaSlicer and OrcaSlicer, 2.41 s / r in Cura, as read in their sources.
     """
@@ -80,4 +81,6 @@ def _check(given: Given, width: float, layer: float, lines: int) -> None:
     if layer > width:
         raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
     if lines > PROGRAMS[given["slicer"]].lines:
-        raise RefusedError("lattice.fill_multiline", lines, '1; more with lattice.slicer "orca"')
+        raise RefusedError(
+            "lattice.fill_multiline", lines, '1; more with lattice.slicer "orca" or "cura"'
+        )

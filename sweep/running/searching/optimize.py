@@ -15,6 +15,7 @@ from sweep.ranking.requirements import limits
 from sweep.report.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import MOST_TRIED, Search, Settings
 from sweep.running.threads import usual_workers
@@ -50,6 +51,8 @@ def optimize(  # noqa: PLR0913  what, the parts of one question, where and how
     continues. `results.rank()` of what is returned asks the same.
     """
     config = config if isinstance(config, Config) else load_config(config)
+    for line in config.notes:
+        announce(line)
     check_units({"budget": budget, "panel": panel, "allowed_force": allowed_force})
     check_units(require or {})
     question = question_of(

@@ -101,7 +101,7 @@ def test_a_dict_is_a_config(tmp_path, monkeypatch):
     (tmp_path / "same.toml").write_text('[lattice]\nkind = "hex"\n[grid]\n"lattice.cells" = [2, 3]')
     config, written = load_config(TABLES), load_config("same.toml")
     assert config.cases == written.cases
-    assert (config.name, config.path) == ("sweep", None)
+    assert (config.name, config.path) == ("unnamed", None)
     assert load_config({**TABLES, "name": "hexagons"}).name == "hexagons"
 
 
