@@ -18,9 +18,10 @@ returns a `Result`; `run` crushes all cases, stores the results in a file and re
     results = crumple.Results("results/smoke.h5")  # the same again, later
 
 `optimize` searches, `spread` runs the best designs again at the ends of uncertain numbers,
-`materials` has the materials as a table. In tables, units are in the names of columns; in `Case`
-and its parts numbers are in SI. Configs and rankings take text with units. `crumple --help`
-explains the command line. Each name is loaded when it is first used.
+`materials` has the materials as a table, `card` the infill of a case as a material. In tables,
+units are in the names of columns; in `Case` and its parts numbers are in SI. Configs and rankings
+take text with units. `crumple --help` explains the command line. Each name is loaded when it is
+first used.
 """
 
 import sys

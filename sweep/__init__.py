@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from sweep.config.load import case, load_config
     from sweep.coupon.materials import fit_material, materials
     from sweep.coupon.record import CouponError
+    from sweep.effective.material import EffectiveMaterial, card
     from sweep.export.errors import ExportError
     from sweep.export.export import Exported, export_case
     from sweep.ranking.question import RankError
@@ -47,6 +48,7 @@ __all__ = [
     "Config",
     "ConfigError",
     "CouponError",
+    "EffectiveMaterial",
     "ExportError",
     "Exported",
     "Interrupted",
@@ -60,6 +62,7 @@ __all__ = [
     "Status",
     "StoreError",
     "__version__",
+    "card",
     "case",
     "expand",
     "export_case",
@@ -85,6 +88,7 @@ _HOME = {
     "Config": "config.grid",
     "ConfigError": "config.faults",
     "CouponError": "coupon.record",
+    "EffectiveMaterial": "effective.material",
     "ExportError": "export.errors",
     "Exported": "export.export",
     "Interrupted": "running.sweep",
@@ -98,6 +102,7 @@ _HOME = {
     "Status": "result",
     "StoreError": "store.read",
     "__version__": "version",
+    "card": "effective.material",
     "case": "config.load",
     "expand": "config.grid",
     "export_case": "export.export",

@@ -12,6 +12,7 @@ REFUSALS = {
     f"{HOME}.coupon.record": "CouponError",
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.running.searching.optimize": "OptimizeError",
+    f"{HOME}.cli.card": "CardError",
     f"{HOME}.cli.find_case": "CaseError",
     f"{HOME}.cli.new": "NewError",
     f"{HOME}.published.table": "PublishedError",

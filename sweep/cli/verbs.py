@@ -221,6 +221,14 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
+def card(arguments: Namespace) -> int:
+    """Print the effective materials of infills, and write them as cards."""
+    from sweep.cli.card import card as answer
+
+    answer(_config(arguments.config), arguments)
+    return DONE
+
+
 def published(arguments: Namespace) -> int:
     """Print predictions of crushes beside what was measured."""
     from sweep.cli.published import published as compare
@@ -248,7 +256,7 @@ def completion(arguments: Namespace) -> int:
 
 ALL = (
     *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
-    *(materials, published, new, completion),
+    *(materials, card, published, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}
 
