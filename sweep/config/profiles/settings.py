@@ -40,11 +40,13 @@ class Settings(NamedTuple):
     """Settings by their names. program: "prusa", "superslicer" or "orca".
 
     missing: the name of a parent that is not there, from which others would follow; or empty.
+    project: whether they are of a project, whose objects may have others.
     """
 
     program: str
     values: dict[str, str]
     missing: str = ""
+    project: bool = False
 
 
 def read_settings(path: Path, preset: str = "") -> Settings:
@@ -55,7 +57,8 @@ def read_settings(path: Path, preset: str = "") -> Settings:
         name, text = _of_project(path)
         if preset:
             raise MisfitError(f'a project has no presets, such as "{preset}"; allowed: no #')
-        return _of_json(text, None, ()) if INSIDE[name] == "json" else _of_ini(text, "")
+        found = _of_json(text, None, ()) if INSIDE[name] == "json" else _of_ini(text, "")
+        return found._replace(project=True)
     text = foreign_text(path, NEEDED)
     if text.lstrip().startswith("{"):
         if preset:

@@ -1,6 +1,7 @@
 """What profiles mean: numbers by the rule of each slicer, and what is told."""
 
 import json
+import zipfile
 
 import pytest
 
@@ -165,6 +166,16 @@ def test_a_width_that_the_slicer_takes_is_told(ini):
 
 def test_a_note_behind_a_number_is_no_part_of_it(ini):
     assert ini(perimeters="3 # of a vendor").values["perimeters"] == 3
+
+
+def test_of_a_project_the_settings_of_objects_are_not_read(tmp_path):
+    path = tmp_path / "own.3mf"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("Metadata/project_settings.config", json.dumps(ORCA))
+    found = read_profile(path, "own.3mf")
+    assert found.values["pattern"] == "tri-hexagon"
+    told = "own.3mf: settings of single objects are not read, only those of the project"
+    assert told in found.notes
 
 
 def test_a_preset_is_named_behind_the_file(tmp_path):
