@@ -77,9 +77,8 @@ def _config(document: dict[str, Any], path: Path | None) -> Config:
     config = reader.config(document, path)
     try:
         cases, left_out = expanded(config.recipe)
-        config = replace(
-            config, cases=cases, left_out=left_out, notes=tuple(dict.fromkeys(reader.notes))
-        )
+        notes = tuple(dict.fromkeys(reader.notes))
+        config = replace(config, cases=cases, left_out=left_out, notes=notes)
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:
