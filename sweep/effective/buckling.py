@@ -32,7 +32,8 @@ DIRECTIONS = 24  # of long waves, in half a turn
 
 def buckling_stress(frame: Frame, depth: float, axis: int) -> float:
     """Compressive stress (Pa) along x (axis 0) or y (1) at which the frame buckles; inf: never."""
-    own, geometric = element_stiffness(frame), _geometric(frame, depth, axis)
+    own = element_stiffness(frame)
+    geometric = geometric_stiffness(frame, *_resultants(frame, depth, axis))
     at = coordinates(frame)
     most = max(_softest(frame, own, geometric, at, phase) for phase in _phases())
     return 1.0 / most if most > 0.0 else np.inf
@@ -72,8 +73,10 @@ def _softest(frame: Frame, own: Floats, geometric: Floats, at: np.ndarray, phase
     return float(greatest)
 
 
-def _geometric(frame: Frame, depth: float, axis: int) -> Floats:
-    """The geometric stiffness of each element under a unit compressive stress, (m, 6, 6)."""
+def _resultants(frame: Frame, depth: float, axis: int) -> tuple[Floats, Floats]:
+    """Force N (N) and the sum of both moments (N m) of elements (m,) under a compressive stress of
+    1 Pa.
+    """
     stiffness, moved = response(frame)
     stress = np.zeros(3)
     stress[axis] = -depth
@@ -83,8 +86,14 @@ def _geometric(frame: Frame, depth: float, axis: int) -> Floats:
     stretch, *turns = np.einsum("mai,mi->am", b, coordinate)
     k11, k12, k22 = frame.bending
     force = frame.axial * stretch
-    moment = (k11 + k12) * turns[0] + (k12 + k22) * turns[1]
-    return _of_chord(frame, force, moment) + _of_arc(frame, force, b)
+    return force, (k11 + k12) * turns[0] + (k12 + k22) * turns[1]
+
+
+def geometric_stiffness(frame: Frame, force: Floats, moment: Floats) -> Floats:
+    """The geometric stiffness of elements at rest, (m, 6, 6): that of their forces N (m,), and of
+    the sums of the moments at both ends, M (m,).
+    """
+    return _of_chord(frame, force, moment) + _of_arc(frame, force, deformations(frame))
 
 
 def _of_chord(frame: Frame, force: Floats, moment: Floats) -> Floats:
