@@ -52,6 +52,7 @@ ORCA = Names(
     "fill_multiline",
 )
 NOZZLES = "nozzle_diameter"
+LONGEST = 60  # characters of a value that is told
 SPACING = "infill_extrusion_spacing"  # of SuperSlicer, in place of the width
 LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
     "prusa": {
@@ -107,9 +108,9 @@ def read_profile(path: Path, name: str) -> Profile:
     name: of the file, in sentences. `MisfitError` says what is wrong.
     """
     file, preset = path, ""
-    if not path.is_file() and "#" in path.name:
-        before, _, preset = path.name.partition("#")
-        file = path.with_name(before)
+    before, mark, after = path.name.partition("#")
+    if mark and before and not path.is_file():
+        file, preset = path.with_name(before), after
     settings = read_settings(file, preset)
     names = ORCA if settings.program == "orca" else PRUSA
     known = (*names[:2], *names.widths, *names[3:], NOZZLES)
@@ -171,8 +172,8 @@ class _Translation:
         text = self.settings.values.get(name, "").partition(" #")[0]  # a note of a bundle
         first, *others = text.split(",")
         if any(other.strip() != first.strip() for other in others):
-            self.differing[name] = self.settings.values[name]
-        return first.strip()
+            self.differing[name] = text[:LONGEST]
+        return first.strip()[:LONGEST]
 
     def _number(self, name: str) -> float | None:
         """A number without a sign of per cent; None if it is not there."""

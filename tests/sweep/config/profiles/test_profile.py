@@ -164,6 +164,17 @@ def test_a_width_that_the_slicer_takes_is_told(ini):
     )
 
 
+def test_a_value_without_end_is_told_in_part(ini):
+    found = ini(perimeters="3" + "x" * 100_000, fuzzy_skin="y" * 100_000)
+    assert max(map(len, found.notes)) < 200
+
+
+@pytest.mark.parametrize("name", ["#Draft", "none#", "a\0b.ini", "."])
+def test_a_path_that_is_none_is_refused_in_words(tmp_path, name):
+    with pytest.raises(MisfitError, match="needed: a profile"):
+        read_profile(tmp_path / name, name)
+
+
 def test_a_note_behind_a_number_is_no_part_of_it(ini):
     assert ini(perimeters="3 # of a vendor").values["perimeters"] == 3
 
