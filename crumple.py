@@ -5,20 +5,23 @@ returns a `Result`; `run` crushes all cases, stores the results in a file and re
 
     import crumple
 
-    config = crumple.load_config("smoke")  # an example, or the path of a file of your own
-    case = crumple.expand(config)[0]
+    case = crumple.case(lattice={"kind": "hex", "width": "25 mm"}, loading={"force": "20 N"})
     result = crumple.simulate(case)
     print(result.status, result.summary["absorbed_energy_J"], result.history["reaction_top_N"])
 
-    results = crumple.run(config)  # in results/smoke.h5; run_sweep does no more than write
+    results = crumple.run("smoke")  # an example, a file of your own, or a dict of its tables
+    results  # a notebook shows the ranking; it is in results/smoke.h5
     print(results.table, results.curve(0))  # DataFrames: a row per case, a row per step
     print(results.rank(budget="2 g"))  # crumple.rank for any results file
     results.plot(0).save("force.png")  # a notebook shows results.plot(0), results.plot()
+    results.report()  # one page with sliders, results/smoke.html
     results = crumple.Results("results/smoke.h5")  # the same again, later
 
-In tables, units are in the names of columns; in `Case` and its parts numbers are in SI. A ranking
-takes text with units. `crumple --help` explains the command line. Each
-name is loaded when it is first used.
+`optimize` searches, `spread` runs the best designs again at the ends of uncertain numbers,
+`materials` has the materials as a table, `card` the infill of a case as a material. In tables,
+units are in the names of columns; in `Case` and its parts numbers are in SI. Configs and rankings
+take text with units. `crumple --help` explains the command line. Each name is loaded when it is
+first used.
 """
 
 import sys

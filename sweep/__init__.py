@@ -1,8 +1,8 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-The public functions raise `ConfigError`, `StoreError`, `RankError`, `ExportError` and
-`ClusterError`, which are public too. Each name is loaded when it is first used, so that
-`import sweep` takes almost no time.
+The public functions raise `ConfigError`, `StoreError`, `RankError`, `ExportError`, `OptimizeError`,
+`CouponError` and `ClusterError`, which are public too. Each name is loaded when it is first used,
+so that `import sweep` takes almost no time.
 
 Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
 case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
     from sweep.config.faults import ConfigError
     from sweep.config.grid import Config, expand
-    from sweep.config.load import load_config
+    from sweep.config.load import case, load_config
+    from sweep.coupon.materials import fit_material, materials
+    from sweep.coupon.record import CouponError
+    from sweep.effective.material import EffectiveMaterial, card
     from sweep.export.errors import ExportError
     from sweep.export.export import Exported, export_case
     from sweep.ranking.question import RankError
@@ -25,7 +28,8 @@ if TYPE_CHECKING:
     from sweep.report.results import Picture, Results
     from sweep.result import Result, Status
     from sweep.running.cluster import ClusterError
-    from sweep.running.run import run
+    from sweep.running.run import run, spread
+    from sweep.running.searching.optimize import OptimizeError, optimize
     from sweep.running.sweep import Interrupted, run_sweep
     from sweep.simulation.simulate import simulate
     from sweep.store.read import (
@@ -43,9 +47,12 @@ __all__ = [
     "ClusterError",
     "Config",
     "ConfigError",
+    "CouponError",
+    "EffectiveMaterial",
     "ExportError",
     "Exported",
     "Interrupted",
+    "OptimizeError",
     "Picture",
     "RankError",
     "Ranking",
@@ -55,9 +62,14 @@ __all__ = [
     "Status",
     "StoreError",
     "__version__",
+    "card",
+    "case",
     "expand",
     "export_case",
+    "fit_material",
     "load_config",
+    "materials",
+    "optimize",
     "rank",
     "ranked",
     "read_case",
@@ -67,6 +79,7 @@ __all__ = [
     "run",
     "run_sweep",
     "simulate",
+    "spread",
 ]
 
 _HOME = {
@@ -74,9 +87,12 @@ _HOME = {
     "ClusterError": "running.cluster",
     "Config": "config.grid",
     "ConfigError": "config.faults",
+    "CouponError": "coupon.record",
+    "EffectiveMaterial": "effective.material",
     "ExportError": "export.errors",
     "Exported": "export.export",
     "Interrupted": "running.sweep",
+    "OptimizeError": "running.searching.optimize",
     "Picture": "report.results",
     "RankError": "ranking.question",
     "Ranking": "ranking.ranking",
@@ -86,9 +102,14 @@ _HOME = {
     "Status": "result",
     "StoreError": "store.read",
     "__version__": "version",
+    "card": "effective.material",
+    "case": "config.load",
     "expand": "config.grid",
     "export_case": "export.export",
+    "fit_material": "coupon.materials",
     "load_config": "config.load",
+    "materials": "coupon.materials",
+    "optimize": "running.searching.optimize",
     "rank": "ranking.rank",
     "ranked": "ranking.rank",
     "read_case": "store.read",
@@ -98,6 +119,7 @@ _HOME = {
     "run": "running.run",
     "run_sweep": "running.sweep",
     "simulate": "simulation.simulate",
+    "spread": "running.run",
 }
 
 

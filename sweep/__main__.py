@@ -47,6 +47,7 @@ EXAMPLES = """examples:
   crumple report results/armor.h5               one page with sliders: results/armor.html
   crumple accuracy accuracy/impact              error against run time, method by method
   crumple materials                             the materials, their numbers and sources
+  crumple card infills --to card.inp            the infills as materials for CalculiX, Abaqus
   crumple published                             predictions beside what was measured
   crumple completion bash                       let the shell complete words: see its --help
 
@@ -172,6 +173,11 @@ MATERIALS_EXAMPLES = """examples:
   crumple materials fit puck.csv --gauge "10 mm" --area "314 mm^2" --test pressed --units force=kN
 """
 
+CARD = """Print the effective material of each infill of CONFIG, as if it had no end: moduli, shear
+modulus and Poisson's ratio in its plane, the modulus along its walls, the stress at which its
+walls buckle, and its density. Walls are linear; perimeters and solid layers are left out. --to
+writes the nine elastic constants, the density and the axes as text that CalculiX and Abaqus read
+(.inp: N, mm, t, MPa), or all of it as a table in SI (.csv)."""
 PUBLISHED = """Print predictions of published crushes, and of your own, beside the measured values:
 what is open, the predicted range over it, the measured value with its scatter, inside or not. The
 predictions are stored; --run simulates them again, into results/published/, and says which do not
@@ -263,6 +269,7 @@ def parser() -> Parser:
     _add_export(verbs)
     _add_report(verbs)
     _add_materials(verbs)
+    _add_card(verbs)
     _add_published(verbs)
     _add_helpers(verbs)
     return main
@@ -507,6 +514,19 @@ def _add_materials(verbs: Any) -> None:
         metavar="OF=HEAD",
         help='which column it is: force="Load 2", or its number: displacement=3',
     )
+
+
+def _add_card(verbs: Any) -> None:
+    """Add the verb that gives the effective materials of infills."""
+    card = verbs.add_parser(
+        "card",
+        help="infills as materials for finite elements",
+        description=CARD,
+        formatter_class=AS_WRITTEN,
+    )
+    config = card.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
+    offer(config, configs)
+    card.add_argument("--to", type=_path, metavar="FILE", help="also write them: .inp or .csv")
 
 
 def _add_published(verbs: Any) -> None:

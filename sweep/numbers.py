@@ -38,6 +38,8 @@ FACTORS = {name: factor for scales in SCALES.values() for factor, name in scales
     "N": 1.0,
     "1/s": 1.0,
     "kJ/m^3": 1e-3,
+    "g/cm3": 1e-3,
+    "t/mm3": 1e-12,
     "MB": 1e-6,
     "g0": 1.0 / STANDARD_GRAVITY,
 }

@@ -45,7 +45,7 @@ class Status(StrEnum):
     WORKER_DIED = "worker_died"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """The result of one case, converged or not.
 
@@ -67,6 +67,10 @@ class Result:
     history: Mapping[str, np.ndarray] = field(default_factory=dict)
     frames: Mapping[str, np.ndarray] = field(default_factory=dict)
     curable: bool = False
+
+    def __repr__(self) -> str:
+        why = f": {self.message}" if self.message else ""
+        return f"<Result of {self.case!r}: {self.status.value}{why}>"
 
     @property
     def case_id(self) -> str:

@@ -29,7 +29,7 @@ def _of_sheet(made: Surface) -> str:
     count = f"{made.pressed_height / made.period:.4g} x {period}"
     axis = "along" if made.pressed == ALONG else "across"
     share = f", {text_in(made.infill, '%', 3)}" if isinstance(made, SlicedSheet) else ""
-    return f"{made.sheet}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
+    return f"{made.name}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
 
 
 def _sentence(made: Cells) -> str:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import replace
 from functools import partial
-from math import inf
 from typing import TYPE_CHECKING
 
 from sweep.cli.cluster import cluster_of
@@ -22,25 +20,16 @@ if TYPE_CHECKING:
     from sweep.config.grid import Config
     from sweep.running.searching.search import Search, Settings
 
-FORCES = "loading.allowed_forces"
 SHORT = 8  # characters of an id in a command
-
-
-class OptimizeError(ValueError):
-    """A search that cannot be made; the text is one sentence."""
 
 
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
-    from sweep.ranking.assessment import check_searched
+    from sweep.running.searching.optimize import check_searchable
     from sweep.running.searching.search import Settings
     from sweep.running.threads import usual_workers
 
-    if not config.recipe.search:
-        wrong = "has no [search] with the keys that may be chosen"
-        needed = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
-        raise OptimizeError(f"{config.path} {wrong}; needed: {needed}")
-    check_searched(config.recipe.search)
+    check_searchable(config)
     with cluster_of(arguments) as cluster:
         workers = arguments.workers or usual_workers()
         how = Settings(arguments.evaluations, arguments.seed, workers, cluster)
@@ -49,15 +38,12 @@ def optimize(config: Config, arguments: Namespace) -> int:
 
 def _search(config: Config, arguments: Namespace, how: Settings) -> int:
     """Search, and show what is best; return how many of the finalists' cases failed."""
-    from sweep.running.searching.design_space import DesignSpace
-    from sweep.running.searching.search import Search
+    from sweep.running.searching.optimize import search_of, start_of
 
     question = _question(config, arguments)
-    limits, out = _limits(question), arguments.out or f"results/{config.name}.h5"
-    space = DesignSpace(config, *limits)
-    question = _of_start(question, arguments, Search(space, question, out, how).start)
-    space = DesignSpace(_with_force(config, question), *limits)
-    search = Search(space, question, out, how)
+    out = arguments.out or f"results/{config.name}.h5"
+    question = _with_max_force(question, arguments, start_of(config, question, out, how))
+    search = search_of(config, question, out, how)
     search.run()
     failed = _show_best(search)
     if arguments.pareto and search.assessment and search.assessment.by_id:
@@ -68,48 +54,35 @@ def _search(config: Config, arguments: Namespace, how: Settings) -> int:
 
 
 def _question(config: Config, arguments: Namespace) -> Question:
-    """What the options ask, else the config."""
+    """What the options ask, else the config; without --max-force, but for "none"."""
     from sweep.ranking.assessment import check_column
     from sweep.ranking.requirement_table import MEASURES
-    from sweep.ranking.requirements import limits as required
+    from sweep.running.searching.optimize import question_of
 
-    for name in filter(None, (arguments.by, arguments.pareto)):
-        check_column(name)
-    budgets = [arguments.budget] if arguments.budget else list(config.rank.budgets)
-    if len(budgets) > 1:
-        raise OptimizeError(f"[rank] has {len(budgets)} budgets; needed: one, as --budget")
-    options = {name: getattr(arguments, name) for name in MEASURES if name != "max_force"}
-    require = config.require.model_dump() | {k: v for k, v in options.items() if v}
-    kept = {name: value for name, value in require.items() if value not in (None, "none")}
-    if arguments.max_force == "none":
-        kept.pop("max_force", None)
-    panel, per = arguments.panel or config.rank.panel, arguments.per or config.rank.per
-    if per == "panel" and not panel:
-        raise OptimizeError('per = "panel"; needed: a panel, as --panel or in [rank]')
-    required(kept)
-    return Question(
-        budget=budgets or None,
-        panel=panel,
+    if arguments.pareto:
+        check_column(arguments.pareto)
+    options = {name: getattr(arguments, name) for name in MEASURES}
+    given = {name: value for name, value in options.items() if value}
+    if given.get("max_force") != "none":
+        given.pop("max_force", None)
+    question = question_of(
+        config,
+        budget=arguments.budget,
+        panel=arguments.panel,
         by=arguments.by,
-        allowed_force=arguments.allowed_force,
-        require=kept,
-        per=per,
+        require=given,
+        per=arguments.per,
     )
+    return question._replace(allowed_force=arguments.allowed_force)
 
 
-def _of_start(question: Question, arguments: Namespace, start: Sequence[Case]) -> Question:
+def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Case]) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
     requirement. start : designs of the search, all of one loading; empty if none exists.
     """
     from sweep.ranking.requirements import check_modes
-    from sweep.running.applicable import check_required
+    from sweep.running.searching.optimize import OptimizeError
 
-    check_required(question.require or {}, start)
-    if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
-        allowed = (
-            "lattices that are parts: one period of a sheet has no mass of its own; use [grid]"
-        )
-        raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
     mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):
         return question
@@ -123,30 +96,6 @@ def _of_start(question: Question, arguments: Namespace, start: Sequence[Case]) -
     return question._replace(require=required)
 
 
-def _with_force(config: Config, question: Question) -> Config:
-    """The config whose cases have the column of the greatest force that is allowed."""
-    from sweep.config.axis import Written
-
-    if question.allowed_force is None or question.per == "panel":
-        return config  # a force of the panel is looked up in the curves
-    force = in_si(question.allowed_force, "N")
-    recipe = config.recipe
-    recipe_forces = recipe.base[FORCES].value if FORCES in recipe.base else ()
-    forces = tuple(dict.fromkeys([*recipe_forces, force]))
-    base = recipe.base | {FORCES: Written(forces, str(forces), FORCES)}
-    return replace(config, recipe=replace(recipe, base=base))
-
-
-def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:
-    """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
-    budget = in_si(question.budgets[0], "kg") if question.budgets else inf
-    sides = [in_si(side, "m") for side in question.panel or ()]
-    most = (question.require or {}).get("max_mass")
-    if most is not None and bool(sides) == (question.per == "panel"):
-        budget = min(budget, in_si(most, "kg"))
-    return budget, (sides[0], sides[1]) if sides else None
-
-
 def _show_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
     from sweep.ranking.curves import with_allowed
@@ -158,15 +107,11 @@ def _show_best(search: Search) -> int:
     from sweep.running.beside.run_beside import file_beside
     from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
-    from sweep.running.searching.search import MOST_TRIED
+    from sweep.running.searching.optimize import check_found
     from sweep.store.read import read_summary
 
     assessment, question = search.assessment, search.question
-    if not search.cases:
-        budget = f" of at most {question.budgets[0]}" if question.budget else ""
-        panel = " that fits the panel" if question.panel else ""
-        tried = f"none of {MOST_TRIED:,} points of [search] gives a design{budget}{panel}"
-        raise OptimizeError(f"{tried}; allowed: more mass, a larger panel, or a wider search")
+    check_found(search)
     if assessment is None or not (assessment.by_id or assessment.missed):
         say(f"None of {len(search.cases)} designs can be ranked.")
         return max(1, len(search.cases))

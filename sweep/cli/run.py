@@ -126,21 +126,16 @@ def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) 
     """Run the best designs with uncertain numbers and print their spread; return how many values
     are missing.
     """
-    from sweep.ranking.rank import answer
-    from sweep.ranking.spread import spreads
     from sweep.report.tables.spread_sheets import spread_sheets
-    from sweep.running.beside.run_beside import file_beside
-    from sweep.running.beside.spread import BEST, corners_of, run_corners
+    from sweep.running.beside.run_beside import How
+    from sweep.running.beside.spread import BEST
+    from sweep.running.run import spreads_of
     from sweep.store.read import read_summary
 
     summary = read_summary(out)
-    ranking = answer(summary, question._replace(top=BEST))
-    corners = corners_of(config.cases, ranking.table["case_id"], out)
-    if not any(corners.values()):
+    results = spreads_of(config.cases, summary, question._replace(top=BEST), out, How(*how))
+    if not results:
         say("No number of the best designs is uncertain.")
         return 0
-    run_corners(corners, out, *how)
-    ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
-    results = spreads(ranking, read_summary(file_beside(out, "spread")), ids, question)
     print_sheets(spread_sheets(results, summary))
     return sum(spread.failed for spread in results)

@@ -221,6 +221,14 @@ def materials(arguments: Namespace) -> int:
     return DONE
 
 
+def card(arguments: Namespace) -> int:
+    """Print the effective materials of infills, and write them as cards."""
+    from sweep.cli.card import card as answer
+
+    answer(_config(arguments.config), arguments)
+    return DONE
+
+
 def published(arguments: Namespace) -> int:
     """Print predictions of crushes beside what was measured."""
     from sweep.cli.published import published as compare
@@ -248,7 +256,7 @@ def completion(arguments: Namespace) -> int:
 
 ALL = (
     *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
-    *(materials, published, new, completion),
+    *(materials, card, published, new, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}
 
@@ -262,6 +270,7 @@ def _config(name: str) -> Config:
     config = load_config(name)
     if config.path and config.path.is_relative_to(EXAMPLES):
         hint([f"example {name}: {config.path} (copy it to change it)"])
+    hint(config.notes)
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
     hint(cell_sentences(config.cases))

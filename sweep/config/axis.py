@@ -8,11 +8,15 @@ DIGITS = 4  # of a searched number: no printer resolves more
 
 
 class Written(NamedTuple):
-    """A value in SI (None: not set), its text in the file, and its key in the file."""
+    """A value in SI (None: not set), its text in the file, and its key in the file.
+
+    implied: whether it follows from a profile, so that it need not have an effect.
+    """
 
     value: Any
     text: str
     name: str = ""
+    implied: bool = False
 
 
 @dataclass(frozen=True)

@@ -65,17 +65,36 @@ class Case(BaseModel):
     axes: dict[str, float | int | str | None] = {}
 
     @staticmethod
-    def of(axes: Mapping[str, Any] | None = None, **tables: Given | Table) -> "Case":
+    def of(  # noqa: PLR0913  the tables of a case, spelt out for completion
+        axes: Mapping[str, Any] | None = None,
+        *,
+        lattice: Given | Table | None = None,
+        material: Given | Table | None = None,
+        loading: Given | Table | None = None,
+        contact: Given | Table | None = None,
+        damping: Given | Table | None = None,
+        solver: Given | Table | None = None,
+        **others: Given | Table,
+    ) -> "Case":
         """The case of these values by table and key, in SI; a key that is None has its default.
 
-        `RefusedError` says what contradicts what, or which keys a table of its kind has.
+        `RefusedError` says what contradicts what, which keys a table of its kind has, or that there
+        is no such table (`others`).
         """
+        tables: dict[str, Given | Table] = dict(others)
+        tables |= _given(lattice, material, loading, contact, damping, solver)
         _check_tables(tables)
         contents = {name: _values(values) for name, values in tables.items()}
         case = complete(contents).sound(axes)
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
         return case
+
+    def __repr__(self) -> str:
+        words = f"{self.lattice.name} of {self.material.name}, {self.loading.mode}"
+        return f"<Case {self.case_id}: {words}>"
+
+    __str__ = __repr__
 
     @property
     def along(self) -> bool:
@@ -126,12 +145,25 @@ class Case(BaseModel):
             copied.__dict__.pop("case_id", None)
         return copied
 
-    def changed(self, axes: Mapping[str, Any] | None = None, **tables: Given) -> "Case":
+    def changed(  # noqa: PLR0913  as `of`
+        self,
+        axes: Mapping[str, Any] | None = None,
+        *,
+        lattice: Given | None = None,
+        material: Given | None = None,
+        loading: Given | None = None,
+        contact: Given | None = None,
+        damping: Given | None = None,
+        solver: Given | None = None,
+        **others: Given,
+    ) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
 
         axes: labels beside those it has. `changes` says which of its own values a new one replaces;
-        the others stay, such as a duration or a time step that followed from old ones.
+        the others stay, such as a duration or a time step that followed from old ones. `others`:
+        tables that no case has, which are refused.
         """
+        tables = others | _given(lattice, material, loading, contact, damping, solver)
         _check_tables(tables)
         changes = {name: dict(change) for name, change in tables.items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
@@ -267,6 +299,12 @@ def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
     """The refusal of a value of the wrong type or out of range."""
     allowed = wrong["msg"].removeprefix("Input should be ")
     return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
+
+
+def _given(*tables: T | None) -> dict[str, T]:
+    """The tables of a case that are given, by name."""
+    named = zip(TABLES, tables, strict=True)
+    return {name: table for name, table in named if table is not None}
 
 
 def _values(table: Given | Table) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import UNITS
 from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
+from sweep.numbers import counted
 
 MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
@@ -62,13 +63,13 @@ class LeftOut(NamedTuple):
     reasons: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Config:
     """A sweep: its cases, and what it asks of their results.
 
     cases: of a config with a search, those that the search has chosen so far. left_out: the
     combinations without a case. seed: of a search. recipe: what its file says; nothing for cases
-    without a file.
+    without a file. notes: sentences about what was read, of the profiles of slicers.
     """
 
     name: str
@@ -79,6 +80,11 @@ class Config:
     recipe: Recipe = field(default_factory=Recipe)
     left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
+    notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        searched = f", a search of {', '.join(self.recipe.search)}" if self.recipe.search else ""
+        return f"<Config {self.name}: {counted(len(self.cases), 'case')}{searched}>"
 
 
 def expand(config: Config) -> list[Case]:
@@ -195,7 +201,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
     made: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
         written = recipe.base | _targets(chosen)
-        given = {key: value for key, (value, *_) in written.items()}
+        given = {key: value.value for key, value in written.items()}
         tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
         for key, value in given.items():
             table, name = key.split(".")
@@ -211,8 +217,11 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
 
 def _keys_to_use(recipe: Recipe) -> list[str]:
     """The keys of a case that a config sets, of which every one must have an effect."""
-    stated = [key for key in recipe.base if key not in MAY_BE_UNUSED]
-    return stated + [target for _, name, _ in _axes(recipe) for target in _keys(name)]
+    stated = [
+        key for key, value in recipe.base.items() if not (key in MAY_BE_UNUSED or value.implied)
+    ]
+    varied = [name for _, name, values in _axes(recipe) if not values[0].implied]
+    return stated + [target for name in varied for target in _keys(name)]
 
 
 def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:

@@ -11,6 +11,7 @@ from sweep.config.reading.other_names import CHOICES
 DIALECT = "http://json-schema.org/draft-07/schema#"  # of which editors of TOML know most
 OWN = {"unit", "bare", "bare_most", "title", "default"}
 """Entries of our schemas in SI that mean nothing to an editor."""
+PROFILE = "the profile of a slicer, such as profile.ini, profile.json or project.3mf"
 ABOUT = {
     "grid": "all combinations of the values of its keys",
     "zip": "keys whose values go together",
@@ -31,7 +32,7 @@ def json_schema() -> Schema:
         **_object(
             {"name": {"type": "string", "description": "of the results file: results/NAME.h5"}}
             | {table: _table(table, keys) for table in (*TABLES, *QUESTION)}
-            | {"grid": _of_keys(_axis) | {"description": ABOUT["grid"]}}
+            | {"grid": _of_keys(_axis, _list(_profile())) | {"description": ABOUT["grid"]}}
             | {"zip": _list(_of_keys(_axis)) | {"description": ABOUT["zip"]}}
             | {"exclude": _list(_of_keys(_choice)) | {"description": ABOUT["exclude"]}}
             | {"search": _of_keys(_searched) | {"description": ABOUT["search"]}}
@@ -43,7 +44,13 @@ def json_schema() -> Schema:
 def _table(table: str, keys: Mapping[str, Key]) -> Schema:
     """A table, whose keys are those of all its kinds, and aliases."""
     own = [name for name in keys if name.startswith(f"{table}.")]
-    return _object({name.partition(".")[2]: _defined(name) for name in own})
+    profile = {"profile": _profile()} if table == "lattice" else {}
+    return _object({name.partition(".")[2]: _defined(name) for name in own} | profile)
+
+
+def _profile() -> Schema:
+    """The path of a profile, which is no key of a case."""
+    return {"type": "string", "description": PROFILE}
 
 
 def _value(key: Key) -> Schema:
@@ -81,9 +88,12 @@ def _searched(name: str, key: Key) -> Schema:
     return {"anyOf": [_list(_defined(name)), ends]}
 
 
-def _of_keys(written: Callable[[str, Key], Schema]) -> Schema:
-    """An object with all keys of a case, dotted, which TOML nests unless they are quoted."""
+def _of_keys(written: Callable[[str, Key], Schema], profiles: Schema | None = None) -> Schema:
+    """An object with all keys of a case, dotted, which TOML nests unless they are quoted; profiles:
+    what may stand for the profile of a slicer.
+    """
     flat = {name: written(name, key) for name, key in case_keys().items()}
+    flat |= {"lattice.profile": profiles} if profiles else {}
     nested: dict[str, dict[str, Schema]] = {table: {} for table in TABLES}
     for name, schema in flat.items():
         table, _, field = name.partition(".")

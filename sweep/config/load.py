@@ -1,35 +1,84 @@
-"""Reads the TOML file of a sweep, and expands it into its cases, once."""
+"""Reads the TOML file of a sweep, or a dict, and expands it into its cases, once."""
 
 import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
+from sweep.config.case import Case
 from sweep.config.faults import ConfigError, Fault, MisfitError
 from sweep.config.grid import Config, expanded
+from sweep.config.kinds.table import TABLES
 from sweep.config.reading.examples import examples, find_config
+from sweep.config.reading.mapping import document_of
 from sweep.config.reading.reader import Reader, in_words, one_line
 from sweep.config.reading.text import text_of
 from sweep.config.units import in_si
 
+Source: TypeAlias = str | PathLike[str] | Mapping[str, Any]
+"""Where a config comes from: the path of a TOML file, the name of an example, or a dict."""
 
-def load_config(path: str | PathLike[str]) -> Config:
+
+def load_config(path: Source) -> Config:
     """Read a sweep and check all of its cases; `ConfigError` holds all faults.
 
-    path: path of a TOML file; if there is no such file, the name of an example, such as "smoke".
+    path: path of a TOML file; if there is no such file, the name of an example, such as "smoke"; or
+    a dict with what a file has: {"lattice": {"width": "50 mm"}, "grid": {"lattice.kind": [...]}}.
+    Quantities are text with a unit there too. Paths in a dict are relative to the current folder,
+    and without a `name` it is "unnamed".
     """
+    if isinstance(path, Mapping):
+        document = document_of(path)
+        if not document:
+            needed = 'tables such as {"lattice": {"kind": "hex"}}'
+            raise ConfigError([Fault("path", f"an empty config; needed: {needed}")])
+        return _config(document, None)
     if not isinstance(path, str | PathLike):
-        needed = "the path of a TOML file, or the name of an example"
+        needed = "the path of a TOML file, the name of an example, or a dict"
         raise ConfigError([Fault("path", f"{in_words(path)} is no path; needed: {needed}")])
     path = find_config(path)
-    reader = Reader(path.parent, in_si)
-    config = reader.config(_document(path), path)
+    return _config(_document(path), path)
+
+
+def case(
+    *,
+    lattice: Mapping[str, Any] | None = None,
+    material: Mapping[str, Any] | None = None,
+    loading: Mapping[str, Any] | None = None,
+    contact: Mapping[str, Any] | None = None,
+    damping: Mapping[str, Any] | None = None,
+    solver: Mapping[str, Any] | None = None,
+    **keys: Any,
+) -> Case:
+    """One case of the keys of a config, which other keys complete; `ConfigError` holds all faults.
+
+    case(lattice={"kind": "hex", "width": "50 mm"}, loading={"mode": "displacement"}), or by dotted
+    keys: case(**{"lattice.kind": "hex"}). Quantities are text with a unit; `Case.of` takes numbers
+    in SI. Without any key it is the default case.
+    """
+    given = (lattice, material, loading, contact, damping, solver)
+    tables = {name: values for name, values in zip(TABLES, given, strict=True) if values}
+    document = document_of({**tables, **keys})
+    if other := [name for name in document if name not in TABLES]:
+        allowed = f"the tables {', '.join(TABLES)}, or keys such as lattice.kind"
+        line = f"{other[0]} = {in_words(document[other[0]])}: of no case; allowed: {allowed}"
+        raise ConfigError([Fault(other[0], line)])
+    (made,) = _config(document, None).cases
+    return made
+
+
+def _config(document: dict[str, Any], path: Path | None) -> Config:
+    """The sweep of a document; path: of its file, if it has one."""
+    reader = Reader(path.parent if path else Path(), in_si)
+    config = reader.config(document, path)
     try:
         cases, left_out = expanded(config.recipe)
-        config = replace(config, cases=cases, left_out=left_out)
+        notes = tuple(dict.fromkeys(reader.notes))
+        config = replace(config, cases=cases, left_out=left_out, notes=notes)
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:

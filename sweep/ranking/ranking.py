@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from pandas import concat
 
+from sweep.numbers import counted
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.unfinished import PLACES
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from sweep.ranking.requirements import Outcome
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Ranking:
     """The best designs of each loading scene.
 
@@ -69,6 +70,10 @@ class Ranking:
     per: str = "specimen"
     required: Mapping[str, float] = field(default_factory=dict)
     outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        scenes = counted(len(self.scenes), "scene")
+        return f"<Ranking by {self.by}: {counted(len(self.table), 'place')} in {scenes}>"
 
     @property
     def with_unfinished(self) -> DataFrame:

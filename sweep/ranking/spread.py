@@ -7,7 +7,7 @@ material has no range of that number keeps its value.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -29,6 +29,11 @@ ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
 FINE = "fine mesh"  # the corner with more elements
 MISSED = "missed "  # with a requirement, the column that says whether it is missed
+TABLE = [
+    *("budget_g", "scene", "place", "case_id", "ranked_by", "value"),
+    *("lowest", "lowest_at", "highest", "highest_at"),
+    *("best_place", "worst_place", "changes_order", "failed"),
+]
 Corners = Mapping[str, Sequence[tuple[str, str]]]
 """Name and case id of the corners of each design, by the id of the design."""
 
@@ -100,6 +105,35 @@ def spreads(
     groups = table.groupby(["budget_g", "scene"], dropna=False, sort=False)
     by_id = compared.set_index("case_id")
     return [_spread(rows, corners, by_id, names.mass) for _, rows in groups]
+
+
+def spread_table(spreads: Iterable[Spread]) -> DataFrame:
+    """A row for each design, in the order of their places.
+
+    value: of the column `ranked_by`. lowest, highest: at the corners `lowest_at`, `highest_at`.
+    best_place, worst_place: among these designs, over all corners. changes_order: the corners at
+    which these designs change places. failed: number of corners without a value.
+    """
+    return DataFrame([row for spread in spreads for row in _table_rows(spread)], columns=TABLE)
+
+
+def _table_rows(spread: Spread) -> Iterator[dict[str, Any]]:
+    order = ", ".join(spread.swaps)
+    for k, (_, design) in enumerate(spread.rows.iterrows()):
+        values, places = spread.at_corners.iloc[k], spread.places.iloc[k]
+        low, high = ends(values) or ("", "")
+        row = {name: design[name] for name in TABLE if name in design.index}
+        yield row | {
+            "value": design[spread.column],
+            "lowest": values.get(low, np.nan),
+            "lowest_at": low,
+            "highest": values.get(high, np.nan),
+            "highest_at": high,
+            "best_place": int(places.min()),
+            "worst_place": int(places.max()),
+            "changes_order": order,
+            "failed": int(values.isna().sum()),
+        }
 
 
 def _spread(rows: DataFrame, corners: Corners, compared: DataFrame, mass: str) -> Spread:

@@ -4,26 +4,46 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
+from enum import Enum
 from functools import cached_property
+from html import escape
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.question import Question, check_units
+from sweep.ranking.question import Quantity, Question, check_units
 from sweep.ranking.rank import answer
 from sweep.report.publish import case_figures, ranking_figures
+from sweep.report.tables.html import html_table, paragraphs
+from sweep.report.tables.legend import legend
+from sweep.report.tables.sheets import ranking_sheets
+from sweep.report.thumbnail import thumbnail
 from sweep.result import Status
-from sweep.store.read import read_case, read_frames, read_history, read_summary
+from sweep.store.read import read_case, read_frames, read_history, read_runs, read_summary
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
+    from xarray import Dataset
 
     from sweep.config.case import Case
 
 SHARPNESS = 110  # dots per inch in a notebook
+
+
+class AsAsked(Enum):
+    """The default of an argument: what the config asks."""
+
+    AS_ASKED = "as the config asks"
+
+    def __repr__(self) -> str:
+        return self.value
+
+
+AS_ASKED = AsAsked.AS_ASKED
 
 
 class Picture:
@@ -36,6 +56,10 @@ class Picture:
         """Write the picture; the ending of the name says how (.png, .pdf, .svg)."""
         self.figure.savefig(path, bbox_inches="tight")
         return Path(path)
+
+    def __repr__(self) -> str:
+        titles = [axes.get_title("left") or axes.get_title() for axes in self.figure.axes]
+        return f"<Picture of {', '.join(filter(None, titles)) or 'all designs'}>"
 
     def _repr_png_(self) -> bytes:
         drawn = io.BytesIO()
@@ -52,7 +76,7 @@ class Results:
 
     def __init__(
         self,
-        path: str | Path,
+        path: str | PathLike[str],
         ids: Sequence[str] | None = None,
         question: Mapping[str, Any] | None = None,
     ) -> None:
@@ -75,14 +99,32 @@ class Results:
         """The rows that are not converged; their `message` says why."""
         return self.table[self.table["status"] != Status.CONVERGED]
 
-    def rank(self, **question: Any) -> DataFrame:
-        """The best designs by what the config asks for; question : arguments of `crumple.rank`, in
-        place of these. Numbers need their units, such as budget="25 g".
+    @property
+    def question(self) -> Question:
+        """What the config asks, which `rank` and `plot` answer."""
+        return self._question
+
+    def rank(  # noqa: PLR0913  every argument is a part of one question
+        self,
+        budget: Quantity | Sequence[Quantity] | AsAsked | None = AS_ASKED,
+        panel: Sequence[Quantity] | AsAsked | None = AS_ASKED,
+        by: str | AsAsked | None = AS_ASKED,
+        top: int | AsAsked | None = AS_ASKED,
+        allowed_force: Quantity | AsAsked | None = AS_ASKED,
+        require: Mapping[str, Quantity | None] | AsAsked | None = AS_ASKED,
+        per: str | AsAsked = AS_ASKED,
+    ) -> DataFrame:
+        """The best designs, by the question of the config but for what is given here.
+
+        The arguments, and the table, are those of `crumple.rank`; None takes away what the config
+        asks. Numbers need their units, such as budget="25 g".
         """
-        given = {name: question.get(name) for name in ("budget", "panel", "allowed_force")}
-        check_units(given | dict(question.get("require") or {}))
-        full_question = Question(**self._question._asdict() | question)
-        return answer(with_allowed(self.path, self.table, full_question), full_question).table
+        every = Question(budget, panel, by, top, allowed_force, require, per)  # type: ignore[arg-type]
+        given = {name: v for name, v in every._asdict().items() if v is not AS_ASKED}
+        quantities = {name: given.get(name) for name in ("budget", "panel", "allowed_force")}
+        check_units(quantities | dict(given.get("require") or {}))
+        question = self._question._replace(**given)
+        return answer(with_allowed(self.path, self.table, question), question).table
 
     def case(self, case: int | str) -> Case:
         """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.
@@ -126,12 +168,48 @@ class Results:
             raise IndexError(f"no case {case}; allowed: 0 to {len(table) - 1}, or an id")
         return table.iloc[case]
 
+    def report(self, out: str | Path | None = None) -> Path:
+        """Write the results as one HTML page with sliders, as `crumple report` does; return it.
+
+        out : the page, by default NAME.html beside the results. It has all cases of the file, and
+        begins with the question of the config.
+        """
+        from sweep.report.page.write import write_page
+
+        page = Path(out or self.path.with_suffix(".html"))
+        return write_page(str(self.path), read_summary(self.path), self._question, page)
+
+    def to_xarray(self, curves: Sequence[str] | bool = ()) -> Dataset:
+        """The table as an `xarray.Dataset` along `case_id`; needs xarray (`crumple[xarray]`).
+
+        curves : columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
+        case; True: all of them. One that the table has too is called `history_...`. Keys of the
+        grid are coordinates, so that `dataset.set_index(case_id=[...]).unstack()` makes them axes.
+        Variables have their `units` and a `long_name`.
+        """
+        from sweep.report.arrays import dataset
+
+        return dataset(self.path, self.table, curves)
+
     def __len__(self) -> int:
         return len(self.table)
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.table), 'case')}, {len(self.failed)} failed"
-        return f"Results of {counts}, in {self.path}"
+        return f"<Results of {counts}, in {self.path}>"
 
     def _repr_html_(self) -> str:
-        return f"<p>{self!r}</p>{self.table.to_html(max_rows=20, max_cols=12)}"
+        """The ranking, with a drawing of each design."""
+        head = f"<p>{escape(repr(self)[1:-1])}</p>"
+        if len(self.failed) == len(self.table):
+            return head
+        question = self._question
+        source = with_allowed(self.path, self.table, question)
+        ranking = answer(source, question)
+        sheets = list(ranking_sheets(ranking, source))
+        drawn = dict.fromkeys(case_id for sheet in sheets for case_id in sheet.cases)
+        runs = read_runs(self.path, drawn)
+        pictures = {run.case_id: thumbnail(run.frames) for run in runs}
+        tables = "".join(html_table(sheet, pictures) for sheet in sheets)
+        told = paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+        return f"{head}{tables}{told}"

@@ -1,40 +1,60 @@
-"""Runs a config from Python and returns its results."""
+"""Runs a config from Python and returns its results; runs the best of them again at the ends of
+ranges.
+"""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
+from pandas import DataFrame
+
+from sweep.config.case import Case
 from sweep.config.grid import Config
-from sweep.config.load import load_config
+from sweep.config.load import Source, load_config
+from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import check_panel
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
+from sweep.ranking.spread import Spread, spread_table, spreads
 from sweep.report.results import Results
 from sweep.running.applicable import check_required
-from sweep.running.cluster import Scheduler, usual_scheduler
+from sweep.running.beside.error_bars import add_error_bars
+from sweep.running.beside.run_beside import How, file_beside
+from sweep.running.beside.spread import BEST, corners_of, run_corners
+from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
 from sweep.running.threads import usual_workers
-from sweep.store.read import ONLY_MISSING, Rerun
+from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 
 
 def run(
-    config: Config | str | os.PathLike[str],
+    config: Config | Source,
     out: str | os.PathLike[str] | None = None,
     workers: int | None = None,
     rerun: Rerun = ONLY_MISSING,
     scheduler: Scheduler = None,
+    error_bars: bool = False,
 ) -> Results:
     """Run the cases of a config that its results file does not hold; return the results of all.
 
-    config : from `load_config`, or the path of a TOML file, or the name of an example. out : the
-    results file, by default results/NAME.h5. workers: threads, by default one per core up to 8.
+    config : a dict of tables, the path of a TOML file, the name of an example, or a `Config`. out :
+    the results file, by default results/NAME.h5. workers: threads, by default one per core up to 8.
     scheduler: in place of threads, a `distributed.Client` or one of Dask's clusters, the address or
     the file of a scheduler, or "slurm"; by default that of DASK_SCHEDULER_ADDRESS, if it is set
-    and `workers` is not given. Progress is shown, in a notebook as one line.
+    and `workers` is not given. error_bars: also run each design on a coarser mesh and with longer
+    steps, for the columns `error_...`. Progress is shown, in a notebook as one line.
     """
     config = config if isinstance(config, Config) else load_config(config)
     check_question(config)
+    for line in config.notes:
+        announce(line)
     path = Path(out or f"results/{config.name}.h5")
-    if scheduler is None and workers is None:
-        scheduler = usual_scheduler()
-    run_sweep(config, path, workers or usual_workers(), scheduler, rerun)
+    with open_cluster(_where(workers, scheduler)) as cluster:
+        how = How(workers or usual_workers(), cluster, rerun)
+        run_sweep(config, path, *how)
+        if error_bars:
+            add_error_bars(config, path, *how)
     ids = [case.case_id for case in config.cases]
     question = {
         "budget": list(config.rank.budgets) or None,
@@ -43,6 +63,51 @@ def run(
         "per": config.rank.per,
     }
     return Results(path, ids, question)
+
+
+def spread(
+    results: Results | str | os.PathLike[str],
+    top: int = BEST,
+    workers: int | None = None,
+    scheduler: Scheduler = None,
+) -> DataFrame:
+    """Run the best designs again with each uncertain number at both ends of its range.
+
+    results : of `run` or `optimize`, with what is asked of them, or a results file. top : number of
+    designs of each ranking. The cases are kept beside the results, in NAME.spread.h5. Returns the
+    table of `sweep.ranking.spread.spread_table`, a row per design.
+    """
+    results = results if isinstance(results, Results) else Results(results)
+    with open_cluster(_where(workers, scheduler)) as cluster:
+        how = How(workers or usual_workers(), cluster)
+        found = spreads_of([], results.table, results.question._replace(top=top), results.path, how)
+    return spread_table(found)
+
+
+def spreads_of(
+    cases: Sequence[Case],
+    summary: DataFrame,
+    question: Question,
+    out: str | os.PathLike[str],
+    how: How,
+) -> list[Spread]:
+    """Run the corners of the best designs of a question, and return their spreads: none if no
+    number is uncertain. cases: as of `corners_of`. summary: of `out`.
+    """
+    ranking = answer(with_allowed(out, summary, question), question)
+    corners = corners_of(cases, ranking.table["case_id"], out)
+    if not any(corners.values()):
+        return []
+    run_corners(corners, out, *how)
+    beside = file_beside(out, "spread")
+    rows = with_allowed(beside, read_summary(beside), question)
+    ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
+    return spreads(ranking, rows, ids, question)
+
+
+def _where(workers: int | None, scheduler: Scheduler) -> Scheduler:
+    """The scheduler that is given, else the usual one unless threads are asked for."""
+    return usual_scheduler() if scheduler is None and workers is None else scheduler
 
 
 def check_question(config: Config) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 import h5py
 import numpy as np
-from h5py import h5d, h5s, h5t
+from h5py import h5d, h5ds, h5s, h5t
 
 from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
@@ -91,6 +91,8 @@ class Growing:
             data = _write_column(summary, name, column, self._packed)
             if self._packed:
                 _describe(data, describe_column(name))
+        if self._packed:
+            _name_rows(summary, "case_id")
         ranges = {name: ragged.finish(order) for name, ragged in self._ragged.items()}
         self._file["checksums"] = row_checksums(checked_columns(rows, ranges))
         counts = {
@@ -190,6 +192,17 @@ def _fixed(texts: list[str]) -> np.ndarray:
 
 def _describe(data: h5py.Dataset, column: Column) -> None:
     _write_attributes(data, {"units": column.units, "description": column.description})
+
+
+def _name_rows(group: h5py.Group, name: str) -> None:
+    """Make a column the scale of the rows of all others (HDF5 dimension scales), so that xarray and
+    other readers name the dimension. Crumple itself reads no attribute of a column.
+    """
+    scale = group[name].id
+    h5ds.set_scale(scale, name.encode())
+    for other in group:
+        if other != name:
+            h5ds.attach_scale(group[other].id, scale, 0)
 
 
 def _write_attributes(of: h5py.HLObject, attributes: Mapping[str, Any]) -> None:

@@ -62,6 +62,7 @@ ELSEWHERE = (
     "is open for writing in another program: close it there, or run `h5clear -s` on it if that "
     "program has crashed"
 )
+HERE = "is open in this process by another reader, such as xarray, with other locks: close it there"
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
 CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
@@ -443,6 +444,8 @@ def _undamaged(path: Path) -> Iterator[None]:
             raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
         if "open for write" in str(error):  # a mark of HDF5 in the file
             raise StoreError(f"{path} {ELSEWHERE}.") from error
+        if "locking flag" in str(error):
+            raise StoreError(f"{path} {HERE}.") from error
         line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
         raise StoreError(line) from error
 

@@ -25,8 +25,9 @@ FLOORS = [
     "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.modes",
     "sweep.design", "sweep.config", "sweep.columns", "sweep.result", "sweep.scene",
-    "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking", "sweep.report",
-    "sweep.export", "sweep.running", "sweep.published", "sweep.cli", "sweep.__main__",
+    "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking",
+    "sweep.report", "sweep.export", "sweep.running", "sweep.published", "sweep.cli",
+    "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shlex
+import sys
 from functools import cache
 
 import matplotlib.pyplot
@@ -25,7 +26,7 @@ from sweep.design.infill import families
 from sweep.simulation.simulate import simulate
 from sweep.store.write import Writer
 from tests.studies import verify as figures
-from tests.support import readme
+from tests.support import optuna, readme
 from tests.support.readme import NUMBER, QUOTED, ROOT, blocks, numbers, words
 
 MADE_BY_RUNNING = {"bumper.toml", "results/bench/bench.md"}
@@ -51,7 +52,7 @@ def test_commands_are_accepted():
     commands = re.findall(r"^(?:\$ )?crumple (\w+ .*)", text, re.MULTILINE)
     verbs = [parser().parse_args(shlex.split(words, comments=True)).verb for words in commands]
     told = {"run", "optimize", "rank", "status", "verify", "show", "report", "export", "materials"}
-    told.add("published")
+    told |= {"published", "card"}
     assert {*verbs} == told
 
 
@@ -179,12 +180,16 @@ def test_failure_reads_so():
 
 def test_snippets_run(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(sys.modules, "optuna", optuna)  # which is no dependency
     names = {}
     for snippet in blocks("python"):
         exec(snippet, names)
     matplotlib.pyplot.close("all")
     assert capsys.readouterr().out.startswith("converged")
     assert len(names["table"]) == len(names["summary"]) == 6
+    assert names["data"].sizes["case_id"] == 6
+    assert names["study"].best_params["kind"] in ("hex", "square", "diamond")
+    assert names["study"].best_value > 0.0
 
 
 @cache

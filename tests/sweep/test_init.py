@@ -3,6 +3,8 @@
 import pytest
 
 import crumple
+from sweep.ranking.rank import ranked
+from sweep.result import failed_result
 from tests.support.results.specimens import summary
 
 
@@ -13,3 +15,20 @@ def test_errors_are_those_that_the_functions_raise(tmp_path):
         crumple.read_summary(tmp_path / "none.h5")
     with pytest.raises(crumple.RankError, match='cannot sort by "colour"'):
         crumple.rank(summary({}), by="colour")
+
+
+def test_every_name_is_there_once():
+    assert len({*crumple.__all__}) == len(crumple.__all__)
+    for name in crumple.__all__:
+        assert getattr(crumple, name) is not None
+    with pytest.raises(AttributeError, match="Crumple has no 'colour'"):
+        _ = crumple.colour
+
+
+def test_what_a_session_shows_is_one_short_line():
+    case, config = crumple.case(lattice={"kind": "hex"}), crumple.load_config("smoke")
+    result = failed_result(case, crumple.Status.STOPPED, "no equilibrium")
+    shown = [*map(repr, (case, config, result, ranked(summary({}))))]
+    assert all(len(line) < 120 and "\n" not in line for line in shown)
+    assert shown[0] == str(case) == f"<Case {case.case_id}: hex of ninjaflex, force>"
+    assert "no equilibrium" in shown[2]

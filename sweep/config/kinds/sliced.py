@@ -20,6 +20,8 @@ from sweep.design.slicer.patterns import (
     distance_of,
     line_of,
     lines_at_most,
+    share_of,
+    spread_lines,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
 
@@ -27,24 +29,27 @@ FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
 MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
 NEAR = 0.1  # shares tried instead of one that cannot be drawn
+SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart the lines are
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
 class Sliced(Laid):
     """An infill with the `pattern` of a slicer, within `perimeters`, layers stacked along `depth`.
 
-    `infill`, or the `mass` as extruded, sets `fill_distance`, that of parallel walls, and about how
-    many cells fit. `fill_multiline`: number of lines in each wall. line_width: of a line of mean
-    thickness `line`, of which the `wall_thickness` is a multiple.
+    `infill`, the `line_distance` of parallel walls, or the `mass` as extruded, sets
+    `fill_distance`, and about how many cells fit. `fill_multiline`: number of lines in each wall.
+    line_width: of a line of mean thickness `line`, of which the `wall_thickness` is a multiple.
     """
 
     because: ClassVar[str] = "lattice.slicer is given"
+    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "line_distance")
     constants: ClassVar[dict[str, Any]] = {"kind": "square"}
     derived: ClassVar[tuple[str, ...]] = ("fill_distance", "cells_x", "cells_y", "wall_thickness")
 
     slicer: Literal["prusa", "orca", "cura"]
     pattern: str
     infill: Share
+    line_distance: Length | None = None
     mass: Mass | None = None
     fill_angle: Angle = FILL_ANGLE
     fill_distance: Length
@@ -55,9 +60,9 @@ class Sliced(Laid):
     cells_y: Few
 
     def given(self) -> dict[str, Any]:
-        """The values from which this follows: not the share if it follows from the mass."""
-        values = super().given()
-        return values if self.mass is None else {k: v for k, v in values.items() if k != "infill"}
+        """The values from which this follows: not the share if it follows from another."""
+        values, follows = super().given(), (self.mass, self.line_distance) != (None, None)
+        return {k: v for k, v in values.items() if k != "infill"} if follows else values
 
     @property
     def name(self) -> str:
@@ -82,6 +87,13 @@ class Sliced(Laid):
     def lines(self) -> float:
         """What the lines of one wall of the infill fill, side by side (m)."""
         return self.fill_multiline * self.line
+
+    @property
+    def spread_line(self) -> float:
+        """What the lines fill that a share of infill counts for a wall (m): n times this over the
+        distance of parallel walls is the share.
+        """
+        return spread_lines(self.slicer, self.fill_multiline) * self.line
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -127,20 +139,35 @@ def sliced(given: Given, density: float) -> Sliced:
     check_proportion(made)
     _check_lines(made)
     made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
-    if made.mass is None:
-        return _laid(made, given["infill"], density * made.depth)
-    if "infill" in given:
-        raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
-    per_area = density * made.depth
-    return _laid(made, _share_for(made, made.mass, per_area), per_area)
+    return _laid(made, _share(made, given, density * made.depth), density * made.depth)
+
+
+def _share(made: Sliced, given: Given, per_area: float) -> float:
+    """The share of infill, or that of the distance of lines, or of the mass; per_area: kg/m^2."""
+    ways = [key for key in SIZES if given.get(key) is not None]
+    if len(ways) > 1:
+        allowed = f"none where lattice.{ways[0]} is given"
+        raise RefusedError(f"lattice.{ways[1]}", given[ways[1]], allowed)
+    if made.line_distance is not None:
+        share = share_of(made._pattern, made.line_distance, made.spread_line)
+        if share < 1.0:
+            return share
+        least = share * made.line_distance
+        raise RefusedError("lattice.line_distance", made.line_distance, f"above {least:.4g} m")
+    return given["infill"] if made.mass is None else _share_for(made, made.mass, per_area)
 
 
 def _laid(made: Sliced, share: float, per_area: float) -> Sliced:
     """The infill of a share; per_area: kg/m^2."""
-    most = _most_of(made.printed_as)
+    most = _most_of(made)
     if share >= most * (1.0 - 1e-12):
-        allowed = f"below {100.0 * most:.3g} %, so that cells are twice as wide as their walls"
-        raise RefusedError("lattice.infill", share, allowed)
+        wide = "so that cells are twice as wide as their walls"
+        if made.line_distance is not None:
+            least = distance_of(made._pattern, most, made.spread_line)
+            raise RefusedError(
+                "lattice.line_distance", made.line_distance, f"above {least:.4g} m, {wide}"
+            )
+        raise RefusedError("lattice.infill", share, f"below {100.0 * most:.3g} %, {wide}")
     laid = made.model_copy(update=_spacing(made, share))
     check_size(laid, ("infill",))
     if abs(_drawn(laid) - 1.0) > MASS_ERROR:
@@ -148,9 +175,11 @@ def _laid(made: Sliced, share: float, per_area: float) -> Sliced:
     return laid
 
 
-def _most_of(pattern: Pattern) -> float:
+def _most_of(made: Sliced) -> float:
     """The share at which the narrowest cell is twice as wide as its walls."""
-    return 0.5 * pattern.opening * pattern.directions / pattern.wall
+    pattern = made.printed_as
+    filled = 0.5 * pattern.opening * pattern.directions / pattern.wall
+    return filled * made.spread_line / made.lines
 
 
 def _drawn(laid: Sliced) -> float:
@@ -171,7 +200,12 @@ def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedErro
     near = [percent / 100.0 for percent in range(1, 100) if abs(percent / 100.0 - share) < NEAR]
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = laid.model_copy(update=_spacing(laid, other))
-        if other < _most_of(laid.printed_as) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
+        if other < _most_of(laid) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
+            if laid.line_distance is not None:
+                allowed = (
+                    f"{nearest.fill_distance:.4g} m, for example, or another fill_angle; {why}"
+                )
+                return RefusedError("lattice.line_distance", laid.line_distance, allowed)
             if laid.mass is None:
                 allowed = f"{100.0 * other:.0f} %, for example, or another fill_angle; {why}"
                 return RefusedError("lattice.infill", share, allowed)
@@ -185,7 +219,7 @@ def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedErro
 
 def _spacing(made: Sliced, share: float) -> dict[str, Any]:
     """The distance of lines of a share, and about how many cells fit."""
-    distance = distance_of(made._pattern, share, made.lines)
+    distance = distance_of(made._pattern, share, made.spread_line)
     columns, rows = (max(1, round(size / distance)) for size in (made.width, made.height))
     if columns * rows > MAX_NODES:
         allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
@@ -198,7 +232,8 @@ def _share_for(made: Sliced, mass: float, per_area: float) -> float:
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
     first = made.model_copy(update=_spacing(made, LEAST_SHARE))
-    most = (1.0 - 1e-9) * _most_of(made.printed_as)
+    counted = made.spread_line / made.lines  # a share as the slicer counts / of what is extruded
+    most = (1.0 - 1e-9) * _most_of(made) / counted
     share, *bounds = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
         light, heavy = (per_area * area for area in bounds)
@@ -206,7 +241,7 @@ def _share_for(made: Sliced, mass: float, per_area: float) -> float:
         if light < mass < heavy:
             allowed = "another mass: there a line along a side appears; or another fill_angle"
         raise RefusedError("lattice.mass", mass, allowed)
-    return share
+    return counted * share
 
 
 def _checked_pattern(given: Given) -> str:
@@ -219,11 +254,12 @@ def _checked_pattern(given: Given) -> str:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
         raise RefusedError(key, pattern, f"{names}{_no_prism(pattern, patterns)}")
-    if "mass" not in given and "infill" not in given:
-        raise RefusedError("lattice.infill", None, 'a share such as "20 %", or a lattice.mass')
+    if all(given.get(key) is None for key in SIZES):
+        allowed = 'a share such as "20 %", a lattice.line_distance, or a lattice.mass'
+        raise RefusedError("lattice.infill", None, allowed)
     count = given.get("fill_multiline", 1)
     if count > lines_at_most(given["slicer"], patterns[pattern]):
-        allowed = '1; more with lattice.slicer "orca" and a pattern other than honeycomb'
+        allowed = '1; more with lattice.slicer "orca" or "cura" and a pattern other than honeycomb'
         raise RefusedError("lattice.fill_multiline", count, allowed)
     return patterns[pattern]
 

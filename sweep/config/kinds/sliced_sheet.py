@@ -10,7 +10,7 @@ from sweep.config.kinds.sheet import Surface, checked, fitted
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
-from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of
+from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of, spread_lines
 from sweep.design.surfaces.names import SHEETS
 
 LEAST_SHARE = 0.02
@@ -64,15 +64,14 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     width = given.get("line_width", width * program.nozzles)
     layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
     _check(given, width, layer, lines)
-    angle = _angle(given, pattern, along)
-    line = lines * line_of(given["slicer"], width, layer)
-    wanted = pattern.period * line / given["infill"]
+    angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
+    spread = pattern.period * spread_lines(given["slicer"], lines) * one
     turned = not along and not _parallel(angle, FILL_ANGLE)
-    sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
+    sides = fitted(pattern.sheet, given, along, spread / given["infill"], "infill", turned)
     follows: dict[str, Any] = {
-        "wall_thickness": line,
+        "wall_thickness": lines * one,
         "line_width": width,
-        "infill": pattern.period * line / sides["period"],
+        "infill": spread / sides["period"],
     }
     return checked(SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows))
 
@@ -115,4 +114,6 @@ def _check(given: Given, width: float, layer: float, lines: int) -> None:
     if layer > width:
         raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
     if lines > PROGRAMS[given["slicer"]].lines:
-        raise RefusedError("lattice.fill_multiline", lines, '1; more with lattice.slicer "orca"')
+        raise RefusedError(
+            "lattice.fill_multiline", lines, '1; more with lattice.slicer "orca" or "cura"'
+        )

@@ -27,6 +27,19 @@ CHOICES: dict[str, dict[str, str]] = {
         "trihexagon": "kagome",
         "tri-hexagon": "kagome",
     },
+    "lattice.slicer": {
+        "prusaslicer": "prusa",
+        "prusa slicer": "prusa",
+        "superslicer": "prusa",
+        "slic3r": "prusa",
+        "orcaslicer": "orca",
+        "orca slicer": "orca",
+        "bambu": "orca",
+        "bambustudio": "orca",
+        "bambu studio": "orca",
+        "bambulab": "orca",
+        "ultimaker cura": "cura",
+    },
     "loading.mode": {
         "crush": "displacement",
         "compression": "displacement",
@@ -50,6 +63,17 @@ KEYS = {
     "thickness": ("lattice.wall_thickness", ""),
     "infill_pattern": ("lattice.pattern", "with lattice.slicer; without a slicer, lattice.kind"),
     "infill_density": ("lattice.infill", ""),
+    "infill_sparse_density": ("lattice.infill", ""),
+    "sparse_infill_density": ("lattice.infill", ""),
+    "sparse_infill_pattern": ("lattice.pattern", "with lattice.slicer"),
+    "fill_pattern": ("lattice.pattern", "with lattice.slicer"),
+    "infill_line_distance": ("lattice.line_distance", "with lattice.slicer"),
+    "infill_multiplier": ("lattice.fill_multiline", "the lines of a wall"),
+    "line_multiplier": ("lattice.fill_multiline", "the lines of a wall"),
+    "infill_angle": ("lattice.fill_angle", ""),
+    "infill_direction": ("lattice.fill_angle", ""),
+    "wall_line_count": ("lattice.perimeters", ""),
+    "walls": ("lattice.perimeters", ""),
     "fill_density": ("lattice.infill", ""),
     "wall_loops": ("lattice.perimeters", ""),
     "top_layers": ("lattice.solid_layers", "layers at the top and at the bottom"),
@@ -65,8 +89,11 @@ KEYS = {
 
 
 def present_choice(key: str, raw: Any) -> Any:
-    """The choice that a word means for a key; any other value is left as it is."""
-    return CHOICES.get(key, {}).get(raw.lower(), raw) if isinstance(raw, str) else raw
+    """The choice that a word means for a key, in capitals or not; other values are left."""
+    if not isinstance(raw, str) or key not in CHOICES:
+        return raw
+    words, word = CHOICES[key], raw.lower()
+    return word if word in words.values() else words.get(word, raw)
 
 
 def with_words(key: str, allowed: str) -> str:

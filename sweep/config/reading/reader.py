@@ -24,6 +24,8 @@ from sweep.config.materials.material_file import (
     read_record,
 )
 from sweep.config.materials.plausibility import suspicion
+from sweep.config.profiles.profile import read_profile
+from sweep.config.profiles.settings import NEEDED
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import meant, present_choice, with_words
 from sweep.config.structures.structure_file import StructureError, read_structure
@@ -34,6 +36,9 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
+PROFILE = "lattice.profile"
+OF_A_PATTERN = ("slicer", "pattern", "infill", "fill_angle", "fill_multiline")
+NAMELESS = "unnamed"  # the name of a config that has neither a name nor a file
 BRANCH = ("time", "share")  # keys of a branch of relaxation
 BY_MATERIAL = {
     "loading.strain_rate",
@@ -59,15 +64,17 @@ class Reader:
         self.to_si = to_si
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
+        self.notes: list[str] = []
 
-    def config(self, document: dict[str, Any], path: Path) -> Config:
-        """The config of a whole document, without its cases."""
+    def config(self, document: dict[str, Any], path: Path | None) -> Config:
+        """The config of a whole document, without its cases; path: of its file, if it has one."""
         sections = ["name", *TABLES, "grid", "zip", "exclude", "search", *QUESTION]
         for section in document:
             if section not in sections:
                 self._unknown(section, document[section], sections)
+        usual = path.stem if path else NAMELESS
         return Config(
-            name=self._name(document["name"]) if "name" in document else path.stem,
+            name=self._name(document["name"]) if "name" in document else usual,
             recipe=self._recipe(document),
             rank=self._rank(self._question(document, "rank")),
             require=Require(**self._question(document, "require")),
@@ -75,12 +82,18 @@ class Reader:
         )
 
     def _recipe(self, document: dict[str, Any]) -> Recipe:
-        """The values that a document writes."""
+        """The values that a document writes, and those of profiles that it does not write."""
+        document, one, several = _without_profiles(document)
+        stated = _stated(document)
+        base = self._base(document)
+        if one is not None:
+            base |= self._profile(one, stated)
+        tied = {} if several is None else self._profiles(several, stated, one is not None)
         ties = map(self._zip, self._tables(document, "zip"))
         return Recipe(
-            base=self._base(document),
+            base=base,
             grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
-            zip=tuple(filter(None, ties)),
+            zip=tuple(filter(None, [*ties, tied])),
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
             search=self._search(document),
         )
@@ -135,6 +148,44 @@ class Reader:
                         self._refuse(name, raw, wrong)
         return base
 
+    def _profile(self, raw: Any, stated: set[str]) -> Values:
+        """What the profile of a slicer says of the keys that the document does not state."""
+        if not isinstance(raw, str):
+            self._refuse(PROFILE, raw, f"no path; needed: {NEEDED}")
+            return {}
+        try:
+            profile = read_profile(self.folder / raw, raw)
+        except MisfitError as error:
+            self._refuse(PROFILE, raw, str(error))
+            return {}
+        self.notes += profile.notes
+        replaced = [key for key in profile.values if _is_stated(key, stated)]
+        if replaced:
+            self.notes.append(f"{raw}: the config says otherwise: {', '.join(replaced)}")
+        read: Values = {}
+        for key, value in profile.values.items():
+            name, before = f"lattice.{key}", len(self.faults)
+            written = None if key in replaced else self._value(name, value)
+            for k, fault in enumerate(self.faults[before:], before):
+                self.faults[k] = fault._replace(line=f"{fault.line} ({raw})")
+            if written:
+                read[name] = written._replace(text=f"{written.text} (of {raw})", implied=True)
+        return read
+
+    def _profiles(self, raws: Any, stated: set[str], beside: bool) -> Axes:
+        """Profiles as values of a grid: keys that vary together."""
+        if beside:
+            self._refuse(PROFILE, raws, "in [lattice] too; allowed: one of them", "[grid]")
+            return {}
+        if not isinstance(raws, list) or not raws:
+            self._refuse(PROFILE, raws, "no list of profiles; allowed: paths", "[grid]")
+            return {}
+        read = [self._profile(raw, stated) for raw in raws]
+        names = dict.fromkeys(name for values in read for name in values)
+        self.varied |= dict.fromkeys(names, f"[grid] {PROFILE}")
+        none = Written(None, '""', implied=True)
+        return {name: tuple(values.get(name, none) for values in read) for name in names}
+
     def _branches(self, section: dict[str, Any], table: str) -> dict[str, Any]:
         """A table whose branches of relaxation, if it has any, are lists of times and of shares."""
         if table != "material" or "relaxation" not in section:
@@ -170,7 +221,9 @@ class Reader:
 
     def _axis(self, name: str, raw: Any, where: str) -> tuple[Written, ...]:
         key = case_keys().get(name)
-        if key is None:
+        if name == PROFILE:
+            self._refuse(name, raw, "a profile; allowed: in [lattice] or [grid]", where)
+        elif key is None:
             self._unknown(name, raw, case_keys(), where)
         elif key.is_list:
             self._refuse(name, raw, "a list itself, no axis; allowed: keys with one value", where)
@@ -266,7 +319,10 @@ class Reader:
             return None
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
-        near, clause = meant(name, keys)
+        names = [*keys]
+        if name.startswith("lattice.") and "lattice.kind" in names and not where:
+            names.append(PROFILE)
+        near, clause = meant(name, names)
         self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
@@ -312,6 +368,39 @@ class Reader:
 def is_range(value: object) -> bool:
     """Whether a value is a range of a search: a table with its ends."""
     return isinstance(value, dict) and sorted(value) == sorted(RANGE)
+
+
+def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, Any]:
+    """A document without profiles of slicers, the one in [lattice] and those in [grid]; None where
+    there is none.
+    """
+    kept = dict(document)
+    taken: list[Any] = [None, None]
+    for k, (section, key) in enumerate((("lattice", "profile"), ("grid", PROFILE))):
+        table = document.get(section)
+        flat = _flat(table) if isinstance(table, dict) else {}
+        if key in flat:
+            taken[k] = flat.pop(key)
+            kept[section] = flat
+    return kept, taken[0], taken[1]
+
+
+def _stated(document: dict[str, Any]) -> set[str]:
+    """The keys of [lattice] that a document states, or varies."""
+    lattice, grid, search, ties = (document.get(n) for n in ("lattice", "grid", "search", "zip"))
+    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
+    names = {f"lattice.{key}" for key in (lattice if isinstance(lattice, dict) else {})}
+    names |= {key for table in tables if isinstance(table, dict) for key in _flat(table)}
+    return names | {target for name in names for target in ALIASES.get(name, ())}
+
+
+def _is_stated(key: str, stated: set[str]) -> bool:
+    """Whether a document states a key of a profile, or another that replaces it: a distance of
+    lines replaces the share of infill, and cells that are drawn replace the pattern.
+    """
+    others = ("mass", "line_distance") if key == "infill" else ()
+    drawn = key in OF_A_PATTERN and "lattice.kind" in stated
+    return drawn or any(f"lattice.{name}" in stated for name in (key, *others))
 
 
 def _is_branch(value: object) -> bool:

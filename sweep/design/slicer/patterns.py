@@ -6,7 +6,9 @@ A line of width w and height h has rounded sides. PrusaSlicer and its children l
 distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
 With a share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is
 the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r. Walls
-of m lines side by side (OrcaSlicer's `fill_multiline`) are m s thick and m times as far apart.
+of m lines side by side are m s thick. OrcaSlicer (`fill_multiline`) lays them m times as far apart,
+so that the share stays; Cura (`infill_multiplier`) leaves their distance, so that the share that is
+extruded is m r.
 
 In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
 is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
@@ -86,7 +88,8 @@ class Program(NamedTuple):
     title: its name for people. patterns: those that it prints as prisms, its own name -> the name
     in `PATTERNS`. sheets: those that it prints as sheets, by its own name. rounded: whether it
     counts lines with round sides. nozzles: width of a line by default. lines: the most that it lays
-    side by side in a wall. reads: whether it reads settings from a .3mf.
+    side by side in a wall. spreads: whether walls of several lines are further apart, so that the
+    share of infill stays. reads: whether it reads settings from a .3mf.
     """
 
     title: str
@@ -95,6 +98,7 @@ class Program(NamedTuple):
     rounded: bool = True
     nozzles: float = WIDTH_PER_NOZZLE
     lines: int = 1
+    spreads: bool = True
     reads: bool = True
 
 
@@ -125,6 +129,8 @@ PROGRAMS = {
         {"gyroid": SheetPattern("gyroid", 2.41, angle=None)},
         rounded=False,
         nozzles=1.0,
+        lines=10,
+        spreads=False,
         reads=False,
     ),
 }
@@ -264,6 +270,11 @@ def distance_of(pattern: str, share: float, line: float) -> float:
 def share_of(pattern: str, distance: float, line: float) -> float:
     """Share of infill at a distance (m) of the parallel walls: the inverse of `distance_of`."""
     return PATTERNS[pattern].directions * line / distance
+
+
+def spread_lines(slicer: str, lines: int) -> int:
+    """By how much walls of several lines are further apart than those of one."""
+    return lines if PROGRAMS[slicer].spreads else 1
 
 
 def lines_at_most(slicer: str, pattern: str) -> int:

@@ -18,13 +18,12 @@ from sweep.ranking.rank import answer
 from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import page_data
 from sweep.report.tables.design_text import design_labels
+from sweep.report.tables.html import cells, html_table, paragraphs
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-    from sweep.report.tables.sheet import Sheet
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "plots.js", "page.js")
@@ -72,8 +71,8 @@ def tables(summary: DataFrame, question: Question) -> str:
     ranking = answer(summary, question._replace(by=None, top=top, allowed_force=None))
     if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
-    sheets = "".join(_table(sheet) for sheet in ranking_sheets(ranking, summary))
-    notes = _paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+    sheets = "".join(html_table(sheet) for sheet in ranking_sheets(ranking, summary))
+    notes = paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
     return f"{_winners(ranking.table, summary)}{sheets}{notes}"
 
 
@@ -107,29 +106,12 @@ def _as_script(data: Mapping[str, Any]) -> str:
     return text
 
 
-def _table(sheet: Sheet) -> str:
-    title = f"<h3>{escape(sheet.title)}</h3>" if sheet.title else ""
-    rows = "".join(f"<tr>{_cells(row)}</tr>" for row in sheet.rows)
-    heads = "".join(f'<th scope="col">{escape(head)}</th>' for head in sheet.heads)
-    grid = f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
-    scrolled = f'<div class="scroll">{grid}</div>' if sheet.heads else ""
-    return f"{title}{scrolled}{_paragraphs(sheet.notes)}"
-
-
-def _cells(texts: Iterable[str]) -> str:
-    return "".join(f"<td>{escape(text)}</td>" for text in texts)
-
-
-def _paragraphs(lines: Iterable[str]) -> str:
-    return "".join(f'<p class="quiet">{escape(line)}</p>' for line in lines)
-
-
 def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> str:
     """The cases that did not converge, with their sentences; "" if there is none. failed: number of
     all of them, of which the page may have only the first.
     """
     rows = [
-        f"<tr>{_cells([each['case_id'], each['label'], each['scene'], each['status']])}"
+        f"<tr>{cells([each['case_id'], each['label'], each['scene'], each['status']])}"
         f'<td class="sentence">{escape(each["message"])}</td></tr>'
         for each in failures
     ]
@@ -138,7 +120,7 @@ def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> 
     heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
     count = f"{counted(failed, 'case')} failed"
     more = f"{failed - len(rows)} more are left out: crumple status {file} says why they failed."
-    note = _paragraphs([more]) if failed > len(rows) else ""
+    note = paragraphs([more]) if failed > len(rows) else ""
     return (
         f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
         f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
@@ -158,4 +140,4 @@ def _origin(data: Mapping[str, Any]) -> str:
     lines = [f"{thin}; {kept}."]
     if shown < designs:
         lines += [LEFT_OUT.format(shown, designs)]
-    return f"<dl>{listed}</dl>{folded}{_paragraphs(lines)}"
+    return f"<dl>{listed}</dl>{folded}{paragraphs(lines)}"

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 class Sheet(NamedTuple):
     """A table of text. opens: rows that begin a section. notes: lines below the table. spare: heads
     of columns that a narrow terminal may leave out, the first one first; elsewhere: what has them.
+    cases: ids of the designs in the rows, where each row is one.
     """
 
     title: str
@@ -20,6 +21,7 @@ class Sheet(NamedTuple):
     notes: tuple[str, ...] = ()
     spare: tuple[str, ...] = ()
     elsewhere: str = ""
+    cases: tuple[str, ...] = ()
 
     def without(self, head: str) -> Sheet:
         """The table without a column."""

@@ -118,6 +118,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             ),
             spare=_spare(columns, rows, ranking),
             elsewhere="crumple rank with --csv",
+            cases=tuple(rows["case_id"]),
         )
     for scene, count in ranking.lost.items():
         yield Sheet(scene, [], [], notes=(LOST.format(count),))

@@ -152,7 +152,7 @@ def _with_walls(case: Case, thickness: float) -> Case:
 def _mass(case: Case) -> float:
     """Mass of a specimen (kg) as budgets count it."""
     lattice = case.lattice
-    if isinstance(lattice, Surface):  # one period, which `cli.optimize` refuses
+    if isinstance(lattice, Surface):  # one period, which `optimize` refuses
         return case.material.density * lattice.wall_thickness * lattice.area
     if isinstance(lattice, CustomStructure):
         area = network_of(lattice).printed_area

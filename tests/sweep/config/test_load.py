@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.load import load_config
+from sweep.config.load import case, load_config
 from sweep.config.units import quantity
+from tests.support.readme import ROOT
 
 
 @pytest.mark.parametrize(
@@ -53,10 +55,8 @@ def test_line_at_which_the_parser_gives_up_is_told_at_once(lines, text, told):
 def test_missing_file(tmp_path):
     with pytest.raises(ConfigError, match=r"no\.toml: cannot be read \(No such file"):
         load_config(tmp_path / "no.toml")
-    with pytest.raises(
-        ConfigError, match=r'^\{"name": "a"\} is no path; needed: the path of a TOML'
-    ):
-        load_config({"name": "a"})
+    with pytest.raises(ConfigError, match=r'^\["a"\] is no path; needed: the path of a TOML'):
+        load_config(["a"])
 
 
 def test_not_text(tmp_path):
@@ -75,8 +75,9 @@ def test_a_refused_config_loads_nothing_heavy(tmp_path):
     heavy = ["numpy", "scipy", "pandas", "numba", "dask", "h5py", "matplotlib", "shapely"]
     script = f"""
 import sys
+from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.load import load_config
+from sweep.config.load import case, load_config
 try:
     load_config({str(path)!r})
 except ConfigError:
@@ -90,3 +91,52 @@ except ConfigError:
         check=True,
     )
     assert done.stdout.strip() == ""
+
+
+TABLES = {"lattice": {"kind": "hex"}, "grid": {"lattice.cells": [2, 3]}}
+
+
+def test_a_dict_is_a_config(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "same.toml").write_text('[lattice]\nkind = "hex"\n[grid]\n"lattice.cells" = [2, 3]')
+    config, written = load_config(TABLES), load_config("same.toml")
+    assert config.cases == written.cases
+    assert (config.name, config.path) == ("unnamed", None)
+    assert load_config({**TABLES, "name": "hexagons"}).name == "hexagons"
+
+
+def test_faults_of_a_dict_are_those_of_a_file(lines):
+    (line,) = lines("[lattice]\nwidth = 3\n")
+    with pytest.raises(ConfigError) as caught:
+        load_config({"lattice": {"width": 3}})
+    assert str(caught.value) == line
+    with pytest.raises(ConfigError, match="an empty config; needed: tables"):
+        load_config({})
+
+
+def test_files_named_in_a_dict_are_looked_for_here(tmp_path, monkeypatch):
+    (tmp_path / "arch.json").write_text((ROOT / "configs/custom.json").read_text("utf-8"))
+    monkeypatch.chdir(tmp_path)
+    config = load_config({"lattice": {"kind": "custom", "file": Path("arch.json")}})
+    assert config.cases[0].lattice.file == "arch.json"
+
+
+def test_a_case_of_keys():
+    by_dots = case(**{"lattice.kind": "hex", "lattice.width": "25 mm"})
+    assert by_dots == case(lattice={"kind": "hex", "width": "25 mm"})
+    assert by_dots == Case.of(lattice={"kind": "hex", "width": 0.025})
+    assert case() == Case.of()
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ({"grid": {"lattice.cells": [2]}}, "grid = .*: of no case; allowed: the tables lattice"),
+        ({"lattice.cells": [2, 3]}, "a list, which belongs in"),
+        ({"lattice.kynd": "hex"}, "unknown key; the nearest is lattice.kind"),
+        ({"lattice": "hex"}, "not a table"),
+    ],
+)
+def test_what_is_no_key_of_a_case_is_refused(keys, told):
+    with pytest.raises(ConfigError, match=told):
+        case(**keys)

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
-from sweep.ranking.spread import AS_GIVEN, ends, spreads
+from sweep.ranking.spread import AS_GIVEN, ends, spread_table, spreads
 from sweep.result import Status
 from tests.support.results.specimens import designs, summary
 
@@ -80,3 +80,14 @@ def test_limits_that_corners_miss_are_told():
         (2, "soft", "min_absorbed"),
         (2, "hard", "budget"),
     )
+
+
+def test_the_table_has_the_ends_of_each_design():
+    table = spread_table(found([(0.2, 0.8), (np.nan, 0.5)]))
+    first, second = table.to_dict("records")
+    told = ("value", "lowest", "lowest_at", "highest", "highest_at")
+    assert [first[name] for name in told] == [0.4, 0.2, "soft", 0.8, "hard"]
+    assert (first["best_place"], first["worst_place"]) == (1, 1)
+    assert (second["lowest_at"], second["failed"], first["failed"]) == (AS_GIVEN, 1, 0)
+    assert spread_table(found([(0.2, 0.8), (0.25, 0.5)]))["changes_order"].tolist() == ["soft"] * 2
+    assert spread_table([]).empty

@@ -1,5 +1,7 @@
 """Results for a Python session: table, curves and pictures of the cases that are meant."""
 
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
 
@@ -27,8 +29,7 @@ def test_table_has_the_cases_of_the_sweep_in_its_order(file):
     assert len(results) == 2
     assert len(Results(file)) == 3
     assert list(results.failed["case_id"]) == ids[:1]
-    assert repr(results) == f"Results of 2 cases, 1 failed, in {file}"
-    assert repr(results) in results._repr_html_()
+    assert repr(results) == f"<Results of 2 cases, 1 failed, in {file}>"
 
 
 def test_curve_is_that_of_the_row_or_id(file):
@@ -55,6 +56,45 @@ def test_ranking_asks_what_the_config_asks_unless_told_otherwise(file):
     assert (best["panel_specimens"] > 1).all()
     with pytest.raises(RankError, match="budget"):
         plain.rank(budget=2.0)
+
+
+def test_a_question_may_take_away_what_the_config_asks(file):
+    asked = Results(file, question={"budget": ["1.5 g"], "require": {"max_mass": "1 g"}})
+    assert list(asked.rank(budget=None)["mass_g"]) == [1.0]
+    assert list(asked.rank(budget=None, require=None)["mass_g"]) == [2.0, 1.0]
+    assert list(asked.rank(None, require=None, top=1)["mass_g"]) == [2.0]
+
+
+def test_a_notebook_shows_the_ranking_with_a_drawing_of_each_design(file):
+    shown = Results(file)._repr_html_()
+    assert "Results of 3 cases, 1 failed" in shown
+    rows = ElementTree.fromstring(f"<div>{shown}</div>").findall(".//tbody/tr")
+    assert [row[2].text for row in rows] == ["2.00", "1.00"]
+    assert all(row[0].find("{*}svg/{*}path") is not None for row in rows)
+    assert len(shown) < 10_000
+    within = Results(file, question={"budget": ["1.5 g"]})._repr_html_()
+    assert within.count("<svg") == 1
+
+
+def test_a_notebook_shows_no_markup_of_a_file(tmp_path):
+    rows = designs([1.0, 2.0], [0.1, 0.2])
+    rows[0]["material"] = "<script>alert(1)</script>"
+    shown = Results(write(tmp_path / "a<b>.h5", summary(*rows)))._repr_html_()
+    assert "&lt;script&gt;" in shown
+    assert "a&lt;b&gt;.h5" in shown
+    assert "<script" not in shown
+
+
+def test_a_notebook_shows_failed_cases_as_a_line(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}))
+    assert Results(file)._repr_html_() == f"<p>Results of 1 case, 1 failed, in {file}</p>"
+
+
+def test_the_page_is_written_beside_the_results(file, tmp_path):
+    assert Results(file).report() == tmp_path / "trial.html"
+    assert "<script>" in (tmp_path / "trial.html").read_text("utf-8")
+    own = Results(file).report(tmp_path / "pages" / "own.html")
+    assert own.exists()
 
 
 def test_picture_of_a_case_and_of_all(file, tmp_path):

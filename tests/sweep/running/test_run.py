@@ -1,14 +1,21 @@
 """A sweep from Python: what runs, and what comes back."""
 
+import tomllib
+from contextlib import nullcontext
 from pathlib import Path
 
 import dask
+import numpy as np
 import pytest
 
 from sweep.config.load import load_config
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import ranked
-from sweep.running.run import run
+from sweep.report.results import Results
+from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.spread import FRICTION
+from sweep.running.run import run, spread
+from sweep.store.read import read_summary
 
 
 def test_results_are_those_of_the_config(config):
@@ -63,6 +70,44 @@ def test_where_cases_run(config, monkeypatch, given, scheduler):
     """In the scheduler that is given, else that of the environment, unless threads are."""
     places = []
     monkeypatch.setattr("sweep.running.run.run_sweep", lambda *how: places.append(how[3]))
+    monkeypatch.setattr("sweep.running.run.open_cluster", nullcontext)
     with dask.config.set({"scheduler-address": "tcp://host:8786"}):
         run(config, **given)
     assert places == [scheduler]
+
+
+def test_a_dict_runs_as_its_file_does(config):
+    tables = tomllib.loads(Path(config).read_text())
+    of_dict, of_file = run(tables), run(config)
+    assert list(of_dict.table["case_id"]) == list(of_file.table["case_id"])
+    assert of_dict.path == of_file.path
+
+
+def test_error_bars_are_columns(config):
+    assert "error_absorbed_energy_J" not in run(config).table
+    table = run(config, error_bars=True).table
+    assert (table["error_absorbed_energy_J"].notna() == (table["status"] == "converged")).all()
+
+
+PRESSED = {"name": "pressed", "loading": {"mode": "displacement", "strain": 0.3}}
+PRESSED |= {"grid": {"lattice.imperfection": [0.006, 0.008]}}
+
+
+def test_the_best_are_run_again_at_the_ends_of_ranges(config):
+    results = run(PRESSED)
+    table = spread(results, top=1)
+    beside = read_summary(file_beside(results.path, "spread"))
+    best = results.rank(top=1)
+    assert list(table["case_id"]) == list(best["case_id"])
+    assert set(beside["contact.friction"].dropna()) == set(FRICTION)
+    assert list(table["value"]) == list(best[table["ranked_by"].iloc[0]])
+    assert (table["lowest"] <= table["value"]).all()
+    assert (table["value"] <= table["highest"]).all()
+    assert (table["failed"] == 0).all()
+
+
+def test_a_file_has_a_spread_too(config):
+    results = run(PRESSED)
+    of_file = spread(str(results.path), top=1)
+    assert of_file.equals(spread(Results(results.path), top=1))
+    assert np.isfinite(of_file["value"]).all()

@@ -1,6 +1,7 @@
 """The table `lattice` with a slicer: what follows from its lines, and what it does not print."""
 
 import math
+import re
 
 import pytest
 
@@ -138,10 +139,8 @@ def test_lines_side_by_side_are_as_many_times_farther_apart():
     )
 
 
-@pytest.mark.parametrize(
-    "wish", [{"slicer": "prusa"}, {"slicer": "cura"}, {"slicer": "orca", "pattern": "honeycomb"}]
-)
-def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
+@pytest.mark.parametrize("wish", [{"slicer": "prusa"}, {"slicer": "orca", "pattern": "honeycomb"}])
+def test_several_lines_are_of_slicers_and_patterns_that_have_them(wish):
     with pytest.raises(RefusedError, match=r"fill_multiline|1; more with lattice.slicer"):
         sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
     with pytest.raises(RefusedError, match="a key of Cells: "):
@@ -151,3 +150,54 @@ def test_several_lines_are_of_orca_and_of_patterns_with_a_known_relation(wish):
 @pytest.mark.parametrize("wish", [{"infill": 0.49}, {"infill": 0.5, "fill_angle": 0.3}])
 def test_what_a_refusal_of_a_drawing_allows_is_drawn(wish):
     assert sliced(**{"fill_angle": 0.0, "perimeters": 1} | wish).infill == wish["infill"]
+
+
+def test_lines_may_be_given_by_their_distance():
+    """The same case, whose share follows; s = w for Cura."""
+    by_share, by_distance = (
+        Case.of(lattice=dict(slicer="cura", pattern="grid", width=0.06, height=0.06) | size)
+        for size in ({"infill": 0.2}, {"line_distance": 4e-3})
+    )
+    assert by_distance.case_id == by_share.case_id
+    assert by_distance.lattice.infill == pytest.approx(0.2)
+    wider = by_distance.changed(lattice={"line_width": 0.5e-3}).lattice
+    assert (wider.fill_distance, wider.infill) == (4e-3, pytest.approx(0.25))
+    denser = by_distance.changed(lattice={"infill": 0.3}).lattice
+    assert denser.fill_distance == pytest.approx(2 * 0.4e-3 / 0.3)
+    assert denser.line_distance is None
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"),
+    [
+        (
+            {"pattern": "trihexagon", "line_distance": 2e-3},
+            "line_distance|above 0.0024 m, so that cells are twice as wide as their walls",
+        ),
+        ({"line_distance": 0.5e-3}, "line_distance|above 0.0008 m"),
+        ({"line_distance": 4e-3, "infill": 0.2}, "line_distance|none where lattice.infill"),
+        ({"line_distance": 4e-3, "mass": 4e-3}, "mass|none where lattice.line_distance"),
+        ({}, 'infill|a share such as "20 %", a lattice.line_distance'),
+    ],
+)
+def test_a_distance_that_does_not_fit_is_refused(sizes, told):
+    key, allowed = told.split("|")
+    with pytest.raises(RefusedError, match=re.escape(allowed)) as refusal:
+        Case.of(lattice=dict(slicer="cura", pattern="grid", width=0.06, height=0.06) | sizes)
+    assert refusal.value.key == f"lattice.{key}"
+
+
+def test_several_lines_of_cura_stay_where_one_is():
+    """Infill Line Multiplier: as many times the share is extruded."""
+    box = dict(slicer="cura", pattern="grid", width=0.06, height=0.06, infill=0.1)
+    one, two = (Case.of(lattice=box | {"fill_multiline": lines}).lattice for lines in (1, 2))
+    assert two.fill_distance == one.fill_distance
+    assert two.wall_thickness == 2 * one.wall_thickness
+    assert two.geometry.sliced.share == pytest.approx(2 * two.infill)
+    heavy = Case.of(lattice=box | {"fill_multiline": 2}).lattice
+    mass = Case.of(lattice={**box, "infill": None, "mass": 5e-3, "fill_multiline": 2}).lattice
+    assert heavy.infill == 0.1
+    laid = mass.geometry.sliced.share
+    assert mass.infill == pytest.approx(0.5 * laid)
+    with pytest.raises(RefusedError, match=r"below 16\.7 %"):
+        Case.of(lattice=box | {"infill": 0.2, "fill_multiline": 6})

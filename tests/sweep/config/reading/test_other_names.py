@@ -87,3 +87,16 @@ def test_key_that_a_user_may_think_of_is_answered_with_the_one_there_is(lines, t
 
 def test_hint_that_does_not_belong_to_the_known_keys_is_not_given():
     assert meant("budget", ["name", "rank"]) == ("name", "the nearest is name")
+
+
+@pytest.mark.parametrize(
+    ("word", "slicer"),
+    [
+        *(("PrusaSlicer", "prusa"), ("superslicer", "prusa"), ("Prusa", "prusa")),
+        *(("OrcaSlicer", "orca"), ("bambu", "orca"), ("Bambu Studio", "orca"), ("Cura", "cura")),
+    ],
+)
+def test_slicers_by_the_names_that_people_use(load, word, slicer):
+    text = f'[lattice]\nwidth = "30 mm"\nheight = "30 mm"\nslicer = "{word}"\n'
+    (case,) = expand(load(f'{text}pattern = "grid"\ninfill = "20 %"'))
+    assert case.lattice.slicer == slicer

@@ -292,3 +292,90 @@ IN_SEARCH = "a range, which belongs into [search]; allowed: "
 def test_a_search_that_cannot_be_read(lines, text, told):
     (line,) = lines(text)
     assert told in line
+
+
+PROFILE = """fill_pattern = grid
+fill_density = 20%
+infill_extrusion_width = 0.45
+layer_height = 0.2
+perimeters = 3
+top_solid_layers = 5
+"""
+BOX = 'width = "30 mm"\nheight = "30 mm"\n'
+SAME = (
+    'slicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nline_width = "0.45 mm"\nperimeters = 3\n'
+)
+
+
+@pytest.fixture
+def profile(tmp_path):
+    """The profile of a slicer beside the config."""
+    (tmp_path / "own.ini").write_text(PROFILE)
+    return f'[lattice]\nprofile = "own.ini"\n{BOX}'
+
+
+def test_a_profile_gives_the_case_of_its_values(load, profile):
+    config, stated = load(profile), load(f"[lattice]\n{BOX}{SAME}")
+    assert config.cases[0].case_id == stated.cases[0].case_id
+    assert "own.ini" not in config.cases[0].to_json()
+    assert "top_solid_layers = 5" in config.notes[-1]
+    assert stated.notes == ()
+
+
+def test_keys_of_the_config_win_over_a_profile(load, profile):
+    (case,) = load(f'{profile}pattern = "stars"\nextrusion_width = "0.5 mm"').cases
+    assert (case.lattice.pattern, case.lattice.line_width) == ("stars", 0.5e-3)
+    assert case.lattice.perimeters == 3
+    config = load(f'{profile}line_distance = "5 mm"')
+    assert config.cases[0].lattice.fill_distance == 5e-3
+    assert config.notes[-1] == "own.ini: the config says otherwise: infill"
+    shares = load(f'{profile}[grid]\nlattice.infill = ["10 %", "30 %"]').cases
+    assert [case.lattice.infill for case in shares] == [0.1, 0.3]
+    (weighed,) = load(f'{profile}mass = "6 g"').cases
+    assert weighed.lattice.mass == 6e-3
+
+
+def test_cells_that_are_drawn_take_the_lines_of_a_profile(load, profile):
+    (case,) = load(f'{profile}kind = "hex"').cases
+    assert (case.lattice.kind, case.lattice.perimeters) == ("hex", 3)
+    assert case.lattice.line == 0.45e-3
+
+
+def test_keys_of_a_profile_need_have_no_effect(load, profile, tmp_path):
+    (tmp_path / "own.ini").write_text(PROFILE.replace("grid", "gyroid"))
+    text = '[lattice]\nprofile = "own.ini"\n[loading]\nmode = "displacement"\nstrain = 0.5'
+    assert load(text).cases[0].lattice.name == "gyroid"
+
+
+def test_profiles_are_compared_in_a_grid(load, profile, tmp_path):
+    (tmp_path / "other.ini").write_text(PROFILE.replace("grid", "stars").replace("20%", "30%"))
+    lattice = f'[lattice]\n{BOX}[grid]\n"lattice.profile" = ["own.ini", "other.ini"]\n'
+    cases = load(f'{lattice}"lattice.imperfection" = [0.01, 0.02]').cases
+    assert [(c.lattice.pattern, c.lattice.infill) for c in cases] == [
+        ("grid", 0.2), ("stars", 0.3), ("grid", 0.2), ("stars", 0.3),
+    ]  # fmt: skip
+
+
+def test_a_profile_in_another_table_is_refused(lines, profile):
+    (line,) = lines(f'[lattice]\n{BOX}{SAME}[[zip]]\nlattice.profile = ["own.ini"]')
+    assert line.endswith("a profile; allowed: in [lattice] or [grid]")
+    (line,) = lines(f'{profile}[grid]\nlattice.profile = ["own.ini"]')
+    assert "in [lattice] too; allowed: one of them" in line
+    (line,) = lines(f'[lattice]\n{BOX}[grid]\nlattice.profile = "own.ini"')
+    assert "no list of profiles; allowed: paths" in line
+    (line,) = lines(f"[lattice]\n{BOX}profile = 3")
+    assert "lattice.profile = 3: no path; needed: a profile" in line
+    (line,) = lines(f'[lattice]\n{BOX}profle = "own.ini"')
+    assert "the nearest is lattice.profile" in line
+
+
+def test_a_value_of_a_profile_that_does_not_fit_names_the_file(lines, tmp_path, profile):
+    (tmp_path / "own.ini").write_text(PROFILE.replace("20%", "100%"))
+    (line,) = lines(profile)
+    assert line.startswith('lattice.infill = "100 %": out of range; allowed:')
+    assert line.endswith("(own.ini)")
+    (tmp_path / "own.ini").write_text(PROFILE.replace("grid", "cubic"))
+    (line,) = lines(profile)
+    assert line.startswith('lattice.pattern = "cubic" (of own.ini): does not fit; allowed: "grid"')
+    (line,) = lines(profile.replace("own.ini", "none.ini"))
+    assert "cannot be read (No such file or directory)" in line

@@ -1,0 +1,51 @@
+"""The verb `card`: the effective materials of the infills of a config."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sweep.cli.refusals import writing
+from sweep.cli.terminal import hint, print_sheets, say
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from sweep.config.grid import Config
+    from sweep.effective.material import EffectiveMaterial
+
+
+class CardError(ValueError):
+    """An infill without an effective material; the text is one sentence."""
+
+
+def card(config: Config, arguments: Namespace) -> None:
+    """Print the effective materials of the infills of a config, and write them with --to."""
+    from sweep.config.faults import MisfitError
+    from sweep.config.grid import expand
+    from sweep.effective.cell import infill_of
+    from sweep.effective.material import card as effective
+    from sweep.report.tables.card_sheet import card_sheet
+
+    made: dict[tuple[str, float, float], EffectiveMaterial] = {}
+    refused: dict[str, None] = {}
+    for case in expand(config):
+        try:
+            infill = infill_of(case)
+            key = (infill.case.case_id, infill.angle, infill.gyration)
+            if key not in made:
+                made[key] = effective(case)
+        except MisfitError as error:
+            refused[str(error)] = None
+    cards = list(made.values())
+    if not cards:
+        raise CardError("\n".join(refused))
+    print_sheets([card_sheet(cards)])
+    hint(f"left out: {line}" for line in refused)
+    if arguments.to:
+        from sweep.export.card import write_card
+
+        path = Path(arguments.to)
+        with writing(path.parent, path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            say(write_card(cards, path))

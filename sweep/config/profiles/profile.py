@@ -1,0 +1,278 @@
+"""What a slicer's profile says of a lattice, as keys of a config with their units.
+
+Widths, as the slicers' sources compute them (libslic3r, Flow.cpp): 0 means the width for all lines,
+and if that is 0 too, 1.125 nozzles; a percentage is one of the layer height in PrusaSlicer, of the
+nozzle in SuperSlicer, OrcaSlicer and Bambu Studio. (The newest PrusaSlicer takes the nozzle and the
+layer height together where both are 0.)
+"""
+
+from collections.abc import Iterator, Mapping
+from math import isfinite
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sweep.config.faults import MisfitError
+from sweep.config.kinds.specimen import LAYER_HEIGHT, NOZZLE
+from sweep.config.profiles.settings import NEEDED, Settings, read_settings
+from sweep.design.slicer.patterns import ROUNDED, WIDTH_PER_NOZZLE
+from sweep.numbers import in_unit, to_si
+
+TITLES = {"prusa": "PrusaSlicer", "superslicer": "SuperSlicer", "orca": "OrcaSlicer"}
+SLICERS = {"prusa": "prusa", "superslicer": "prusa", "orca": "orca"}
+
+
+class Names(NamedTuple):
+    """The names of settings in a slicer. widths: of infill, then of all lines."""
+
+    pattern: str
+    infill: str
+    widths: tuple[str, str]
+    layer: str
+    perimeters: str
+    angle: str
+    lines: str
+
+
+PRUSA = Names(
+    "fill_pattern",
+    "fill_density",
+    ("infill_extrusion_width", "extrusion_width"),
+    "layer_height",
+    "perimeters",
+    "fill_angle",
+    "fill_multiline",
+)
+ORCA = Names(
+    "sparse_infill_pattern",
+    "sparse_infill_density",
+    ("sparse_infill_line_width", "line_width"),
+    "layer_height",
+    "wall_loops",
+    "infill_direction",
+    "fill_multiline",
+)
+NOZZLES = "nozzle_diameter"
+LONGEST = 60  # characters of a value that is told
+SPACING = "infill_extrusion_spacing"  # of SuperSlicer, in place of the width
+LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
+    "prusa": {
+        "infill_every_layers": ("1",),
+        "solid_infill_every_layers": ("0",),
+        "top_solid_layers": ("0",),
+        "bottom_solid_layers": ("0",),
+        "spiral_vase": ("0",),
+        "fuzzy_skin": ("none",),
+        "extra_perimeters_odd_layers": ("0",),
+        "fill_angle_increment": ("0",),
+        "infill_dense": ("0",),
+        "infill_overlap": ("25%",),
+        "extrusion_multiplier": ("1", "100%"),
+        "print_extrusion_multiplier": ("1", "100%"),
+        "xy_size_compensation": ("0",),
+        "perimeter_extrusion_width": (),
+        "external_perimeter_extrusion_width": (),
+    },
+    "orca": {
+        "infill_combination": ("0",),
+        "top_shell_layers": ("0",),
+        "bottom_shell_layers": ("0",),
+        "spiral_mode": ("0",),
+        "fuzzy_skin": ("none", "disabled_fuzzy"),
+        "alternate_extra_wall": ("0",),
+        "sparse_infill_rotate_template": ("",),
+        "infill_wall_overlap": ("25%",),
+        "filament_flow_ratio": ("1",),
+        "print_flow_ratio": ("1",),
+        "xy_contour_compensation": ("0",),
+        "inner_wall_line_width": (),
+        "outer_wall_line_width": (),
+    },
+}
+"""Settings that change the walls and that no lattice here has, with the values without effect."""
+WALL_WIDTHS = ("perimeter_extrusion_width", "external_perimeter_extrusion_width",
+               "inner_wall_line_width", "outer_wall_line_width")  # fmt: skip
+
+
+class Profile(NamedTuple):
+    """A profile. values: keys of [lattice], as a config writes them. notes: sentences about what
+    was taken over, what was not stated, and what was left out.
+    """
+
+    values: dict[str, Any]
+    notes: tuple[str, ...]
+
+
+def read_profile(path: Path, name: str) -> Profile:
+    """The profile of a file; a # ends the path of a bundle and begins the name of a preset.
+
+    name: of the file, in sentences. `MisfitError` says what is wrong.
+    """
+    file, preset = path, ""
+    before, mark, after = path.name.partition("#")
+    if mark and before and not path.is_file():
+        file, preset = path.with_name(before), after
+    settings = read_settings(file, preset)
+    names = ORCA if settings.program == "orca" else PRUSA
+    known = (*names[:2], *names.widths, *names[3:], NOZZLES)
+    if not settings.missing and not any(key in settings.values for key in known):
+        raise MisfitError(f"states nothing about walls; needed: {NEEDED}")
+    translation = _Translation(settings, names)
+    values = translation.values()
+    return Profile(values, tuple(_notes(name, values, translation)))
+
+
+class _Translation:
+    """The keys that settings mean. unread: settings with a value that is not understood."""
+
+    def __init__(self, settings: Settings, names: Names) -> None:
+        self.settings, self.names = settings, names
+        self.unread: dict[str, str] = {}
+        self.differing: dict[str, str] = {}
+
+    def values(self) -> dict[str, Any]:
+        """Keys of [lattice] with their values."""
+        names, program = self.names, self.settings.program
+        nozzle, layer = self._length(NOZZLES), self._length(names.layer)
+        width = self._width(*names.widths, nozzle or NOZZLE, layer or LAYER_HEIGHT)
+        spacing = self._spacing(nozzle or NOZZLE) if program == "superslicer" else None
+        if spacing is not None:
+            width = spacing + ROUNDED * (layer or LAYER_HEIGHT)
+        found = {
+            "slicer": SLICERS[program],
+            "pattern": self._said(names.pattern).lower() or None,
+            "infill": _quantity(self._share(names.infill), "%"),
+            "line_width": _quantity(width, "mm"),
+            "layer_height": _quantity(layer, "mm"),
+            "nozzle": _quantity(nozzle, "mm"),
+            "perimeters": self._count(names.perimeters),
+            "fill_angle": _quantity(self._number(names.angle), "deg"),
+            "fill_multiline": self._count(names.lines),
+        }
+        return {key: value for key, value in found.items() if value is not None}
+
+    @property
+    def automatic(self) -> bool:
+        """Whether the width of lines is said to be what the slicer takes."""
+        said = [self._said(name) for name in self.names.widths]
+        return any(said) and all(text in ("", "0") for text in said)
+
+    def left_out(self) -> Iterator[str]:
+        """Settings that change walls, and that no lattice here has, with their values."""
+        own = self.settings.values
+        widths = {own.get(name, "0") for name in self.names.widths} | {"0", ""}
+        for name, neutral in LEFT_OUT[SLICERS[self.settings.program]].items():
+            value = self._said(name)
+            if name in WALL_WIDTHS:
+                neutral = (*widths,)
+            if value and value.removesuffix(".0") not in neutral:
+                yield f"{name} = {value}"
+
+    def _said(self, name: str) -> str:
+        """The text of a setting, of the first extruder; "" if it is not there."""
+        text = self.settings.values.get(name, "").partition(" #")[0]  # a note of a bundle
+        first, *others = text.split(",")
+        if any(other.strip() != first.strip() for other in others):
+            self.differing[name] = text[:LONGEST]
+        return first.strip()[:LONGEST]
+
+    def _number(self, name: str) -> float | None:
+        """A number without a sign of per cent; None if it is not there."""
+        text = self._said(name)
+        if not text:
+            return None
+        try:
+            number = float(text)
+        except ValueError:
+            number = float("nan")
+        if not isfinite(number):
+            self.unread[name] = text
+            return None
+        return number
+
+    def _length(self, name: str) -> float | None:
+        """A length above 0 in m, of millimetres."""
+        number = self._number(name)
+        if number is not None and number <= 0.0:
+            self.unread[name] = self._said(name)
+            return None
+        return None if number is None else to_si(number, "mm")
+
+    def _count(self, name: str) -> int | None:
+        """A whole number."""
+        number = self._number(name)
+        if number is not None and not number.is_integer():
+            self.unread[name] = self._said(name)
+            return None
+        return None if number is None else int(number)
+
+    def _share(self, name: str) -> float | None:
+        """Per cent: of "15%", and of "15", as JSON may have it; of "0.15" of an old Slic3r too."""
+        text = self._said(name)
+        number, percent = _percentage(text)
+        if number is None:
+            if text:
+                self.unread[name] = text
+            return None
+        return in_unit(number, "%") if not percent and 0.0 < number < 1.0 else number
+
+    def _width(self, own: str, usual: str, nozzle: float, layer: float) -> float | None:
+        """The width of a line, m; None if nothing is said of it."""
+        for name in (own, usual):
+            number, percent = _percentage(self._said(name))
+            if number is None and self._said(name):
+                self.unread[name] = self._said(name)
+            elif number is not None and number > 0.0:
+                of = layer if self.settings.program == "prusa" else nozzle
+                return to_si(number, "%") * of if percent else to_si(number, "mm")
+        return WIDTH_PER_NOZZLE * nozzle if self.automatic else None
+
+    def _spacing(self, nozzle: float) -> float | None:
+        """The distance of lines that fill all, of which SuperSlicer has one of the two."""
+        if self._said(self.names.widths[0]) not in ("", "0"):
+            return None
+        number, percent = _percentage(self._said(SPACING))
+        if number is None or number <= 0.0:
+            return None
+        return to_si(number, "%") * nozzle if percent else to_si(number, "mm")
+
+
+def _percentage(text: str) -> tuple[float | None, bool]:
+    """A number, and whether it is one of per cent; None if there is none."""
+    try:
+        number = float(text.removesuffix("%"))
+    except ValueError:
+        return None, False
+    return (number if isfinite(number) else None), text.endswith("%")
+
+
+def _quantity(value: float | None, unit: str) -> str | None:
+    """A number as a config writes it; lengths are in m, others as they are."""
+    if value is None:
+        return None
+    return f"{in_unit(value, unit) if unit == 'mm' else value:.10g} {unit}"
+
+
+def _notes(name: str, values: Mapping[str, Any], translation: _Translation) -> Iterator[str]:
+    """Sentences about a profile."""
+    program, missing = translation.settings.program, translation.settings.missing
+    taken = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in values.items())
+    yield f"{name}, of {TITLES[program]}: {taken}"
+    if translation.settings.project:
+        yield f"{name}: settings of single objects are not read, only those of the project"
+    if missing:
+        yield f'{name} inherits from "{missing}", which is not beside it: what that says is unknown'
+    asked = ("pattern", "infill", "perimeters", "line_width", "layer_height", "nozzle")
+    usual = [key for key in asked if key not in values]
+    if usual:
+        yield f"{name} does not say: {', '.join(usual)}"
+    if translation.automatic:
+        wide = f"{WIDTH_PER_NOZZLE:g} nozzles, {values['line_width']}"
+        yield f"{name} leaves the width of lines to the slicer: taken as {wide}"
+    if translation.differing:
+        several = ", ".join(f"{key} = {value}" for key, value in translation.differing.items())
+        yield f"{name} has several extruders: the first of {several}"
+    if translation.unread:
+        unread = ", ".join(f"{key} = {value}" for key, value in translation.unread.items())
+        yield f"{name}: not understood: {unread}"
+    if left := list(translation.left_out()):
+        yield f"{name}: left out, as no wall here has it: {', '.join(left)}"

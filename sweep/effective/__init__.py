@@ -1,0 +1,1 @@
+"""The effective material of an endless infill: elastic constants, buckling stress, density."""

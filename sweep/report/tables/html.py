@@ -1,0 +1,38 @@
+"""Tables of text as HTML, for the page of a sweep and for notebooks; every text is escaped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sweep.report.tables.sheet import Sheet
+
+
+def html_table(sheet: Sheet, pictures: Mapping[str, str] | None = None) -> str:
+    """A table with its title and notes.
+
+    pictures: SVG by the id of a case, of `Sheet.cases`; with any, the first column shows them.
+    """
+    title = f"<h3>{escape(sheet.title)}</h3>" if sheet.title else ""
+    drawn = [(pictures or {}).get(case_id, "") for case_id in sheet.cases]
+    first = [f"<td>{picture}</td>" for picture in drawn] if any(drawn) else [""] * len(sheet.rows)
+    rows = "".join(
+        f"<tr>{picture}{cells(row)}</tr>" for picture, row in zip(first, sheet.rows, strict=True)
+    )
+    heads = "<th></th>" if any(drawn) else ""
+    heads += "".join(f'<th scope="col">{escape(head)}</th>' for head in sheet.heads)
+    grid = f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
+    scrolled = f'<div class="scroll">{grid}</div>' if sheet.heads else ""
+    return f"{title}{scrolled}{paragraphs(sheet.notes)}"
+
+
+def cells(texts: Iterable[str]) -> str:
+    """The cells of a row."""
+    return "".join(f"<td>{escape(text)}</td>" for text in texts)
+
+
+def paragraphs(lines: Iterable[str]) -> str:
+    """Lines of quiet text, a paragraph each."""
+    return "".join(f'<p class="quiet">{escape(line)}</p>' for line in lines)

@@ -1,0 +1,159 @@
+"""The search that a question asks of a config with [search], from Python or the command line."""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from math import inf
+
+from sweep.config.axis import Written
+from sweep.config.case import Case
+from sweep.config.grid import Config
+from sweep.config.load import Source, load_config
+from sweep.ranking.assessment import check_column, check_searched
+from sweep.ranking.question import Quantity, Question, check_units, in_si
+from sweep.ranking.requirements import limits
+from sweep.report.results import Results
+from sweep.running.applicable import check_required
+from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.progress import announce
+from sweep.running.searching.design_space import DesignSpace
+from sweep.running.searching.search import MOST_TRIED, Search, Settings
+from sweep.running.threads import usual_workers
+
+FORCES = "loading.allowed_forces"
+NEEDED = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
+
+
+class OptimizeError(ValueError):
+    """A search that cannot be made; the text is one sentence."""
+
+
+def optimize(  # noqa: PLR0913  what, the parts of one question, where and how
+    config: Config | Source,
+    out: str | os.PathLike[str] | None = None,
+    *,
+    budget: Quantity | None = None,
+    panel: Sequence[Quantity] | None = None,
+    by: str | None = None,
+    allowed_force: Quantity | None = None,
+    require: Mapping[str, Quantity | None] | None = None,
+    per: str | None = None,
+    evaluations: int = 150,
+    seed: int = 1,
+    workers: int | None = None,
+    scheduler: Scheduler = None,
+) -> Results:
+    """Search the designs of a config with a table [search] for the best one; return all tried.
+
+    config, out, workers, scheduler: as of `run`. budget to per: what is asked, as of `rank`, with
+    units; by default what [rank] and [require] ask. `require` adds to [require]. evaluations: the
+    most designs that are simulated. seed: the same designs again, so that a search that was stopped
+    continues. `results.rank()` of what is returned asks the same.
+    """
+    config = config if isinstance(config, Config) else load_config(config)
+    for line in config.notes:
+        announce(line)
+    check_units({"budget": budget, "panel": panel, "allowed_force": allowed_force})
+    check_units(require or {})
+    question = question_of(
+        config, budget=budget, panel=panel, by=by, require=require, per=per
+    )._replace(allowed_force=allowed_force)
+    for name, number in (("evaluations", evaluations), ("seed", seed)):
+        if number < 1:
+            raise OptimizeError(f"{name} = {number}; allowed: 1 or more")
+    if scheduler is None and workers is None:
+        scheduler = usual_scheduler()
+    path = os.fspath(out or f"results/{config.name}.h5")
+    with open_cluster(scheduler) as cluster:
+        how = Settings(evaluations, seed, workers or usual_workers(), cluster)
+        search = search_of(config, question, path, how)
+        search.run()
+    check_found(search)
+    return Results(path, [*search.cases], question._asdict())
+
+
+def question_of(
+    config: Config,
+    *,
+    budget: Quantity | None,
+    panel: Sequence[Quantity] | None,
+    by: str | None,
+    require: Mapping[str, Quantity | None] | None,
+    per: str | None,
+) -> Question:
+    """What is asked, else what the config asks. A requirement "none" drops that of the config."""
+    check_searchable(config)
+    if by:
+        check_column(by)
+    budgets = [budget] if budget else list(config.rank.budgets)
+    if len(budgets) > 1:
+        raise OptimizeError(f"[rank] has {len(budgets)} budgets; needed: one, as --budget")
+    every = config.require.model_dump() | dict(require or {})
+    kept = {name: value for name, value in every.items() if value not in (None, "none")}
+    panel, per = panel or config.rank.panel, per or config.rank.per
+    if per == "panel" and not panel:
+        raise OptimizeError('per = "panel"; needed: a panel, as --panel or in [rank]')
+    limits(kept)
+    return Question(budget=budgets or None, panel=panel, by=by, require=kept, per=per)
+
+
+def check_searchable(config: Config) -> None:
+    """Refuse a config without a search, or one that cannot be made."""
+    if not config.recipe.search:
+        wrong = "has no [search] with the keys that may be chosen"
+        raise OptimizeError(f"{config.path or config.name} {wrong}; needed: {NEEDED}")
+    check_searched(config.recipe.search)
+
+
+def search_of(config: Config, question: Question, out: str, how: Settings) -> Search:
+    """The search for the designs that a question asks for, into the results file `out`."""
+    check_start(question, start_of(config, question, out, how))
+    space = DesignSpace(_with_force(config, question), *_limits(question))
+    return Search(space, question, out, how)
+
+
+def start_of(config: Config, question: Question, out: str, how: Settings) -> list[Case]:
+    """The first designs of a search, all of one loading; empty if none exists."""
+    return Search(DesignSpace(config, *_limits(question)), question, out, how).start
+
+
+def check_start(question: Question, start: Sequence[Case]) -> None:
+    """Refuse a requirement of which no design has a value, and designs that are no parts."""
+    check_required(question.require or {}, start)
+    if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
+        allowed = (
+            "lattices that are parts: one period of a sheet has no mass of its own; use [grid]"
+        )
+        raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
+
+
+def check_found(search: Search) -> None:
+    """Refuse a search without any design."""
+    if search.cases:
+        return
+    budget = f" of at most {search.question.budgets[0]}" if search.question.budget else ""
+    panel = " that fits the panel" if search.question.panel else ""
+    tried = f"none of {MOST_TRIED:,} points of [search] gives a design{budget}{panel}"
+    raise OptimizeError(f"{tried}; allowed: more mass, a larger panel, or a wider search")
+
+
+def _with_force(config: Config, question: Question) -> Config:
+    """The config whose cases have the column of the greatest force that is allowed."""
+    if question.allowed_force is None or question.per == "panel":
+        return config  # a force of the panel is looked up in the curves
+    force = in_si(question.allowed_force, "N")
+    recipe = config.recipe
+    recipe_forces: Iterable[float] = recipe.base[FORCES].value if FORCES in recipe.base else ()
+    forces = tuple(dict.fromkeys([*recipe_forces, force]))
+    base = recipe.base | {FORCES: Written(forces, str(forces), FORCES)}
+    return replace(config, recipe=replace(recipe, base=base))
+
+
+def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:
+    """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
+    budget = in_si(question.budgets[0], "kg") if question.budgets else inf
+    sides = [in_si(side, "m") for side in question.panel or ()]
+    most = (question.require or {}).get("max_mass")
+    if most is not None and bool(sides) == (question.per == "panel"):
+        budget = min(budget, in_si(most, "kg"))
+    return budget, (sides[0], sides[1]) if sides else None

@@ -1,0 +1,72 @@
+"""A search from Python: what it finds, where that is kept, what is refused."""
+
+import tomllib
+from importlib import import_module
+
+import pytest
+
+from sweep.config.load import load_config
+from sweep.ranking.question import RankError
+from sweep.running.searching.optimize import OptimizeError, optimize
+from tests.support.results.searches import BEST, TOML, simulate
+
+ENERGY = "absorbed_energy_J"
+
+
+@pytest.fixture
+def tables(tmp_path, monkeypatch):
+    """A search on invented results, as a dict."""
+    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
+    monkeypatch.chdir(tmp_path)
+    return tomllib.loads(TOML)
+
+
+def test_the_designs_that_were_tried_and_the_best_are_returned(tables, tmp_path):
+    results = optimize(tables, by=ENERGY, evaluations=40)
+    best = results.rank(top=1)
+    assert len(results) == 40
+    assert results.path.name == "sought.h5"
+    assert best["lattice_kind"].item() == BEST[0]
+    assert best[ENERGY].item() == results.table[ENERGY].max()
+
+
+def test_it_goes_on_where_it_ended_and_another_seed_does_not(tables):
+    config = load_config(tables)
+    first = optimize(config, by=ENERGY, evaluations=8)
+    more = optimize(config, by=ENERGY, evaluations=12)
+    assert list(more.table["case_id"])[:8] == list(first.table["case_id"])
+    other = optimize(config, by=ENERGY, evaluations=8, seed=2)
+    assert {*other.table["case_id"]}.isdisjoint(first.table["case_id"])
+
+
+def test_what_is_asked_is_what_the_ranking_answers(tables):
+    tables["require"] = {"max_stroke": "1 m"}
+    asked = {"budget": "20 g", "allowed_force": "60 N", "require": {"max_mass": "0.7 g"}}
+    results = optimize(tables, evaluations=16, **asked)
+    assert "absorbed_energy_at_60N_J" in results.table
+    assert set(results.question.require) == {"max_stroke", "max_mass"}
+    assert results.rank(require=None)["mass_g"].max() <= 0.7  # the search kept to it
+    assert results.rank()["ranked_by"].unique().tolist() == ["absorbed_energy_at_60N_J"]
+
+
+@pytest.mark.parametrize(
+    ("changed", "asked", "error", "told"),
+    [
+        ({"search": {}}, {}, OptimizeError, r"sought has no \[search\]"),
+        ({"rank": {"budgets": ["5 g", "9 g"]}}, {}, OptimizeError, "2 budgets; needed: one"),
+        ({}, {"budget": 25}, RankError, "a bare number"),
+        ({}, {"require": {"max_mass": 1}}, RankError, "a bare number"),
+        ({}, {"require": {"max_weight": "1 g"}}, RankError, "unknown requirement max_weight"),
+        ({}, {"per": "panel"}, OptimizeError, "needed: a panel"),
+        ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
+        ({}, {"by": "cells_x"}, RankError, '"cells_x" is no column'),
+        ({}, {"budget": "0.01 g"}, OptimizeError, "1,024 points .* at most 0.01 g"),
+        ({"lattice": {"kind": "gyroid"}}, {}, OptimizeError, "gyroid in .* that are parts"),
+    ],
+)
+def test_what_cannot_be_sought_is_refused(tables, changed, asked, error, told):
+    tables |= changed
+    if "lattice" in changed:
+        tables["search"] = {"lattice.cell_size": ["5 mm", "7 mm"]}
+    with pytest.raises(error, match=told):
+        optimize(tables, **asked)
