@@ -84,7 +84,7 @@ rammed: setup  ## ram a panel with three fronts; the rankings and the picture of
 	@$(PYTHON) -m sweep rank results/rammed.h5 --out results/rammed
 	@cp results/rammed/winners.png docs/pictures/rammed.png
 
-gyroid: setup  ## press a gyroid and prisms both ways; the ranking and the picture of README.md (10 min)
+gyroid: setup  ## press sheets and prisms both ways; the ranking and the picture of README.md (10 min)
 	@$(PYTHON) -m sweep run configs/gyroid.toml
 	@$(PYTHON) -m sweep show results/gyroid.h5 5
 	@cp results/gyroid/*/shapes.png docs/pictures/gyroid.png
