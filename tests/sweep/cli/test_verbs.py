@@ -491,10 +491,11 @@ def test_a_number_is_that_of_the_ranking_with_the_same_options(capsys, tmp_path,
         assert f"no number {number} " in crumple(capsys, "show", *words)[2]
         return
     wanted = ranking["case_id"].iloc[number - 1]
-    assert f"case {wanted}, " in crumple(capsys, "show", *words)[1]
+    shown = crumple(capsys, "show", *words)[1]
+    assert f"case {wanted}, " in shown
     if "--panel" not in question:  # curves have none
         told = crumple(capsys, "export", *words, "--to", str(tmp_path / "a.csv"))[1]
-        assert told.splitlines()[0] == crumple(capsys, "show", *words)[1].splitlines()[0]
+        assert told.splitlines()[0] == shown.splitlines()[0]
 
 
 def test_the_panel_of_an_exported_number_is_also_that_of_the_ranking(capsys, tmp_path, monkeypatch):
