@@ -261,6 +261,7 @@ def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
     assert pd.read_csv(folder / "ranking.csv")["place"].notna().sum() == 3
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_heights_of_cushion_curves_may_be_those_of_the_config(capsys, tmp_path):
     about = {"config": json.dumps({"rank": {"drop_heights": [0.5]}})}
     crushed = write(tmp_path / "crushed.h5", summary({}), about)
