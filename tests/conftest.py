@@ -12,8 +12,9 @@ KERNELS = {
     "kernels/compile": None,
     "kernels": "marches",
 }
-"""Folders, the first that fits, and the runs whose kernels their tests compile parts of: one process
-has all tests of these kernels, and compiles the runs first, so that each part is compiled once.
+"""Folders, the first that fits, and the runs of whose kernels their tests compile parts.
+
+One process has all tests of these kernels, and compiles the runs first: each part is compiled once.
 """
 SLOW = {
     "kernels/compile/test_choice.py",
