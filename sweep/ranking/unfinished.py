@@ -192,11 +192,11 @@ def _judged(
     if rows.empty:
         return missed, missed
     mode = rows["loading_mode"].iloc[0]
-    asked = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
-    shares = misses(rows, measured(rows, names, question.per), asked) > 0.0
+    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
+    shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
     settled = bounds.low == bounds.high
     resolved = rows["status"] != Status.UNRESOLVED
-    for name in asked:
+    for name in limits:
         sure = settled if MEASURES[name].least else resolved | (name == "max_mass")
         missed |= shares[name] & sure
-    return missed, Series(not set(asked) - {"max_mass"}, rows.index)
+    return missed, Series(not set(limits) - {"max_mass"}, rows.index)
