@@ -12,7 +12,7 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
-.PHONY: help setup sweep rank warm test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
+.PHONY: help setup sweep rank test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
         bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces bench published experiment along figures lint clean
 .DELETE_ON_ERROR:
 
@@ -38,19 +38,15 @@ lint: setup  ## check style and types
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
 
-warm: setup
-	@$(PYTHON) -m sweep warm
-
-# Kernels that both processes need are compiled before, once.
-test: setup  ## check style and types, then run the tests, in two processes
-	@$(MAKE) --no-print-directory -j 2 lint warm
-	$(PYTHON) -m pytest -m "not slow" -n 2 --dist loadfile --no-loadscope-reorder
+# Kernels are compiled by the tests of these, once (tests/conftest.py).
+test: setup lint  ## check style and types, then run the tests, in two processes
+	$(PYTHON) -m pytest -m "not slow" -n 2 --dist loadgroup --no-loadscope-reorder
 
 slow: setup  ## run the slow tests that make test leaves out (3 min)
-	$(PYTHON) -m pytest -m slow -n 2 --dist loadfile --no-loadscope-reorder
+	$(PYTHON) -m pytest -m slow -n 2 --dist loadgroup --no-loadscope-reorder
 
 stock: setup  ## run the tests with the stock compiler (kernels/compile/README.md)
-	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder
+	CRUMPLE_COMPILER=stock $(PYTHON) -m pytest -n 2 --dist loadgroup --no-loadscope-reorder
 
 mutants: setup  ## flip signs in the kernels and see which test turns red; goes to results/mutants/
 	@$(PYTHON) -m tests.studies.mutants results/mutants

@@ -6,6 +6,16 @@ from pathlib import Path
 
 import pytest
 
+KERNELS = {
+    "kernels/plates": "plates",
+    "kernels/geometry/space": "plates",
+    "kernels/compile": None,
+    "kernels": "marches",
+}
+"""Folders, the first that fits, and the runs of whose kernels their tests compile parts.
+
+One process has all tests of these kernels, and compiles the runs first: each part is compiled once.
+"""
 SLOW = {
     "kernels/compile/test_choice.py",
     "physics/test_folds.py",
@@ -49,8 +59,27 @@ def config(tmp_path, monkeypatch):
     return str(path)
 
 
+def runs_of(path):
+    """The runs whose kernels the tests of a file compile parts of, a key of `SMALLEST`, or None."""
+    return next((runs for folder, runs in KERNELS.items() if path.startswith(f"{folder}/")), None)
+
+
 def pytest_collection_modifyitems(items):
-    """Mark the tests of the files in `SLOW`."""
+    """Tell which tests one of several processes has together, by default those of a file; mark the
+    tests of the files in `SLOW`.
+    """
     for item in items:
-        if item.path.relative_to(Path(__file__).parent).as_posix() in SLOW:
+        path = item.path.relative_to(Path(__file__).parent).as_posix()
+        item.add_marker(pytest.mark.xdist_group(runs_of(path) or path))
+        if path in SLOW:
             item.add_marker(pytest.mark.slow)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def kernels_of_runs(request):
+    """Compile those that the tests of a file need parts of, if several processes run the tests."""
+    path = request.path.relative_to(Path(__file__).parent).as_posix()
+    if (runs := runs_of(path)) and "PYTEST_XDIST_WORKER" in os.environ:
+        from sweep.running.warming import load
+
+        load([runs, "arcs"] if runs == "marches" else [runs])

@@ -20,7 +20,7 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
     strain, stress (n,) in Pa: positive in tension, negative in compression. words: heads with
     their units, by what was measured.
     """
-    found = []
+    advice = []
     if strain.min() <= -1.0 and not in_percent(np.abs(strain).tolist()):
         raise MisfitError("a strain of -1 or less; allowed: above -1")
     strain = strain if strain.max() > -strain.min() else -strain
@@ -29,7 +29,7 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
         wrong = f"strains up to {most:.4g} would be {text_in(most, '%')}"
         if "strain" not in words:
             raise MisfitError(f"{wrong}; needed: another --gauge, or --units displacement=...")
-        found.append(f"--units strain=% if it is in percent: {wrong}")
+        advice.append(f"--units strain=% if it is in percent: {wrong}")
         strain = to_si(strain, "%")
     if strain.max() < SECANT[1]:
         wrong = f"strains up to {strain.max():.3g}; needed: at least {SECANT[1]:g}"
@@ -39,8 +39,8 @@ def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
         span = " to ".join(f"{end:g}" for end in SECANT)
         raise MisfitError(f"the stress does not rise from a strain of {span}; needed: that it does")
     if why := suspicion("curve_modulus", modulus):
-        found.append(_of_stress(modulus, why, words))
-    return found
+        advice.append(_of_stress(modulus, why, words))
+    return advice
 
 
 def _of_stress(modulus: float, why: str, words: dict[str, str]) -> str:

@@ -68,43 +68,43 @@ def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]
 
     chosen: heads, or numbers from 1, that the user has given; units: units likewise.
     """
-    found = Columns(notes=[*table.notes])
+    columns = Columns(notes=[*table.notes])
     for quantity in SI:
         candidates = _candidates(table, quantity, units.get(quantity))
         if quantity in chosen:
             candidates = _named(table, chosen[quantity])
         elif len(candidates) > 1 and not _are_same(table, quantity, candidates):
             heads = " or ".join(f'{quantity}="{_name(table, k)}"' for k in candidates)
-            found.questions.append(f"--columns {heads}: which is it?")
-            found.undecided.add(quantity)
+            columns.questions.append(f"--columns {heads}: which is it?")
+            columns.undecided.add(quantity)
             continue
         if candidates:
-            _add(found, table, quantity, candidates[0], units.get(quantity))
+            _add(columns, table, quantity, candidates[0], units.get(quantity))
         elif quantity in units:
             raise MisfitError(f"--units {quantity} has no effect; {heads_of(table)}")
-    _ask_for_units(found)
-    return found
+    _ask_for_units(columns)
+    return columns
 
 
-def _ask_for_units(found: Columns) -> None:
+def _ask_for_units(columns: Columns) -> None:
     """Ask for the units of all columns that state none, or another one, at once."""
-    if unknown := [quantity for quantity in found.words if quantity not in found.values]:
+    if unknown := [quantity for quantity in columns.words if quantity not in columns.values]:
         words = " ".join(f"{quantity}={EXAMPLES[quantity]}" for quantity in unknown)
-        heads = ", ".join(found.words[quantity] for quantity in unknown)
-        found.questions.append(f"--units {words}, or other units: none are known of {heads}")
-        found.undecided.update(unknown)
+        heads = ", ".join(columns.words[quantity] for quantity in unknown)
+        columns.questions.append(f"--units {words}, or other units: none are known of {heads}")
+        columns.undecided.update(unknown)
 
 
-def _add(found: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
+def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
     """Add a column in SI; its words alone, if its unit is not known."""
     head, unit = table.heads[k], given or table.units[k]
     if head == quantity == "strain" and not unit:
         unit = "1"
     size = size_in_si(unit, quantity) if unit else None
     name = shown(head) or f"column {k + 1}"
-    found.words[quantity] = f"{name} [{shown(unit)}]" if unit else name
+    columns.words[quantity] = f"{name} [{shown(unit)}]" if unit else name
     if size is not None:
-        found.values[quantity] = size * table.values[:, k]
+        columns.values[quantity] = size * table.values[:, k]
 
 
 def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
@@ -119,8 +119,8 @@ def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
 
 
 def _known(values: Floats) -> Floats:
-    known = values[np.isfinite(values)]
-    return known if known.size else np.zeros(1)
+    finite = values[np.isfinite(values)]
+    return finite if finite.size else np.zeros(1)
 
 
 def _may_be(head: str, unit: str, quantity: str) -> bool:
@@ -136,8 +136,8 @@ def _may_be(head: str, unit: str, quantity: str) -> bool:
 
 
 def _is_called(words: list[str], quantity: str) -> bool:
-    known, ends = words_of(WORDS[quantity]), ENDS.get(quantity, ())
-    return any(word in known or word.endswith(ends) for word in words)
+    called, ends = words_of(WORDS[quantity]), ENDS.get(quantity, ())
+    return any(word in called or word.endswith(ends) for word in words)
 
 
 def words_of(head: str) -> list[str]:

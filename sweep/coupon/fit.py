@@ -150,10 +150,10 @@ def _fitted(
     start = np.array([START[name] for name in names])
     bounds = np.array([BOUNDS[name] for name in names]).T
     done = least_squares(apart, start, bounds=bounds, diff_step=STEP, x_scale=start, ftol=1e-6)
-    found = dict(zip(names, done.x.tolist(), strict=True))
+    numbers = dict(zip(names, done.x.tolist(), strict=True))
     errors = dict(zip(names, standard_errors(done.jac, done.fun).tolist(), strict=True))
     misfit = float(np.sqrt(np.mean(done.fun**2)))
-    return _memory(found, scale), _errors(found, errors, scale), misfit
+    return _memory(numbers, scale), _errors(numbers, errors, scale), misfit
 
 
 def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
@@ -168,11 +168,11 @@ def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
 
 def _errors(numbers: dict[str, float], errors: dict[str, float], scale: float) -> dict[str, float]:
     """Standard errors of the keys of `_memory`, from the errors of the fitted numbers."""
-    found = {key: error for key, error in errors.items() if key in ("loss", "softening_beta")}
+    of_keys = {key: error for key, error in errors.items() if key in ("loss", "softening_beta")}
     if numbers.get("softening", 0.0) > 0.0:
-        found["softening_r"] = errors["softening"] / numbers["softening"] ** 2
-        found["softening_m"] = scale * errors["width"]
-    return found
+        of_keys["softening_r"] = errors["softening"] / numbers["softening"] ** 2
+        of_keys["softening_m"] = scale * errors["width"]
+    return of_keys
 
 
 def _apart(coupon: Coupon, model: Floats) -> Floats:

@@ -39,12 +39,12 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
     for name in (*SIZES, "speed"):
         if (given := getattr(answers, name)) is not None and not given > 0.0:
             raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
-    known = {size: _over(size, table, columns, answers) for size in SIZES}
-    strain, stress = (None if pair is None else pair[0] for pair in known.values())
+    sizes = {size: _over(size, table, columns, answers) for size in SIZES}
+    strain, stress = (None if pair is None else pair[0] for pair in sizes.values())
     time = _time(table, columns, answers, strain)
     if strain is None or stress is None or time is None:
         return None
-    to_scale = all(pair is not None and pair[1] for pair in known.values())
+    to_scale = all(pair is not None and pair[1] for pair in sizes.values())
     return _complete_rows(columns, Measured(time, strain, stress, to_scale))
 
 

@@ -131,8 +131,8 @@ def _cells(line: str, separator: str) -> Row:
 
 def _is_numeric(row: Row, numbers: list[float]) -> bool:
     """Whether at least two values of a row, and half of those that it has, are numbers."""
-    found = len(numbers) - sum(map(isnan, numbers))
-    return found > 1 and 2 * found >= sum(text.lower() not in MISSING for text in row)
+    count = len(numbers) - sum(map(isnan, numbers))
+    return count > 1 and 2 * count >= sum(text.lower() not in MISSING for text in row)
 
 
 def _longest_run(numeric: Sequence[bool], comments: Sequence[bool]) -> tuple[int, int]:

@@ -60,8 +60,8 @@ def predicted(row: Row, cases: Sequence[Case], summary: DataFrame) -> Row:
     if len(stopped):
         lines = [f"{row.name}: case {i}: {one['message']}" for i, one in stopped.iterrows()]
         raise NotConvergedError("\n".join(lines))
-    found = [_values(measure, results, row) for measure in row.measure.split(";")]
-    values = np.concatenate([_ratios(row.over, cases, one) for one in found]) / float(row.per)
+    parts = [_values(measure, results, row) for measure in row.measure.split(";")]
+    values = np.concatenate([_ratios(row.over, cases, one) for one in parts]) / float(row.per)
     low, high = (f"{value:.{DIGITS}g}" for value in (values.min(), values.max()))
     about = {"cases": str(len(cases)), "ids": digest(cases), "model": str(MODEL_VERSION)}
     return replace(row, low=low, high=high, **about)

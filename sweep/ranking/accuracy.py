@@ -76,8 +76,8 @@ def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
 
     summary : the rows of the cases of the sweep, of any status.
     """
-    asked = summary["status"].where(summary["retry"] == "", Status.STOPPED)
-    summary = summary.assign(status=asked)  # a retry has other settings than its row
+    status = summary["status"].where(summary["retry"] == "", Status.STOPPED)
+    summary = summary.assign(status=status)  # a retry has other settings than its row
     refined = refined_keys(summary)
     keys = [key for key in summary if "." in key and not key.startswith(METHOD + REFINED)]
     scenes = summary.groupby(keys, dropna=False, sort=False) if keys else [(None, summary)]

@@ -43,5 +43,5 @@ class Comparison:
 
 def inside(comparisons: list[Comparison]) -> tuple[int, int]:
     """How many predictions meet the measured range, and of how many."""
-    known = [one.off for one in comparisons if one.off is not None]
-    return known.count(0.0), len(known)
+    misses = [one.off for one in comparisons if one.off is not None]
+    return misses.count(0.0), len(misses)

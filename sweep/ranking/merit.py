@@ -103,7 +103,8 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     if filled is not None:
         added |= _of_panel(finished, filled, energy, force, grams)
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
-    return finished.assign(**added), names
+    whole = finished.assign(**added)
+    return whole.copy(), names  # a copy lies in few blocks, of which rows are taken fast
 
 
 def _of_panel(

@@ -9,7 +9,8 @@ results cannot be trusted (`merit.doubtful`) come last, whatever their values.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from os import PathLike
 
 import numpy as np
@@ -28,7 +29,7 @@ from sweep.ranking.question import Quantity, Question, RankError, check_units, i
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import could_place, ended_early, loaded, same_scene, unloaded
+from sweep.ranking.unfinished import could_place, ended_early, loaded, same_scenes, unloaded
 
 PER = ("specimen", "panel")
 USUAL = (
@@ -181,16 +182,15 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in scene_rows.items()
     ]
-    parts = [_places(rows, names.mass, order, g, top) for rows, order in scenes for g in masses]
+    parts = [_places(rows, names.mass, order, masses, top) for rows, order in scenes]
+    alike = same_scenes(scene_rows.values(), whole)
     stopped = [
-        could_place(
-            rows, same_scene(scene_rows[label], whole), order, g, names, question, required
-        ).assign(scene=label)
-        for label, (rows, order) in zip(scene_rows, scenes, strict=True)
-        for g in masses
+        part.assign(scene=label)
+        for label, (rows, order), every in zip(scene_rows, scenes, alike, strict=True)
+        for part in could_place(rows, every, order, masses, names, question, required)
     ]
     return Ranking(
-        table=pd.concat(parts, ignore_index=True),
+        table=pd.concat([*chain(*parts)], ignore_index=True),
         unfinished=pd.concat(stopped, ignore_index=True),
         **names._asdict(),
         limited=allowed_force is not None,
@@ -255,17 +255,24 @@ def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared)
     return rows.assign(scene=label, pareto=rows.index.isin(front))
 
 
-def _places(rows: DataFrame, mass: str, by: str, budget_g: float, top: int | None) -> DataFrame:
-    """The first ``top`` rows of one scene within a budget, best first, doubtful ones last.
+def _places(
+    rows: DataFrame, mass: str, by: str, budgets_g: Iterable[float], top: int | None
+) -> list[DataFrame]:
+    """The first ``top`` rows of one scene within each budget, best first, doubtful ones last.
 
     Rows of equal value are sorted by mass, then by id, so that the order of the input rows does not
     matter.
     """
     order = [*dict.fromkeys(["doubtful", by, mass, "case_id"])]
     upwards = [name != by or less_is_better(by) for name in order]
-    rows = rows[rows[mass] <= greatest_mass(budget_g)].dropna(subset=by)
+    rows = rows.dropna(subset=by)
     rows = rows.assign(doubtful=doubtful(rows)).sort_values(order, ascending=upwards)
     rows = rows.drop(columns="doubtful")
+    return [_within(rows[rows[mass] <= greatest_mass(g)], by, g, top) for g in budgets_g]
+
+
+def _within(rows: DataFrame, by: str, budget_g: float, top: int | None) -> DataFrame:
+    """The first of the sorted rows within a budget, with their places."""
     error = rows.get(error_column(by))
     place = places_by(rows, by)
     columns = {} if error is None else {"ranked_error": error}

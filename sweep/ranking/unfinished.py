@@ -33,7 +33,7 @@ from sweep.ranking.scenes import by_scene, scene_keys
 from sweep.result import Status
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import NDArray
 
@@ -78,11 +78,11 @@ def unloaded(rows: DataFrame) -> Series:
     return (rows["loaded"] == 1) & (rows["status"] != Status.CONVERGED)
 
 
-def same_scene(rows: DataFrame, among: DataFrame) -> DataFrame:
-    """The rows of `among` that have the loading scene of `rows`, which are of one scene."""
+def same_scenes(scenes: Iterable[DataFrame], among: DataFrame) -> list[DataFrame]:
+    """For the rows of each scene, the rows of `among` that have the same loading scene."""
     keys = scene_keys(among)
-    own = _key(rows, keys)
-    return next((part for part in by_scene(among) if _key(part, keys) == own), among[:0])
+    parts = {_key(part, keys): part for part in by_scene(among)}
+    return [parts.get(_key(rows, keys), among[:0]) for rows in scenes]
 
 
 def _key(rows: DataFrame, keys: list[str]) -> tuple[str, ...]:
@@ -93,31 +93,38 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     ranked: DataFrame,
     every: DataFrame,
     by: str,
-    budget_g: float,
+    budgets_g: Iterable[float],
     names: Compared,
     question: Question,
     required: Mapping[str, float],
-) -> DataFrame:
+) -> list[DataFrame]:
     """Which of `every` case of a scene stopped and could have had a place among the first
-    `question.top` within a budget, the best first, with the columns `PLACES`.
+    `question.top` within each budget, the best first, with the columns `PLACES`.
 
     ranked: rows of the scene that have a place, whatever their mass. required: limits in SI.
     """
     stopped = every[ended_early(every, by)]
-    mass = stopped[names.mass]
-    fits = (mass <= greatest_mass(budget_g)) | mass.isna()
-    bounds = Ends(*(end[fits] for end in ends(stopped, by, names, question)))
-    rows = stopped[fits]
-    placed = ranked[ranked[names.mass] <= greatest_mass(budget_g)].dropna(subset=by)
-    less, doubt = less_is_better(by), doubtful(rows)
-    better, worse = (bounds.low, bounds.high) if less else (bounds.high, bounds.low)
-    missed, certain = _judged(rows, bounds, names, question, required)
-    best, least = (_place(end, doubt, placed, by) for end in (better, worse))
-    rows = rows.assign(best_place=best, least_place=least.where(np.isfinite(worse) & certain))
-    rows = rows[~missed & (best <= (question.top or np.inf))].sort_values([*PLACES, "case_id"])
-    rows = rows.assign(budget_g=budget_g if np.isfinite(budget_g) else np.nan, ranked_by=by)
-    first = ["budget_g", *PLACES, "case_id", "ranked_by"]
-    return rows[first + [name for name in rows if name not in first]]
+    bounds = ends(stopped, by, names, question)
+    missed, certain = _judged(stopped, bounds, names, question, required)
+    better, worse = bounds if less_is_better(by) else bounds[::-1]
+    doubt, certain = doubtful(stopped), certain & np.isfinite(worse)
+    candidates, mass = ranked.dropna(subset=by), stopped[names.mass]
+    parts = []
+    for budget_g in budgets_g:
+        placed = candidates[candidates[names.mass] <= greatest_mass(budget_g)]
+        best, least = (_place(end, doubt, placed, by) for end in (better, worse))
+        fits = (mass <= greatest_mass(budget_g)) | mass.isna()
+        first = {
+            "budget_g": budget_g if np.isfinite(budget_g) else np.nan,
+            "best_place": best,
+            "least_place": least.where(certain),
+            "case_id": stopped["case_id"],
+            "ranked_by": by,
+        }
+        rows = DataFrame(first, index=stopped.index).join(stopped.drop(columns="case_id"))
+        rows = rows[fits & ~missed & (best <= (question.top or np.inf))]
+        parts.append(rows.sort_values([*PLACES, "case_id"]))
+    return parts
 
 
 def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
@@ -185,11 +192,11 @@ def _judged(
     if rows.empty:
         return missed, missed
     mode = rows["loading_mode"].iloc[0]
-    asked = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
-    shares = misses(rows, measured(rows, names, question.per), asked) > 0.0
+    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
+    shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
     settled = bounds.low == bounds.high
     resolved = rows["status"] != Status.UNRESOLVED
-    for name in asked:
+    for name in limits:
         sure = settled if MEASURES[name].least else resolved | (name == "max_mass")
         missed |= shares[name] & sure
-    return missed, Series(not set(asked) - {"max_mass"}, rows.index)
+    return missed, Series(not set(limits) - {"max_mass"}, rows.index)

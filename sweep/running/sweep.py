@@ -82,10 +82,10 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"
             )
         waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
-        asked = list(waiting.values())
-        for line in (*sentences_on_lossless(asked), *sentences_on_periods(asked)):
+        to_run = list(waiting.values())
+        for line in (*sentences_on_lossless(to_run), *sentences_on_periods(to_run)):
             announce(line)
-        work = _work(simulate, asked, cluster) if waiting else None
+        work = _work(simulate, to_run, cluster) if waiting else None
         with interruptible(stop):
             if not work:
                 with writer_thread() as thread:
@@ -98,7 +98,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 if suspects:
                     announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
                 plan = Plan(waiting.values(), workers)
-                costs = {case.case_id: cost(case) for case in asked}
+                costs = {case.case_id: cost(case) for case in to_run}
                 with (
                     Progress(costs, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,

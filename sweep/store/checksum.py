@@ -52,5 +52,5 @@ def _bits(column: np.ndarray) -> np.ndarray:
 
 def attribute_checksum(attributes: Mapping[str, Any]) -> int:
     """Checksum of attributes, without the one that holds it."""
-    told = [(name, str(value)) for name, value in attributes.items() if name != CHECKSUM]
-    return crc32(repr(sorted(told)).encode())
+    pairs = [(name, str(value)) for name, value in attributes.items() if name != CHECKSUM]
+    return crc32(repr(sorted(pairs)).encode())

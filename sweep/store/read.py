@@ -242,9 +242,9 @@ def read_curves(
         for block, newest_row in zip(blocks, newest_rows(blocks), strict=True):
             stored, curves = block.summary["case_id"], block.ragged["histories"]
             rows = newest_row[[stored[row] in ids for row in newest_row]]
-            known = [name for name in names if name in curves.arrays]
+            stored_names = [name for name in names if name in curves.arrays]
             none = {name: np.zeros(0) for name in names}
-            for row, arrays in curves.cases(rows, known):
+            for row, arrays in curves.cases(rows, stored_names):
                 ids.discard(stored[row])
                 yield stored[row], none | {k: v.astype(np.float64) for k, v in arrays.items()}
     for case_id in ids:
@@ -398,8 +398,8 @@ def _changed_rows(
     ids become names of files.
     """
     for name, column in columns.items():
-        is_text, known = column.dtype == object, COLUMNS.get(name)
-        if known and is_text != (known.units == "") and (is_text or name not in LOADED):
+        is_text, described = column.dtype == object, COLUMNS.get(name)
+        if described and is_text != (described.units == "") and (is_text or name not in LOADED):
             raise StoreError(f"{path} is damaged: /summary/{name} {NOT_SO}: {AGAIN}.")
     ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
     if any(column.shape != written.shape for column in checked_columns(columns, ranges).values()):

@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shapely import LineString, Polygon, STRtree
+import shapely
+from shapely import Polygon
 
 from kernels.shared.rows import ROW, Output
 from kernels.solve import integrators, march
@@ -182,8 +183,8 @@ def inside(of) -> int:
     count = 0
     for x in of.frames:
         body = Polygon(outline + np.array([0.0, x[-1]])).buffer(-1e-6)
-        lines = [LineString(ends) for ends in x[:n].reshape(-1, 2)[of.scene.mesh.edges]]
-        count += len(STRtree(lines).query(body, predicate="intersects"))
+        lines = shapely.linestrings(x[:n].reshape(-1, 2)[of.scene.mesh.edges])
+        count += np.count_nonzero(shapely.intersects(lines, body))
     return count
 
 

@@ -130,12 +130,16 @@ def nodes(module):
     return [*ast.walk(tree(module))]
 
 
+def is_for_types(test):
+    return any(isinstance(n, ast.Name) and n.id == "TYPE_CHECKING" for n in ast.walk(test))
+
+
 def walk(node, lazy, typed=False):
     """Nodes below this one; without `lazy` none inside functions, without `typed` none that only a
     type checker sees.
     """
     for child in ast.iter_child_nodes(node):
-        if not typed and isinstance(child, ast.If) and "TYPE_CHECKING" in ast.unparse(child.test):
+        if not typed and isinstance(child, ast.If) and is_for_types(child.test):
             continue
         yield child
         if lazy or not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
@@ -167,8 +171,8 @@ def functions(module):
 
 def called(function):
     """Last part of the name of everything that a function calls."""
-    calls = (node.func for node in ast.walk(function) if isinstance(node, ast.Call))
-    return {ast.unparse(callee).split(".")[-1] for callee in calls}
+    callees = (node.func for node in ast.walk(function) if isinstance(node, ast.Call))
+    return {getattr(callee, "attr", getattr(callee, "id", None)) for callee in callees}
 
 
 def python(script):

@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
-
 from tests.project.test_architecture import FLOORS
 
 ROOT = Path(__file__).parents[2]
@@ -31,20 +29,15 @@ def test_the_plan_has_all_folders_in_the_order_of_their_imports():
     assert folders == [name for name in FLOORS if (ROOT / name.replace(".", "/")).is_dir()]
 
 
-@pytest.mark.parametrize("path", [path for path in PATHS if "NAME" not in path])
-def test_files_are_there(path):
-    assert (ROOT / path).exists()
+def test_files_and_the_folders_of_new_files_are_there():
+    places = {path: (ROOT / path).parent if "NAME" in path else ROOT / path for path in PATHS}
+    assert [path for path, place in places.items() if not place.exists()] == []
 
 
-@pytest.mark.parametrize("path", [path for path in PATHS if "NAME" in path])
-def test_folders_of_new_files_are_there(path):
-    assert (ROOT / path).parent.is_dir()
-
-
-@pytest.mark.parametrize(("path", "name"), NAMES)
-def test_names_are_in_the_files_of_their_steps(path, name):
-    text = (ROOT / path).read_text("utf-8")
-    assert all(re.search(rf"\b{part}\b", text) for part in name.split("."))
+def test_names_are_in_the_files_of_their_steps():
+    texts = {path: (ROOT / path).read_text("utf-8") for path, _ in NAMES}
+    parts = [(path, part) for path, name in NAMES for part in name.split(".")]
+    assert [one for one in parts if not re.search(rf"\b{one[1]}\b", texts[one[0]])] == []
 
 
 def test_every_kind_of_addition_is_told():

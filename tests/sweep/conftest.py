@@ -1,6 +1,15 @@
 """Shared by the tests of the program."""
 
+from pathlib import Path
+
 import pytest
+
+
+@pytest.fixture
+def unpainted(monkeypatch):
+    """Figures are put together, but not painted: for tests of which pictures there are."""
+    saved = "matplotlib.figure.Figure.savefig"
+    monkeypatch.setattr(saved, lambda _, path, **how: Path(path).touch())
 
 
 @pytest.fixture

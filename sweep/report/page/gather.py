@@ -22,7 +22,7 @@ from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import interrupted, loaded, same_scene, stroke_left, unloaded
+from sweep.ranking.unfinished import interrupted, loaded, same_scenes, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.selection import (
@@ -81,8 +81,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     ids = select_designs(_asked_first(finished, question), counted, scenes)
     kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
     cases = _cases(counted, kept, summary)
-    alike = [same_scene(rows, compared) for rows in scenes]
-    stopped = [rows[interrupted(rows)] for rows in alike]
+    stopped = [rows[interrupted(rows)] for rows in same_scenes(scenes, compared)]
     shown = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
     unfinished = _cases(counted, shown, summary)
     about = read_attributes(file)

@@ -255,13 +255,13 @@ def _corner(of: dict[str, Floats], forces: Sequence[float]) -> dict[str, Any]:
 
 
 def _greatest(values: Floats) -> float | None:
-    known = values[np.isfinite(values)]
-    return float(known.max()) if len(known) else None
+    finite = values[np.isfinite(values)]
+    return float(finite.max()) if len(finite) else None
 
 
 def _least(values: Floats) -> float | None:
-    known = values[np.isfinite(values)]
-    return float(known.min()) if len(known) else None
+    finite = values[np.isfinite(values)]
+    return float(finite.min()) if len(finite) else None
 
 
 def _stairs(forces: Sequence[float], most: Sequence[float | None]) -> list[list[float]] | None:

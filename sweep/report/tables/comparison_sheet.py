@@ -54,6 +54,6 @@ def verdict(row: Comparison) -> str:
 
 def summary(rows: list[Comparison]) -> str:
     """How many predictions are inside."""
-    met, known = inside(rows)
-    waiting = f"; {len(rows) - known} wait for a value" if known < len(rows) else ""
-    return f"{met} of {known} inside{waiting}."
+    met, compared = inside(rows)
+    waiting = f"; {len(rows) - compared} wait for a value" if compared < len(rows) else ""
+    return f"{met} of {compared} inside{waiting}."

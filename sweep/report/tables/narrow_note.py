@@ -33,10 +33,10 @@ def narrow_note(patterns: Collection[str]) -> Iterator[str]:
     """What is known of narrow lattices of these patterns; nothing if there is none."""
     if not patterns:
         return
-    known = [
+    gains = [
         f"{kind} {glued:+d} / {loose:+d} %"
         for kind, (glued, loose) in OF_THREE.items()
         if kind in patterns
     ]
-    beside = [BESIDE.format(", ".join(known))] if known else []
+    beside = [BESIDE.format(", ".join(gains))] if gains else []
     yield fill(" ".join([NARROW, *beside]), WIDTH)

@@ -10,11 +10,11 @@ from kernels.geometry.angle import LARGEST, arctangent, between
 RATIOS = [0.0, *LARGEST * np.logspace(-300, 0, 13), *np.linspace(0.01, LARGEST, 50)]
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_arctangent_is_exact_within_two_units_of_the_last_place(ratio, sign):
-    expected = math.atan(sign * ratio)
-    assert abs(arctangent(sign * ratio) - expected) <= 2.0 * math.ulp(expected)
+def test_arctangent_is_exact_within_two_units_of_the_last_place(sign):
+    for ratio in RATIOS:
+        expected = math.atan(sign * ratio)
+        assert abs(arctangent(sign * ratio) - expected) <= 2.0 * math.ulp(expected), ratio
 
 
 @pytest.mark.parametrize("psi", [0.0, 1e-9, 0.1, 1.1, 1.2, 1.5, 3.1, -3.1, -1.0, math.pi])

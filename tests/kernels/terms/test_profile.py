@@ -52,15 +52,17 @@ def lowered(x, touch, gap):
     return x
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
-@pytest.mark.parametrize("gap", [0.02, 0.2, 0.4 * 0.99, 0.4 * 1.01])
-@pytest.mark.parametrize("along", [-0.01, 0.01, 0.3, 0.49, 1.51, 0.99])
+@pytest.mark.parametrize(
+    ("along", "length"),
+    [*((along, 1.0) for along in (-0.01, 0.01, 0.3, 0.49, 1.51, 0.99)), (0.3, 1e-3), (0.3, 1e3)],
+)
 @pytest.mark.parametrize("shape", SHAPES)
-def test_derivatives_of_a_straight_wall(shape, along, gap, length):
+def test_derivatives_of_a_straight_wall(shape, along, length):
     """Touching, at a corner, on a face, parallel, and with a tip at either side of a node."""
     of = scaled(WALL, length)
-    x, step = placed(of, along, gap), min(2e-2 * min(gap, abs(0.4 - gap)), 5e-4)
-    assert derivative_error(term_of(of, SHAPES[shape]), x, of.unit, step) < 1e-5
+    for gap in (0.02, 0.2, 0.4 * 0.99, 0.4 * 1.01):
+        x, step = placed(of, along, gap), min(2e-2 * min(gap, abs(0.4 - gap)), 5e-4)
+        assert derivative_error(term_of(of, SHAPES[shape]), x, of.unit, step) < 1e-5, gap
 
 
 @pytest.mark.parametrize("slope", [-0.4, 0.02, 1.0])

@@ -20,6 +20,7 @@ BORDER = (*FAR, *(1.0 + k * 1e-9 for k in (-3, -1.0001, -0.999, 0, 0.999, 1.0001
 curves has fewer digits, and is never at the border.
 """
 FELT = ("max_base_pressure", "max_target_acceleration")  # drawn apart from the others
+BUDGETS = 4  # of a question, or none
 SO_FAR = 9  # rows of the curve of a case that stopped
 OTHERS = (
     {"platen": "contact"},
@@ -131,7 +132,7 @@ def write_curves(path, table, factors):
 
 
 def random_question(rng, table):
-    """A budget (kg), a panel, an allowed force (N), requirements in SI, and what they are of."""
+    """Budgets (kg), a panel, an allowed force (N), requirements in SI, and what they are of."""
     panel = PANELS[rng.integers(len(PANELS))]
     per = "panel" if panel and rng.random() < 0.4 else "specimen"
     count = 1.0 if panel is None else float(rng.choice([1.0, 5.0, 28.0, 35.0]))
@@ -148,8 +149,20 @@ def random_question(rng, table):
         name: _limit(draws[name], table, name, steps) * (shared if MEASURES[name].shared else 1.0)
         for name in names
     }
-    budget = _limit(rng, table, "max_mass") * count if rng.random() < 0.6 else None
-    return {"budget": budget, "panel": panel, "force": force, "per": per, "require": require}
+    limited = BUDGETS if rng.random() < 0.75 else 0
+    masses = [_limit(rng, table, "max_mass") * count for _ in range(limited)]
+    return {
+        "budgets": [*dict.fromkeys(masses)],
+        "panel": panel,
+        "force": force,
+        "per": per,
+        "require": require,
+    }
+
+
+def each_budget(question):
+    """The question within each of its budgets (kg), or the one without a budget."""
+    return [question | {"budget": budget} for budget in question["budgets"] or [None]]
 
 
 def _limit(rng, table, name, steps=BORDER):

@@ -261,6 +261,7 @@ def test_folder_holds_tables_and_figures(capsys, file, tmp_path):
     assert pd.read_csv(folder / "ranking.csv")["place"].notna().sum() == 3
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_heights_of_cushion_curves_may_be_those_of_the_config(capsys, tmp_path):
     about = {"config": json.dumps({"rank": {"drop_heights": [0.5]}})}
     crushed = write(tmp_path / "crushed.h5", summary({}), about)
@@ -491,10 +492,11 @@ def test_a_number_is_that_of_the_ranking_with_the_same_options(capsys, tmp_path,
         assert f"no number {number} " in crumple(capsys, "show", *words)[2]
         return
     wanted = ranking["case_id"].iloc[number - 1]
-    assert f"case {wanted}, " in crumple(capsys, "show", *words)[1]
+    shown = crumple(capsys, "show", *words)[1]
+    assert f"case {wanted}, " in shown
     if "--panel" not in question:  # curves have none
         told = crumple(capsys, "export", *words, "--to", str(tmp_path / "a.csv"))[1]
-        assert told.splitlines()[0] == crumple(capsys, "show", *words)[1].splitlines()[0]
+        assert told.splitlines()[0] == shown.splitlines()[0]
 
 
 def test_the_panel_of_an_exported_number_is_also_that_of_the_ranking(capsys, tmp_path, monkeypatch):

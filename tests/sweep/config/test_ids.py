@@ -25,9 +25,10 @@ def ids(tables):
     return [case.case_id for case in expanded(found.recipe)[0]]
 
 
-@pytest.mark.parametrize("row", FROZEN, ids=lambda row: row["ids"][0])
-def test_the_ids_of_a_config_are_frozen(row):
-    assert ids(row["config"]) == row["ids"]
+def test_the_ids_of_configs_are_frozen():
+    assert len(FROZEN) == 297
+    changed = [row for row in FROZEN if ids(row["config"]) != row["ids"]]
+    assert changed == []
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

@@ -27,6 +27,7 @@ def published(tmp_path):
     return publish
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_table_of_all_designs_is_sorted_like_the_ranking(published):
     def places(**question):
         table = pd.read_csv(published(**question)["ranking.csv"])
@@ -37,6 +38,7 @@ def test_table_of_all_designs_is_sorted_like_the_ranking(published):
     assert places(by="mass_g", budget=[2e-3]) == [1.0, 4.0]
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published, monkeypatch):
     drawn = []
     monkeypatch.setattr(DESIGN_MAP, lambda _, ranking: drawn.append(ranking))
@@ -45,6 +47,7 @@ def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published,
     assert [ranking.budgets_g for ranking in drawn] == [(2.0, 3.0)] * 2
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
     drawn = []
     monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 1)
@@ -53,6 +56,7 @@ def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
     assert [list(table["platen"]) for table in drawn] == [["glued"]]
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_tables_come_with_their_legend(published):
     text = published()["ranking.md"].read_text("utf-8")
     assert MARKS.format("the part") in text
@@ -65,6 +69,7 @@ def test_each_kind_of_scene_has_its_picture(published):
     assert pictures == known
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_each_drop_height_has_its_picture(published):
     cushions = [name for name in published(drop_heights=(0.5, 1.22)) if name.startswith("cush")]
     assert cushions == ["cushion_500mm.png", "cushion_1220mm.png"]
@@ -94,6 +99,7 @@ def test_patterns_of_both_directions_have_their_drawings(published):
     assert {"patterns.png", "winners.png"} <= set(published(summary(*both)))
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_masses_of_unequal_periods_are_in_no_picture(published):
     """As in a ranking, whose Pareto front then is per pressed area."""
     rows = designs([1.0, 4.0], [0.2, 0.4], depth_m=0.01, sides="tied, fixed period")

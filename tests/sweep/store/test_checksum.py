@@ -14,12 +14,13 @@ COLUMNS = {
 
 
 @pytest.mark.parametrize("name", ["energy", "count"])
-@pytest.mark.parametrize("bit", range(64))
-def test_every_bit_counts_in_its_row_alone(name, bit):
-    changed = COLUMNS[name].view(np.uint64).copy()
-    changed[1] ^= np.uint64(1) << np.uint64(bit)
-    other = COLUMNS | {name: changed.view(COLUMNS[name].dtype)}
-    assert list(row_checksums(COLUMNS) != row_checksums(other)) == [False, True, False]
+def test_every_bit_counts_in_its_row_alone(name):
+    for bit in range(64):
+        changed = COLUMNS[name].view(np.uint64).copy()
+        changed[1] ^= np.uint64(1) << np.uint64(bit)
+        other = COLUMNS | {name: changed.view(COLUMNS[name].dtype)}
+        differ = row_checksums(COLUMNS) != row_checksums(other)
+        assert list(differ) == [False, True, False], bit
 
 
 @pytest.mark.parametrize("text", ["squarf", "square ", "", "Square"])

@@ -54,17 +54,17 @@ READS = {
 }
 
 
-@pytest.mark.parametrize("read", READS)
 @pytest.mark.parametrize("fold", [False, True])
 @pytest.mark.parametrize("left", [0.2, 0.6, 0.99])
-def test_truncated_file_is_named_with_advice(path, read, fold, left):
+def test_truncated_file_is_named_with_advice(path, fold, left):
     write(path, cases(5), fold)
     sealed = path if fold else parts_of(path)[1]
     sealed.write_bytes(sealed.read_bytes()[: int(left * sealed.stat().st_size)])
-    with pytest.raises(StoreError, match="is damaged: move it away") as refusal:
-        READS[read](path)
-    assert str(refusal.value).startswith(str(sealed))
-    assert "\n" not in str(refusal.value)
+    for read in READS.values():
+        with pytest.raises(StoreError, match="is damaged: move it away") as refusal:
+            read(path)
+        assert str(refusal.value).startswith(str(sealed))
+        assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -130,9 +130,11 @@ def place(path, name, row):
         return data.id.get_offset() + data.dtype.itemsize * row
 
 
-@pytest.mark.parametrize("name", ["summary/mass_g", "summary/loaded", "points/start", "cases/rows"])
+@pytest.mark.parametrize(
+    ("name", "bit"),
+    [("summary/mass_g", 0), ("summary/loaded", 62), ("points/start", 0), ("cases/rows", 62)],
+)
 @pytest.mark.parametrize("fold", [False, True])
-@pytest.mark.parametrize("bit", [0, 62])
 def test_a_flipped_bit_is_found_and_its_case_alone_runs_again(path, name, fold, bit):
     write(path, cases(5), fold)
     sealed, row = (path, 3) if fold else (parts_of(path)[1], 1)

@@ -52,17 +52,18 @@ def test_what_was_written_is_read_back(path, fold):
 
 
 @pytest.mark.parametrize("fold", [False, True])
-@pytest.mark.parametrize("number", [0, 5, 8])
-def test_curves_and_shapes_are_found_by_id(path, fold, number):
+def test_curves_and_shapes_are_found_by_id(path, fold):
     batch = cases(9)
     write(path, batch, fold)
-    history = read_history(path, batch[number].case_id)
-    assert list(history.columns) == list(HISTORY_COLUMNS)
-    assert history["strain"].to_numpy() == pytest.approx(number + np.linspace(0, 1, 10 + number))
-    shapes, expected = read_frames(path, batch[number].case_id), frames(number)
-    assert shapes.keys() == expected.keys()
-    for name, array in shapes.items():
-        np.testing.assert_allclose(array, expected[name], rtol=1e-6)
+    for number in (0, 5, 8):
+        history = read_history(path, batch[number].case_id)
+        assert list(history.columns) == list(HISTORY_COLUMNS)
+        strains = number + np.linspace(0, 1, 10 + number)
+        assert history["strain"].to_numpy() == pytest.approx(strains)
+        shapes, expected = read_frames(path, batch[number].case_id), frames(number)
+        assert shapes.keys() == expected.keys()
+        for name, array in shapes.items():
+            np.testing.assert_allclose(array, expected[name], rtol=1e-6)
 
 
 @pytest.mark.parametrize("fold", [False, True])

@@ -17,6 +17,7 @@ from sweep.report.page import gather
 from sweep.report.page.gather import page_data
 from tests.support.results.questions import (
     OTHERS,
+    each_budget,
     random_question,
     random_sweep,
     read_from_curves,
@@ -25,7 +26,7 @@ from tests.support.results.questions import (
 from tests.support.results.specimens import summary, there_and_back, write
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
-SWEEPS, QUESTIONS = 5, 48
+SWEEPS, ASKED = 5, 32
 DIGITS = 1e-3  # relative: of what the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 ASK = """
@@ -73,10 +74,21 @@ def on_the_page(question):
 
 
 def expected(table, question):
-    """For each scene, what `rank` says."""
-    asked = {name: question[name] for name in ("budget", "panel", "require", "per")}
-    ranking = ranked(table, **asked, top=None, allowed_force=question["force"])
-    frame = ranking.table
+    """For each budget and each scene, what `rank` says."""
+    asked = {name: question[name] for name in ("panel", "require", "per")}
+    budgets = question["budgets"]
+    ranking = ranked(table, budgets, **asked, top=None, allowed_force=question["force"])
+    return [_within(ranking, k, bool(question["require"])) for k in range(len(budgets) or 1)]
+
+
+def _within(ranking, k, required):
+    """What a ranking says of each scene within its k-th budget."""
+
+    def own(rows):
+        """The rows of this budget."""
+        return rows[rows["budget_g"] == ranking.budgets_g[k]] if ranking.budgets_g else rows
+
+    frame, unfinished = own(ranking.table), own(ranking.unfinished)
     tied = frame.get("tied", pd.Series(False, frame.index)).eq(True)  # NaN: without error bars
     frame = frame.assign(
         value=[row[row["ranked_by"]] for _, row in frame.iterrows()],
@@ -90,10 +102,10 @@ def expected(table, question):
     for label in ranking.lightest_g:
         rows = frame[frame["scene"] == label]
         placed = rows[names].to_dict("records")
-        outcome = ranking.outcomes[label][0] if question["require"] else None
+        outcome = ranking.outcomes[label][k] if required else None
         scenes[label] = {"placed": placed} | _of_requirements(outcome)
         scenes[label]["passed_over"] = int(rows["passed_over"].iloc[0]) if len(rows) else 0
-        stopped = ranking.unfinished[ranking.unfinished["scene"] == label]
+        stopped = unfinished[unfinished["scene"] == label]
         columns = stopped[["case_id", *PLACES]].itertuples(index=False, name=None)
         scenes[label]["stopped"] = [[k, n, None if np.isnan(m) else m] for k, n, m in columns]
     return scenes
@@ -146,15 +158,18 @@ def asked_of_both(told, path, seed):
     table, factors = random_sweep(rng, OTHERS[seed % len(OTHERS)])
     file = write_curves(path / "random.h5", table, factors)
     data, known = page_data(file, table, Question()), {}
-    questions = [random_question(rng, table) for _ in range(QUESTIONS)]
-    answers = told(data, [on_the_page(question) for question in questions])
-    for question, scenes in zip(questions, answers, strict=True):
+    questions = [random_question(rng, table) for _ in range(ASKED)]
+    each = [one for question in questions for one in each_budget(question)]
+    wanted = []
+    for question in questions:
         asked = Question(None, question["panel"], None, None, question["force"])
         asked = asked._replace(per=question["per"])
-        wanted = expected(with_allowed(file, table, asked, known), question)
-        for scene, found in zip(data["scenes"], scenes, strict=True):
+        wanted += expected(with_allowed(file, table, asked, known), question)
+    answers = told(data, [on_the_page(one) for one in each])
+    for question, scenes, found in zip(each, wanted, answers, strict=True):
+        for scene, answer in zip(data["scenes"], found, strict=True):
             if question["force"] is None or scene["mode"] == "displacement":
-                yield question, found, wanted[scene["label"]]
+                yield question, answer, scenes[scene["label"]]
 
 
 @pytest.mark.parametrize("seed", range(SWEEPS))
