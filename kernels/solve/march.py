@@ -4,7 +4,8 @@ A stage is divided into equal rows, and a step is a share of a row. Where a step
 inaccurate, its share is halved, and doubled again where it is easy. Static steps of a stated
 accuracy (`load_step_error`) grow beyond one row: the rows in between are left out of the history. A
 large lattice that snaps takes many iterations in however short a static step: each failure of a
-share doubles the iterations that the next one may take.
+share doubles the iterations that the next one may take. The same holds for a step of backward
+Euler in which the load alone would move the structure by more than its size: inertia hardly counts.
 """
 
 from typing import NamedTuple
@@ -35,7 +36,7 @@ from kernels.solve.workspace import make_workspace
 SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
-MOST_DOUBLINGS = 4  # of the iterations of a static share
+MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than `Stage.fall`
 LONGEST = 4  # rows that a static step may span
 SHORTEST = 0.125  # of a row: first step where steps may span rows, as it has no friction yet
 REJECTED_ERROR = 4.0  # of the allowed error: a step that spans rows is accepted below it
@@ -75,7 +76,8 @@ class Stage(NamedTuple):
     steps: number of rows. duration: of one row in s; static ones have one too, for rate-dependent
     materials. dynamic: whether there is inertia. scheme: time integrator. error: allowed local
     error of a step, m. accuracy: allowed error of the work in a static step, as a share of that
-    work; where it is infinite, no step spans rows.
+    work; where it is infinite, no step spans rows. fall: time in which the load alone would move
+    the structure by its size, s.
     """
 
     steps: int
@@ -88,6 +90,7 @@ class Stage(NamedTuple):
     scheme: int = BACKWARD_EULER
     error: float = np.inf
     accuracy: float = np.inf
+    fall: float = np.inf
 
 
 @jit_exact
@@ -402,7 +405,7 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
-        if not step.dynamic:
+        if not step.dynamic or step.h > stage.fall:
             fitting = patient(fitting, min(progress.failed, MOST_DOUBLINGS))
         outcome = _equilibrate(
             state.x, problem, step, integrators.corrections(stage.scheme), fitting, workspace,

@@ -38,7 +38,6 @@ DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
-MOST_CUT_MOVES = 20  # shortened moves of a dynamic step: after more, a shorter step costs less
 DRIVEN_CAP = 5.0  # least cap of a move that contains a driven one, as a multiple of that: with a
 # shorter one the driven coordinate would often not arrive
 DESCENT = np.dtype(
@@ -190,7 +189,7 @@ def _choose_move(slope, escape, coordinates, work, descent):
 
 
 @jit_exact
-def _start_move(x, problem, step, work, descent, move):
+def _start_move(x, problem, step, tolerance, work, descent, move):
     """Return an outcome, `UNFINISHED` if the move may begin, and the share of it to begin with."""
     descent.travel_bound = problem.travel(work.dx)
     if not problem.covers(x, descent.travel_bound):
@@ -199,7 +198,7 @@ def _start_move(x, problem, step, work, descent, move):
     if share < LEAST_SHARE:
         return STALLED, share
     descent.cut_moves += share < 1.0 or move.shortened
-    if step.dynamic and descent.cut_moves > MOST_CUT_MOVES:
+    if step.dynamic and descent.cut_moves > tolerance.cut_moves:
         return ITERATIONS, share
     return UNFINISHED, share
 
@@ -295,7 +294,7 @@ def _descend(x, problem, step, tolerance, workspace, descent, control):
     move, escape = _predictor(x, work.dx, coordinates, descent.target), (0.0, 0.0)
     while True:
         if not descent.evaluated:
-            outcome, share = _start_move(x, problem, step, work, descent, move)
+            outcome, share = _start_move(x, problem, step, tolerance, work, descent, move)
             if outcome == UNFINISHED:
                 outcome = _search(
                     x, problem, step, tolerance.noise, found, work, descent, move, share

@@ -4,13 +4,15 @@ from typing import NamedTuple
 
 from kernels.compile.jit import jit_exact
 
+MOST_CUT_MOVES = 20  # shortened moves of a dynamic step: after more, a shorter step costs less
+
 
 class Tolerance(NamedTuple):
     """Criteria of convergence.
 
     force: largest residual, N. decrement: largest Newton decrement, J. noise: energy differences
     below it are round-off, J. resolution: smallest move that positions can resolve, m. iterations:
-    most Newton iterations of one minimisation.
+    most Newton iterations of one minimisation. cut_moves: most shortened moves of a dynamic step.
     """
 
     force: float
@@ -18,6 +20,7 @@ class Tolerance(NamedTuple):
     noise: float
     resolution: float
     iterations: int
+    cut_moves: int = MOST_CUT_MOVES
 
 
 @jit_exact
@@ -68,16 +71,21 @@ def scaled(tolerance, factor, sharpness):
         tolerance.noise,
         sharpness * tolerance.resolution,
         tolerance.iterations,
+        tolerance.cut_moves,
     )
 
 
 @jit_exact
 def patient(tolerance, doublings):
-    """Return the tolerance with twice as many iterations, ``doublings`` times."""
+    """Return the tolerance with twice as many iterations, ``doublings`` times; all of their moves
+    may be shortened.
+    """
+    iterations = tolerance.iterations << doublings
     return Tolerance(
         tolerance.force,
         tolerance.decrement,
         tolerance.noise,
         tolerance.resolution,
-        tolerance.iterations << doublings,
+        iterations,
+        iterations,
     )

@@ -1,6 +1,6 @@
 """The stages of a loading, and the tolerances of the solver."""
 
-from math import ceil
+from math import ceil, sqrt
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -98,7 +98,11 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
             rest = float(scene.x_rest[-1])
             return _flight(_lasting(duration, pace, (1.0, 1.0), (rest, rest)))
         case DeadLoad() as loading:
-            return _stages_of_load(loading, pace, float(scene.x_rest[-1]))
+            phases = _stages_of_load(loading, pace, float(scene.x_rest[-1]))
+            if case.solver.integrator != "backward_euler":
+                return phases
+            fall = _time_of_fall(case, scene)
+            return [phase._replace(stage=phase.stage._replace(fall=fall)) for phase in phases]
 
 
 def _stages_of_file(loading: OfFile, solver: Solver, pace: float, travel: float) -> list[Phase]:
@@ -133,6 +137,13 @@ def _stages_of_load(loading: DeadLoad, pace: float, rest: float) -> list[Phase]:
         released = _lasting(loading.duration - release, pace, (0.0, 0.0), still)
         phases.append(Phase("released", released, "unloading"))
     return phases
+
+
+def _time_of_fall(case: Case, scene: Scene | PlateScene) -> float:
+    """The time in which the load of a case would move its free masses by the height, s."""
+    assert isinstance(case.loading, DeadLoad)
+    mass = float(scene.terms.coordinates.mass.sum()) / 2.0  # that of a node counts along x and y
+    return sqrt(2.0 * mass * case.height / case.loading.force)
 
 
 def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:

@@ -13,6 +13,7 @@ import numpy as np
 from kernels.solve import outcomes
 from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
+from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.solver import Arcs
 from sweep.numbers import percent, with_unit
 from sweep.result import Status
@@ -35,6 +36,10 @@ ADVICE = {
     "exceed round-off; try larger steps or loads",
     outcomes.NOT_FINITE: "the solution diverged; try smaller steps or a smaller load",
 }
+APART = (
+    "the minimisation stalled, as the load presses walls that nothing keeps apart; "
+    'try contact.model "barrier" or a smaller load'
+)
 LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
 
@@ -58,9 +63,16 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     buckles = not timed and not driven
     further = "a larger solver.max_iterations" if buckles else shorter
     limit = solver.max_iterations
+    if outcome == outcomes.STALLED and _may_overlap(case):
+        return APART
     if case.loading.quasi_static:
         limit <<= MOST_DOUBLINGS  # of the last attempt
     return ADVICE[outcome].format(limit=limit, shorter=shorter, further=further)
+
+
+def _may_overlap(case: Case) -> bool:
+    """Whether a dead load presses walls whose contact is left out."""
+    return isinstance(case.loading, DeadLoad) and case.contact.model == "none"
 
 
 def timed_out(case: Case, where: str) -> Failure:

@@ -1,9 +1,10 @@
-"""A case that stops is simulated again with shorter steps, then with another imperfection.
+"""A case that stops is simulated again with other steps, then with another imperfection.
 
-The advice of a failure is tried before it is given. Steps of an impact are at first the usual ones,
-then quarters of them; another imperfection would not resolve it. What converges first has the
-numbers of the row; its column `retry` says what was changed. The id stays that of the case asked
-for.
+The advice of a failure is tried before it is given. Steps and integrator of an impact are at first
+the usual ones, then quarters of these steps; another imperfection would not resolve it. Other
+motions by an integrator of second order are also tried by backward Euler. What converges first has
+the numbers of the row; its column `retry` says what was changed. The id stays that of the case
+asked for.
 """
 
 import time
@@ -15,8 +16,10 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import Arcs, InTime
+from sweep.config.kinds.steps import TIME_STEP
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status
@@ -25,7 +28,8 @@ from sweep.simulation.time_resolution import resolving_step
 
 SHORTER = 4  # times as many steps
 TIMES = 4  # retries of an impact, each with a quarter of the time step before
-FIRST = 0.25  # of the time limit, for an impact in steps that are much longer than usual
+FIRST = 0.25  # of the time limit, for a motion in steps that are much longer than usual
+STEADY = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # times the imperfection; in place of none, in wall thicknesses
 
 
@@ -54,13 +58,21 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
 
 
 def _is_coarse(case: Case) -> bool:
-    """Whether an impact that may be retried has steps far longer than usual.
+    """Whether a motion that may be retried has steps far longer than usual.
 
-    The solver takes hundreds of shares of each of them: the usual ones are sooner at the end.
+    The solver takes hundreds of shares of each of them: the usual steps of an impact, and backward
+    Euler under a dead load, are sooner at the end.
     """
-    if not (isinstance(case.loading, Impact) and isinstance(case.solver, InTime)):
+    if not (isinstance(case.solver, InTime) and case.solver.retry):
         return False
-    return case.solver.retry and SHORTER * resolving_step(case) < case.solver.time_step
+    match case.loading:
+        case Impact():
+            usual = resolving_step(case)
+        case DeadLoad() if case.solver.integrator != STEADY:
+            usual = TIME_STEP
+        case _:
+            return False
+    return SHORTER * usual < case.solver.time_step
 
 
 def _reach(result: Result) -> tuple[bool, bool]:
@@ -84,31 +96,47 @@ def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:
 
 
 def _changes(result: Result) -> Iterator[tuple[str, Case]]:
-    """What is tried in turn: the changed key with its value, and the case with it."""
+    """What is tried in turn: the changed keys with their values, and the case with them."""
     case = result.case
-    for table, key, unit, value in _values(result):
+    for table, key, words, value in _values(result):
         change: dict[str, Any] = {key: value}
         if key == "load_steps" and isinstance(case.solver, InTime):
             change["time_step"] = None  # follows
+        if isinstance(case.loading, Impact):
+            change["integrator"] = None  # the usual one
         try:
-            yield f"{table}.{key} = {with_unit(value, unit)}", case.changed(**{table: change})
+            changed = case.changed(**{table: change})
         except RefusedError:
             continue
+        said = f"{table}.{key} = {words}"
+        if key != "integrator" and changed.solver.integrator != case.solver.integrator:
+            said += f', solver.integrator = "{changed.solver.integrator}"'
+        yield said, changed
 
 
-def _values(result: Result) -> Iterator[tuple[str, str, str, float]]:
-    """The changed keys: table, key, unit in SI, value."""
+def _values(result: Result) -> Iterator[tuple[str, str, str, float | str]]:
+    """The changed keys: table, key, value in words, value in SI."""
     case, bowed = result.case, not isinstance(result.case.lattice, CustomStructure)
+    moves = isinstance(case.solver, InTime) and not isinstance(case.loading, Impact)
+    if not (moves and result.status is Status.TIMED_OUT):
+        for key, unit, value in _shorter(case):
+            yield "solver", key, with_unit(value, unit), value
+    if moves and case.solver.integrator != STEADY:
+        yield "solver", "integrator", f'"{STEADY}"', STEADY
+    if bowed and result.status is Status.STOPPED:
+        bow = BOWED * case.lattice.imperfection or BOW
+        yield "lattice", "imperfection", with_unit(bow, ""), bow
+
+
+def _shorter(case: Case) -> Iterator[tuple[str, str, float]]:
+    """Shorter steps: key, unit in SI, value."""
     match case.solver:
         case Arcs(arc_length=length):
-            yield "solver", "arc_length", "m", length / SHORTER
+            yield "arc_length", "m", length / SHORTER
         case InTime() if isinstance(case.loading, Impact):
             first = resolving_step(case)
-            yield from (("solver", "time_step", "s", first / SHORTER**k) for k in range(TIMES))
+            yield from (("time_step", "s", first / SHORTER**k) for k in range(TIMES))
         case InTime(load_steps=None, time_step=step):
-            yield "solver", "time_step", "s", step / SHORTER
+            yield "time_step", "s", step / SHORTER
         case solver:
-            yield "solver", "load_steps", "", SHORTER * (solver.load_steps or 1)
-    if bowed and result.status is Status.STOPPED:
-        bow = case.lattice.imperfection
-        yield "lattice", "imperfection", "", BOWED * bow if bow else BOW
+            yield "load_steps", "", SHORTER * (solver.load_steps or 1)

@@ -3,6 +3,7 @@
 import threading
 import time
 from types import SimpleNamespace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -247,6 +248,22 @@ def test_steps_grow_again_once_they_succeed():
     result = simulate(crush(20, max_iterations=5))
     assert result.status == "converged"
     assert 20 < result.summary["steps"] < 40
+
+
+def test_a_step_that_outlasts_a_collapse_is_minimised_like_a_static_one():
+    """In shorter shares, each of few shortened moves, the collapse would be followed in time."""
+    case = Case.of(
+        lattice=dict(cells_x=8, cells_y=8, wall_thickness=1e-4),
+        loading=dict(force=10.0, release_time=1.0, duration=2.0),
+        solver=dict(time_step=0.1),
+    )
+    whole = simulate(case)
+    with patch("sweep.scene.loading._time_of_fall", return_value=np.inf):
+        followed = simulate(case)
+    assert whole.status == followed.status == "converged"
+    assert whole.summary["steps"] == 20
+    assert whole.summary["newton_iterations"] < 0.3 * followed.summary["newton_iterations"]
+    assert unbalanced(whole.history) < 1e-9
 
 
 def test_a_step_that_fails_at_any_length_leaves_the_state_before_it():

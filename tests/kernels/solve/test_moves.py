@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.solve import newton, outcomes
+from kernels.solve import outcomes, residual
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from tests.support.designs.scenes import grid
@@ -75,8 +75,8 @@ def test_a_step_of_too_many_shortened_moves_is_given_up(moves):
     v[: scene.mesh.points.size : 2] = moves * cap / 1e-3
     found = descend(case, scene, start, whole(scene, start, dt=1e-3, v=v, factor=0.0))
     gone = (found.x[0] - start[0]) / cap
-    if moves < newton.MOST_CUT_MOVES:
+    if moves < residual.MOST_CUT_MOVES:
         assert (found.outcome, gone) == (outcomes.CONVERGED, pytest.approx(moves))
     else:
-        most = pytest.approx(newton.MOST_CUT_MOVES)
+        most = pytest.approx(residual.MOST_CUT_MOVES)
         assert (found.outcome, found.iterations, gone) == (outcomes.ITERATIONS, most, most)

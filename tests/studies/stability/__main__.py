@@ -3,6 +3,11 @@
 They are those of `configs/extreme.toml`, lattices that move by integrators of second order or whose
 material has a memory, and custom structures. python -m tests.studies.stability FOLDER [N]: the
 table is printed and written there, with a line a scene; with N, of every Nth scene only.
+
+Two kinds of scenes have no answer, and stop with a sentence about it. The load is less than
+positions resolve: nothing moves by more than round-off. Or no contact keeps walls apart under a
+dead load that would press a solid of their mass, of linear law, to less than half its height: they
+fold flat, to no length. Shares are those of all scenes and of those with an answer.
 """
 
 import csv
@@ -18,7 +23,11 @@ from rich.progress import track
 
 from sweep.config.grid import expand
 from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.load import load_config
+from sweep.design.lattice import build_network
+from sweep.design.network import mass
+from sweep.numbers import percent
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
 from tests.studies.stability.draw import CONFIGS, remembering, second_order, wide
@@ -30,7 +39,11 @@ MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 WIDE = 64  # panels of up to 48 cells side by side
 RETRIED = "converged in a retry"
+CONVERGED = "converged", RETRIED
+UNANSWERED = "have no answer, of these"
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
+ROUND_OFF = "exceed round-off"  # in the message of a load that is too small
+FLAT = 0.5  # strain of a solid under a load that folds walls flat
 KINDS = (
     *("static", "in time", "dead load", "impact"),
     *("2nd order", "memory", "wide", "custom", ALL),
@@ -64,6 +77,22 @@ def outcome(found):
     return f"stopped: {why.strip()}"
 
 
+def has_no_answer(case, found):
+    """Whether a stopped scene has no equilibrium or motion that could be resolved."""
+    if found.status != "stopped":
+        return False
+    return ROUND_OFF in found.message or _folds_flat(case)
+
+
+def _folds_flat(case):
+    """Whether a dead load is far above what walls without contact bear."""
+    if not isinstance(case.loading, DeadLoad) or case.contact.model != "none":
+        return False
+    lattice, modulus = case.lattice, case.material.modulus
+    section = mass(build_network(lattice.geometry), lattice.depth, 1.0) / case.height
+    return case.loading.force > FLAT * modulus * section
+
+
 def counted(cases, audits):
     """Rows of the table: how many scenes of each kind ended in which way, and what they violate."""
     counts = {}
@@ -71,17 +100,32 @@ def counted(cases, audits):
         for kind in (kind_of(case), ALL):
             row = counts.setdefault(outcome(found), Counter())
             row[kind] += 1
+            counts.setdefault(UNANSWERED, Counter())[kind] += has_no_answer(case, found)
             counts.setdefault(VIOLATED, Counter())[kind] += len(found.violations) > 0
             counts.setdefault(BALANCED, Counter())[kind] += found.balanced
-    last = [name for name in (VIOLATED, BALANCED) if name in counts]
+    last = [name for name in (UNANSWERED, VIOLATED, BALANCED) if name in counts]
     ended = sorted(counts.keys() - set(last), key=lambda name: (-counts[name][ALL], name))
     return {name: counts[name] for name in ended + last}
 
 
+def shares(counts):
+    """Rows of the table: the share of scenes that converge, in %, and of those with an answer."""
+    ended = [name for name in counts if name not in (UNANSWERED, VIOLATED, BALANCED)]
+    rows = {"converged, % of all": [], "converged, % of those with an answer": []}
+    for kind in KINDS:
+        total, done = (
+            sum(counts[name][kind] for name in names if name in counts)
+            for names in (ended, CONVERGED)
+        )
+        for row, most in zip(rows.values(), (total, total - counts[UNANSWERED][kind]), strict=True):
+            row.append(percent(done / most) if most else "-")
+    return rows
+
+
 def markdown(counts):
     """The table, a line of text each."""
-    rows = (line([name, *(row[kind] for kind in KINDS)]) for name, row in counts.items())
-    return [*head(["scenes that", *KINDS]), *rows]
+    rows = {name: [row[kind] for kind in KINDS] for name, row in counts.items()} | shares(counts)
+    return [*head(["scenes that", *KINDS]), *(line([name, *row]) for name, row in rows.items())]
 
 
 def scenes():

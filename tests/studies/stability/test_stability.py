@@ -10,7 +10,7 @@ from sweep.config.load import load_config
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability import audit, draw, model, structures
-from tests.studies.stability.__main__ import counted, markdown, outcome
+from tests.studies.stability.__main__ import counted, has_no_answer, markdown, outcome
 from tests.studies.stability.structures import IN_TIME
 from tests.support.designs.scenes import pressed, run
 from tests.support.kernels.solving import at_rest, ramp, whole
@@ -186,12 +186,26 @@ def test_outcomes_are_counted(drawn):
     assert list(table) == [
         "converged",
         "stopped: no way",
+        "have no answer, of these",
         "violated something",
         "steps balanced anew",
     ]
-    assert [row["all"] for row in table.values()] == [1, 1, 1, 4]
+    assert [row["all"] for row in table.values()] == [1, 1, 0, 1, 4]
     assert markdown(table)[3].startswith("| stopped: no way | ")
     open_book = found._replace(message="work and energies do not balance at strain 1; try")
     again = found._replace(status="converged", retry="solver.time_step = 1 us")
     assert outcome(again) == "converged in a retry"
     assert outcome(open_book) == "stopped: work and energies do not balance"
+
+
+def test_scenes_without_an_answer_are_counted_apart():
+    """A load below round-off, and one that folds walls flat; not a load that they bear."""
+    flat, borne = (draw.scene(number)[1] for number in (141, 146))
+    assert flat.contact.model == borne.contact.model == "none"
+    stopped = audit.Audit("stopped", "stopped: it stalled; try less", "", (), 1, 0.1)
+    tiny = stopped._replace(message="for the motion to exceed round-off; try more")
+    done = stopped._replace(status="converged", message="")
+    pairs = [(flat, stopped), (borne, stopped), (borne, tiny), (flat, done)]
+    assert [has_no_answer(*pair) for pair in pairs] == [True, False, True, False]
+    last = markdown(counted(*zip(*pairs, strict=True)))[-2:]
+    assert [row.split(" | ")[-1] for row in last] == ["25 |", "50 |"]

@@ -51,6 +51,18 @@ def test_a_crush_is_repeated():
     assert count_of(case.loading, case.solver) == sum(phase.stage.steps for phase in phases) == 42
 
 
+def test_a_load_moves_the_free_mass_by_the_height_in_the_time_of_a_fall():
+    """As far as a constant force accelerates it; other integrators and loadings take no account."""
+    case = Case.of(loading=dict(force=30.0))
+    scene = build_scene(case)
+    y_masses = scene.terms.coordinates.mass[1 : 2 * scene.terms.layout.n_nodes : 2]
+    for phase in stages(case, scene):
+        gone = 0.5 * 30.0 / y_masses.sum() * phase.stage.fall**2
+        assert gone == pytest.approx(case.height)
+    for other in (case.changed(solver=dict(integrator="newmark")), pressed(stroke=4e-3)):
+        assert {phase.stage.fall for phase in stages(other, build_scene(other))} == {np.inf}
+
+
 def test_a_dead_load_is_on_until_its_release():
     case = Case.of(loading=dict(force=1.0, release_time=20e-3, duration=30e-3))
     assert ends(case) == [(1.0, 1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)]

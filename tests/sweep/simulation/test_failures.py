@@ -148,3 +148,15 @@ def test_every_end_of_the_solver_has_its_advice():
         assert status == Status.STOPPED
         assert message.startswith("stopped while loading, here: ")
         assert "{" not in message
+
+
+def test_a_load_on_walls_without_contact_is_told_to_have_none():
+    """Unless something else than the minimisation has failed, or contact acts."""
+    apart = Case.of(loading=dict(force=1e3), contact=dict(model="none"))
+    why = 'try contact.model "barrier"'
+    said = [
+        stopped(case, outcome, "while loading, here", driven=False)[1]
+        for case in (apart, Case.of(loading=dict(force=1e3)))
+        for outcome in (outcomes.STALLED, outcomes.NOT_FINITE)
+    ]
+    assert [why in message for message in said] == [True, False, False, False]

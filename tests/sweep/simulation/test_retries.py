@@ -148,6 +148,38 @@ def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):
     assert result.summary["retry"] == f"solver.time_step = {with_unit(usual / 4.0, 's')}"
 
 
+def test_an_impact_is_retried_with_its_usual_integrator_too(monkeypatch):
+    asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
+    result = simulate_again(STRIKE.changed(solver={"integrator": "newmark"}))
+    assert [case.solver.integrator for case in asked] == ["newmark", "bdf2", "bdf2"]
+    assert result.summary["retry"].endswith('us, solver.integrator = "bdf2"')
+
+
+def test_a_motion_of_second_order_is_retried_by_backward_euler(monkeypatch):
+    asked = answers(monkeypatch, *[STOPS] * 2, ENDS)
+    swinging = LOAD.changed(solver={"integrator": "newmark"})
+    result = simulate_again(swinging)
+    assert asked[2].solver.time_step == swinging.solver.time_step
+    assert asked[2].solver.integrator == "backward_euler"
+    assert result.summary["retry"] == 'solver.integrator = "backward_euler"'
+
+
+@pytest.mark.parametrize(
+    ("integrator", "step", "tried"),
+    [("newmark", 1e-3, 2), ("newmark", 4e-4, 1), ("backward_euler", 1e-3, 1)],
+)
+def test_a_swing_in_steps_that_take_too_long_leaves_time_for_backward_euler(
+    monkeypatch, integrator, step, tried
+):
+    """Not in steps of up to four times the usual ones, nor where that integrator took too long."""
+    asked = answers(monkeypatch, (Status.TIMED_OUT, 0), ENDS, curable=False)
+    solver = {"integrator": integrator, "time_step": step, "time_limit": 40.0}
+    simulate_again(LOAD.changed(solver=solver))
+    assert len(asked) == tried
+    assert limits[0] == (10.0 if tried == 2 else 40.0)
+    assert asked[-1].solver.time_step == step
+
+
 def test_another_imperfection_is_no_advice_for_steps_that_are_too_long(monkeypatch):
     asked = answers(monkeypatch, *[COARSE] * (1 + retries.TIMES))
     result = simulate_again(STRIKE)
@@ -170,4 +202,4 @@ def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones()
     case = scene(24)[1]
     alone, result = simulate(case), simulate_again(case)
     assert (alone.status, result.status) == (Status.UNRESOLVED, Status.CONVERGED)
-    assert result.summary["retry"] == "solver.time_step = 30.94 us"
+    assert result.summary["retry"] == 'solver.time_step = 30.94 us, solver.integrator = "bdf2"'
