@@ -457,7 +457,7 @@ RANKING_COLUMNS: dict[str, Column] = {
     "counted_mass_g": Column("g", "mass as extruded, or of the drawn walls without slicer", "less"),
     "panel_mass_g": Column("g", "mass of the specimens that fill the panel", "less"),
     "panel_energy_J": Column("J", "energy that the specimens of the panel absorb", "more"),
-    "panel_specimens": Column("1", "number of specimens that fill the panel"),
+    "panel_specimens": Column("1", "number of specimens, or of periods, that fill the panel"),
     "panel_force_N": Column(
         "N",
         "greatest force of all specimens of the panel together while the counted energy is "

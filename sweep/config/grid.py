@@ -297,7 +297,7 @@ def _fault(refused: RefusedError, given: Values) -> Fault:
 def _in_unit_of(written: Written, key: str, sentence: str) -> str:
     """A sentence with its SI quantities converted to the unit that the file uses for a key."""
     unit, match = case_keys()[key].unit, _QUANTITY.fullmatch(written.text)
-    if unit is None or match is None:
+    if unit is None or match is None or written.value == 0.0:
         return sentence
     scale = float(match[1]) / written.value
     in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")

@@ -64,11 +64,15 @@ def design_of(case: Case) -> Design:
             f"case {case.case_id} is one period of an endless lattice (lattice.boundary), which is "
             "no part; allowed: .csv, .pvd, .vtu, .gif"
         )
+    if case.lattice.sheet:
+        raise ExportError(
+            f"case {case.case_id} is a sheet, which has no outline; allowed: .stl and .3mf with a "
+            "panel, .csv, .pvd, .vtu, .gif"
+        )
     if case.lattice.tied:
-        part = ".stl, .3mf" if case.lattice.sheet else 'lattice.sides = "free", or'
         raise ExportError(
             f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
-            f"allowed: {part}, .csv, .pvd, .vtu, .gif"
+            'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
     network = network_of(case.lattice)
     kilograms = mass(network, case.lattice.depth, case.material.density)

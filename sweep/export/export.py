@@ -279,12 +279,13 @@ def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
     prusa = "PrusaSlicer reads the settings of the object from the file. "
     prusa = prusa if prusa_reads(settings) else ""
+    twice = ", and lays crossings twice, so that the block is heavier than the lattice"
     return [
         *notes,
-        f"{prusa}OrcaSlicer and Bambu Studio read only the block if "
-        f"they say so; then set by hand: {by_hand(settings)}",
-        "the slicer chooses where its lines begin, so that walls may be shifted, and lays "
-        "crossings twice, so that the block is heavier than the lattice",
+        f"{prusa}OrcaSlicer and Bambu Studio may import only the geometry; if so, set by hand: "
+        f"{by_hand(settings)}",
+        "the slicer chooses where its lines begin, so that walls may be shifted"
+        f"{'' if source.case.lattice.sheet else twice}",
     ]
 
 

@@ -41,6 +41,9 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
     """The walls over a panel of two lengths (m), as they are printed, and what they are."""
     lattice, (first, second) = _sheet_of(case), _two(case, sides)
     periods = first * second / (case.footprint[0] * case.footprint[1])
+    if first < case.footprint[0] or second < case.footprint[1]:
+        period = " x ".join(f"{TO_MM * side:.4g}" for side in case.footprint)
+        raise ExportError(f"the panel is smaller than a period; allowed: at least {period} mm")
     if periods > MOST_PERIODS:
         raise ExportError(
             f"a panel of {periods:.0f} periods; allowed: at most {MOST_PERIODS:,}, or a .3mf of "

@@ -72,11 +72,12 @@ def extruded(layout: Layout) -> Body:
 
 
 def within_box(body: Body, size: Sequence[float]) -> Body:
-    """What of a body is in a box of this size (mm) at the origin, without edges below `SHORTEST`,
-    whose ends a file in single precision may not tell apart.
+    """The largest piece of what of a body is in a box of this size (mm) at the origin, without
+    edges below `SHORTEST`, whose ends a file in single precision may not tell apart.
     """
     from manifold3d import Manifold, Mesh64
 
     whole = Manifold(Mesh64(body.points, body.triangles.astype(np.uint64)))
-    mesh = (whole ^ Manifold.cube(list(size))).simplify(SHORTEST).to_mesh64()
+    pieces = (whole ^ Manifold.cube(list(size))).simplify(SHORTEST).decompose()
+    mesh = max(pieces, key=lambda piece: piece.volume()).to_mesh64()
     return Body(np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int64))

@@ -190,11 +190,11 @@ def unequal_periods(frame: DataFrame) -> bool:
 
 
 def check_budgets(frame: DataFrame, question: Question) -> None:
-    """Refuse a budget where the masses of periods of unequal area would be compared with it."""
-    if question.budgets and question.panel is None and unequal_periods(frame):
+    """Refuse a budget where the masses of periods would be compared with it."""
+    if question.budgets and question.panel is None and is_period(frame).any():
         raise RankError(
             f'budget = "{question.budgets[0]}"; allowed with a panel, such as --panel "100 mm" '
-            '"50 mm": here lattice.sides is "periodic", and periods differ in area'
+            '"50 mm": here masses are of periods of wide panels (lattice.sides), not of parts'
         )
 
 

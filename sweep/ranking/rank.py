@@ -17,12 +17,12 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame
 
-from sweep.columns import TIED_SIDES, describe_column, error_column, is_grid_key, less_is_better
+from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
 from sweep.modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import Compared, check_budgets, doubtful, merits, pressed_area
+from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
@@ -121,9 +121,9 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         is compared, the same with that column.
     ranked_by : the sorting column.
     counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
-    panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, and the true
-        lengths of that panel.
-    panel_mass_g, panel_energy_J, panel_force_N : of these specimens together.
+    panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, in
+        parts if they are periods, and the true lengths of that panel.
+    panel_mass_g, panel_energy_J, panel_force_N : of these together.
     passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
@@ -248,7 +248,7 @@ def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared)
     """
     sound = rows[~doubtful(rows)]
     mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]
-    if least is None and sound["sides"].str.startswith(TIED_SIDES).all():
+    if least is None and names.mass != "panel_mass_g" and is_period(sound).all():
         area = pressed_area(sound)
         mass, merit = (values / area * area.mean() for values in (mass, merit))
     front = sound.index[pareto(mass, merit)]

@@ -97,8 +97,9 @@ def _parallel(angle: float, other: float) -> bool:
 def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
     """The fill angle, rad; refused is one at which no period of the sheet fits the panel."""
     angle: float = given.get("fill_angle", FILL_ANGLE)
-    if pattern.angle is None and "fill_angle" in given:
-        raise RefusedError("lattice.fill_angle", angle, f"none: {given['slicer']} turns no sheet")
+    if pattern.angle is None and not isclose(angle, FILL_ANGLE):
+        allowed = f"none: waves of {given['slicer']} lie along the sides of the part"
+        raise RefusedError("lattice.fill_angle", angle, allowed)
     if not (along or any(_parallel(angle, other) for other in (0.0, FILL_ANGLE))):
         allowed = "0, 45 or 90 degrees, where it is pressed across the print axis"
         raise RefusedError("lattice.fill_angle", angle, allowed)

@@ -15,7 +15,7 @@ from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import SAME_AREA, SEVEN_DIGITS, gap_behind, merits, through_solid
+from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -115,7 +115,6 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
         "round_off": ROUND_OFF,
         "round_off_of_curves": SEVEN_DIGITS,
         "beside": BESIDE,
-        "same_area": SAME_AREA,
         "factors": FACTORS,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,

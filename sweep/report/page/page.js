@@ -119,13 +119,12 @@ function picks(box, values, words, key, chosen) {
 function settle() {
   const designs = data.cases.filter((design) => design.scene === asked.scene);
   const sized = designs.every((design) => design.outer.every((side) => side > 0));
-  const areas = designs.filter(isPeriod).map(({ outer: [width, depth] }) => width * depth);
-  const unequal = !asked.panel && areas.length > 0 && Math.max(...areas) > (1 + data.same_area) * Math.min(...areas);
+  const unpaneled = !asked.panel && designs.some(isPeriod);
   $("panel-box").hidden = !sized;
-  $("budget-box").hidden = unequal;
+  $("budget-box").hidden = unpaneled;
   $("force-box").hidden = !crushed();
   if (!sized) asked.panel = null;
-  if (unequal) asked.budget = null; // their masses say nothing about the panel
+  if (unpaneled) asked.budget = null; // the mass of a period says nothing about that of a part
   if (!crushed()) asked.force = null;
   $("per-box").hidden = !asked.panel && asked.per !== "panel";
 }

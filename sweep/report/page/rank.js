@@ -165,10 +165,21 @@ function halfToEven(value) {
   return below % 2 ? below + 1 : below;
 }
 
+// Merit and weight of a row on the front: of periods without a panel, whose sizes mean nothing, those of
+// equal areas.
+function compared(rows, scene, question) {
+  if (scene.least) return [(row) => (row.value === null ? null : -row.value), (row) => row.mass];
+  const area = ({ design: { outer: [width, depth] } }) => width * depth;
+  const periods = !question.panel && rows.every((row) => row.design.gap === null);
+  const mean = rows.reduce((sum, row) => sum + area(row), 0) / rows.length;
+  const equal = (value, row) => (value === null || !periods ? value : (value / area(row)) * mean);
+  return [(row) => equal(row.energy, row), (row) => equal(row.mass, row)];
+}
+
 // Marks rows such that none lighter is as good and none as light is better.
-function markFront(rows, merit) {
+function markFront(rows, merit, weight) {
   const best = new Map();
-  const key = (row) => halfToEven(row.mass * 1e9);
+  const key = (row) => halfToEven(weight(row) * 1e9);
   for (const row of rows) {
     const value = merit(row);
     if (value !== null && value > (best.get(key(row)) ?? -Infinity)) best.set(key(row), value);
@@ -304,7 +315,7 @@ function ranked(data, question) {
   const sign = scene.least ? 1 : -1;
   const sound = (row) => !doubtful(row);
   const meeting = rows.filter((row) => row.worst === 0);
-  markFront(meeting.filter(sound), scene.least ? (row) => (row.value === null ? null : -row.value) : (row) => row.energy);
+  markFront(meeting.filter(sound), ...compared(meeting.filter(sound), scene, question));
   const most = greatestMass(data, question);
   const within = meeting.filter((row) => row.mass <= most);
   const placed = within.filter((row) => row.value !== null);

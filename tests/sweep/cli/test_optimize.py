@@ -61,7 +61,8 @@ def test_a_search_whose_designs_all_fail(capsys, config):
 
 
 def test_budget_that_no_design_keeps(capsys, config, tmp_path, monkeypatch):
-    monkeypatch.setattr("sweep.running.searching.search.MOST_TRIED", 64)
+    for module in ("search", "optimize"):
+        monkeypatch.setattr(f"sweep.running.searching.{module}.MOST_TRIED", 64)
     status, _, err = crumple(capsys, "optimize", str(config), "--budget", "0.01 g")
     assert (status, err.count("\n")) == (2, 1)
     assert all(part in err for part in ("64 points", "at most 0.01 g; allowed: more mass"))

@@ -84,8 +84,13 @@ def test_settings_are_of_a_block_of_the_panel(tmp_path):
     ("name", "wish", "words"),
     [
         ("gyroid", {"to": "a.stl"}, "allowed with a panel"),
+        ("gyroid", {"to": "a.stl", "panel": ("1 mm", "9 mm")}, "smaller than a period"),
         ("gyroid", {"to": "a.stl", "panel": ("2 m", "2 m")}, "at most 2,000"),
-        ("gyroid", {"to": "a.svg", "panel": ("50 mm", "50 mm")}, "allowed: .stl, .3mf"),
+        (
+            "gyroid",
+            {"to": "a.svg", "panel": ("50 mm", "50 mm")},
+            "no outline; allowed: .stl and .3mf",
+        ),
         (
             "gyroid",
             {"to": "a.3mf", "panel": ("5 cm", "5 cm"), "kind": "settings"},

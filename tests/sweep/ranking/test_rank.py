@@ -59,14 +59,12 @@ def test_pareto_compares_periods_of_panels_per_area():
     assert free["pareto"].all()
 
 
-def test_budgets_are_refused_where_periods_differ_in_area():
-    rows = designs([4.0, 1.0], [0.4, 0.1], depth_m=0.01, sides="tied, fixed period")
-    equal = [row | {"outer_width_m": 0.02} for row in rows]
-    assert len(rank(summary(*equal), budget="5 g")) == 2
-    equal[0]["outer_width_m"] = 0.04
+def test_budgets_are_refused_for_periods_without_a_panel():
+    part, period = designs([4.0, 1.0], [0.4, 0.1])
+    mixed = summary(part, period | {"sides": "tied, fixed period"})
     with pytest.raises(RankError, match="allowed with a panel"):
-        rank(summary(*equal), budget="5 g")
-    assert len(rank(summary(*equal))) == 2
+        rank(mixed, budget="5 g")
+    assert len(rank(mixed)) == 2
 
 
 def test_periods_fill_a_panel_in_parts():
@@ -82,6 +80,9 @@ def test_periods_fill_a_panel_in_parts():
     assert list(ranking["panel_mass_g"]) == pytest.approx([50.0, 50.0])
     assert list(ranking["panel_energy_J"]) == pytest.approx([5.0, 5.0])
     assert list(ranking["panel_width_m"]) == pytest.approx([0.1, 0.1])
+    lighter = [rows[0], rows[1] | {"mass_g": 1.9}]
+    front = rank(summary(*lighter), panel=("100 mm", "50 mm")).set_index("mass_g")["pareto"]
+    assert dict(front) == {4.0: False, 1.9: True}
 
 
 def test_pareto_looks_at_all_rows_of_the_scene():

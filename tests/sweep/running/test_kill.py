@@ -18,7 +18,7 @@ from sweep.simulation.simulate import warm_up
 from sweep.store.read import finished_ids, read_history, read_summary
 
 ROOT = Path(__file__).parents[3]
-CASES = 6
+CASES = 24
 CONFIG = """
 name = "killed"
 [material]

@@ -51,6 +51,13 @@ def test_the_fill_angle_turns_a_panel_that_is_pressed_across(degrees, turned):
     assert not Case.of(lattice=lattice, loading={"direction": "out_of_plane"}).lattice.turned
 
 
+@pytest.mark.parametrize("slicer", ["prusa", "orca", "cura"])
+def test_a_stored_case_is_read_again(slicer):
+    lattice = {"slicer": slicer, "pattern": "gyroid", "infill": 0.2}
+    made = Case.of(lattice=lattice, loading={"mode": "displacement"})
+    assert Case.from_json(made.to_json()).case_id == made.case_id
+
+
 def test_several_lines_make_a_thicker_wall_at_the_same_share():
     one, two = sheet(slicer="orca"), sheet(slicer="orca", fill_multiline=2)
     assert two.wall_thickness == pytest.approx(2 * one.wall_thickness)
@@ -67,7 +74,7 @@ def test_several_lines_make_a_thicker_wall_at_the_same_share():
         ({"infill": 0.6}, "below a fifth of the period"),
         ({"pattern": "tpmsd"}, '"tpmsd" with lattice.slicer "orca"'),
         ({"fill_angle": 0.3}, "0, 45 or 90 degrees"),
-        ({"slicer": "cura", "fill_angle": 0.0}, "cura turns no sheet"),
+        ({"slicer": "cura", "fill_angle": 0.0}, "waves of cura lie along the sides"),
         ({"slicer": "kiri"}, "prusa, orca, cura"),
     ],
 )

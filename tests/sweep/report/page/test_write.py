@@ -156,10 +156,11 @@ def test_page_without_data_is_small():
     assert len(data) < 79_000
 
 
-def test_tied_sides_fill_no_panel_but_have_a_page(tmp_path):
+def test_periods_fill_a_panel_without_gaps(tmp_path):
     html = written(tmp_path, sweep(6, more={"sides": "tied, fixed"}))
     cases = json.loads(re.search(r'id="data">(.*?)</script>', html)[1])["cases"]
-    assert {design["outer"][0] for design in cases} == {None}
+    assert {design["gap"] for design in cases} == {None}
+    assert all(design["outer"][0] > 0.0 for design in cases)
 
 
 def test_slicer_settings_are_shown_if_a_file_has_them(tmp_path):
