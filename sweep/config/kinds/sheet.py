@@ -175,9 +175,10 @@ def checked(made: S) -> S:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, of a sheet"
         raise RefusedError("lattice.imperfection", made.imperfection, allowed)
     if made.wall_thickness >= THICKEST * made.period:
-        thick, most = (TO_MM * size for size in (made.wall_thickness, THICKEST * made.period))
-        allowed = f"one with walls below a fifth of the period, {most:.4g} mm; {thick:.4g} mm here"
         key = next((key for key in ("infill", "mass") if made.value(key)), "wall_thickness")
+        most = made.value(key) * THICKEST * made.period / made.wall_thickness
+        unit = {"infill": "", "mass": " kg"}.get(key, " m")
+        allowed = f"below {most:.4g}{unit}, where walls are below a fifth of the period"
         raise RefusedError(f"lattice.{key}", made.value(key), allowed)
     seed = (made.imperfection_seed or 0) if made.imperfection else None
     unused = {"layers": None, "symmetry": "none"}
