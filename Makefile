@@ -82,7 +82,7 @@ rammed: setup  ## ram a panel with three fronts; the rankings and the picture of
 
 gyroid: setup  ## press sheets and prisms both ways; the ranking and the picture of README.md (10 min)
 	@$(PYTHON) -m sweep run configs/gyroid.toml
-	@$(PYTHON) -m sweep show results/gyroid.h5 5
+	@$(PYTHON) -m sweep show results/gyroid.h5 6
 	@cp results/gyroid/*/shapes.png docs/pictures/gyroid.png
 
 bars: setup  ## measure whether error bars cover the error; kept in results/bars/ (10 min)
