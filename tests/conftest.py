@@ -19,6 +19,7 @@ One process has all tests of these kernels, and compiles the runs first: each pa
 SLOW = {
     "kernels/compile/test_choice.py",
     "physics/test_folds.py",
+    "project/test_notebook.py",
     "project/test_wheel.py",
     "studies/bench/test_bench_starts.py",
     "studies/continuum/test_continuum.py",

@@ -19,6 +19,11 @@ from sweep.running.cluster import (
     usual_scheduler,
 )
 
+# Dask leaves sockets of clusters that never started to the garbage collector.
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:Exception ignored in. <socket:pytest.PytestUnraisableExceptionWarning"
+)
+
 HERE = {"processes": False, "dashboard_address": None, "silence_logs": 50}
 
 
