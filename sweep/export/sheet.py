@@ -15,7 +15,7 @@ from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.constants import TO_MM
-from sweep.design.surfaces.panel import net_of
+from sweep.design.surfaces.panel import net_of, printed_thickness
 from sweep.export.errors import ExportError
 from sweep.export.outline import Layout
 from sweep.export.solid import Body, within_box
@@ -93,12 +93,10 @@ def _two(case: Case, sides: Sequence[float] | None) -> tuple[float, float]:
 
 def _half_thickness(lattice: Surface, net: Net) -> Floats:
     """Half the thickness at each node, (n,) in m."""
-    half = np.full(len(net.points), 0.5 * lattice.wall_thickness)
-    if not isinstance(lattice, SlicedSheet):
-        return half
-    layers = 2 if lattice.pressed == ALONG else 1  # axis of the net across the layers
-    steep = np.sqrt(1.0 - net.normals[:, layers] ** 2)
-    return np.maximum(half * steep, 0.5 * lattice.layer_height)
+    line, along = lattice.wall_thickness, lattice.pressed == ALONG
+    if isinstance(lattice, SlicedSheet):
+        return 0.5 * printed_thickness(line, lattice.layer_height, net.normals, along)
+    return np.full(len(net.points), 0.5 * line)
 
 
 def _walls(net: Net, half: Floats, sides: tuple[float, float]) -> Body:

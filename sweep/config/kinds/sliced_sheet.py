@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.direction import ACROSS
+from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface, checked, fitted
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
@@ -44,7 +44,7 @@ class SlicedSheet(Surface):
     @property
     def turned(self) -> bool:
         """As of `Surface`."""
-        return self.pressed == ACROSS and not _parallel(self.fill_angle, FILL_ANGLE)
+        return _is_turned(self.fill_angle, self.pressed == ALONG)
 
     @property
     def name(self) -> str:
@@ -66,8 +66,8 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     _check(given, width, layer, lines)
     angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
     spread = pattern.period * spread_lines(given["slicer"], lines) * one
-    turned = not along and not _parallel(angle, FILL_ANGLE)
-    sides = fitted(pattern.sheet, given, along, spread / given["infill"], "infill", turned)
+    wanted, turned = spread / given["infill"], _is_turned(angle, along)
+    sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
     follows: dict[str, Any] = {
         "wall_thickness": lines * one,
         "line_width": width,
@@ -94,10 +94,15 @@ def _parallel(angle: float, other: float) -> bool:
     return isclose(cos(4.0 * (angle - other)), 1.0)
 
 
+def _is_turned(angle: float, along: bool) -> bool:
+    """Whether a sheet is pressed between two of its axes, at a fill angle (rad)."""
+    return not along and not _parallel(angle, FILL_ANGLE)
+
+
 def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
     """The fill angle, rad; refused is one at which no period of the sheet fits the panel."""
     angle: float = given.get("fill_angle", FILL_ANGLE)
-    if pattern.angle is None and not isclose(angle, FILL_ANGLE):
+    if not pattern.turns and not isclose(angle, FILL_ANGLE):
         allowed = f"none: waves of {given['slicer']} lie along the sides of the part"
         raise RefusedError("lattice.fill_angle", angle, allowed)
     if not (along or any(_parallel(angle, other) for other in (0.0, FILL_ANGLE))):

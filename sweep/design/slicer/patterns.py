@@ -73,13 +73,13 @@ PATTERNS = {
 class SheetPattern(NamedTuple):
     """A pattern whose lines follow, in each layer, a sheet of `design.surfaces`.
 
-    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s. angle:
-    fill angle (rad) at which its axes lie along those of the part; None where they always do.
+    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s. turns:
+    whether the fill angle turns it; else, and at 45 degrees, its axes lie along those of the part.
     """
 
     sheet: str
     period: float
-    angle: float | None = radians(45.0)
+    turns: bool = True
 
 
 class Program(NamedTuple):
@@ -126,7 +126,7 @@ PROGRAMS = {
     "cura": Program(
         "Cura",
         {"grid": "grid", "triangles": "triangles", "trihexagon": "stars"},
-        {"gyroid": SheetPattern("gyroid", 2.41, angle=None)},
+        {"gyroid": SheetPattern("gyroid", 2.41, turns=False)},
         rounded=False,
         nozzles=1.0,
         lines=10,

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from sweep.design.surfaces.level_set import LEVEL_SETS
+from sweep.design.surfaces.level_set import LEVEL_SETS, Floats
 from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import Box, Net, best_net
 
@@ -25,3 +25,14 @@ def net_of(name: str, turned: bool, period: float, height: float, quads: int) ->
     box = Box(LEVEL_SETS[name], size, phase, phase[:, 2] * cut.start * period)
     across, along, up = (max(round(quads * side / period), 2) for side in size)
     return best_net(box, (across, along, up))
+
+
+def printed_thickness(line: float, layer: float, normals: Floats, along: bool) -> Floats:
+    """Thickness (n,) of a sheet that is printed as lines in layers, m.
+
+    line, layer: thickness of the lines and height of the layers, m. normals (n, 3): unit normals in
+    the axes of a net, across whose z the layers lie if it is pressed ``along`` the print axis, else
+    across y. It is line |n_xy|, n_xy in the plane of the layers, and at least a layer.
+    """
+    upward = normals[:, 2 if along else 1]
+    return np.maximum(line * np.sqrt(1.0 - upward**2), layer)

@@ -167,7 +167,7 @@ function halfToEven(value) {
 
 // Merit and weight of a row on the front: of periods without a panel, whose sizes mean nothing, those of
 // equal areas.
-function compared(rows, scene, question) {
+function ofFront(rows, scene, question) {
   if (scene.least) return [(row) => (row.value === null ? null : -row.value), (row) => row.mass];
   const area = ({ design: { outer: [width, depth] } }) => width * depth;
   const periods = !question.panel && rows.every((row) => row.design.gap === null);
@@ -315,7 +315,7 @@ function ranked(data, question) {
   const sign = scene.least ? 1 : -1;
   const sound = (row) => !doubtful(row);
   const meeting = rows.filter((row) => row.worst === 0);
-  markFront(meeting.filter(sound), ...compared(meeting.filter(sound), scene, question));
+  markFront(meeting.filter(sound), ...ofFront(meeting.filter(sound), scene, question));
   const most = greatestMass(data, question);
   const within = meeting.filter((row) => row.mass <= most);
   const placed = within.filter((row) => row.value !== null);

@@ -10,7 +10,7 @@ from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
-from sweep.design.surfaces.panel import net_of
+from sweep.design.surfaces.panel import net_of, printed_thickness
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
@@ -113,12 +113,10 @@ def solid_of(lattice: Surface, mesh: SheetMesh) -> float:
 
 def _thickness(lattice: Surface, net: Net) -> Floats:
     """Thickness of each quad, (m,) in m."""
-    walls = np.full(len(net.quads), lattice.wall_thickness)
-    if not isinstance(lattice, SlicedSheet):
-        return walls
-    layers = 2 if lattice.pressed == ALONG else 1  # axis of the net across the layers
-    steep = np.sqrt(1.0 - net.directions[:, layers] ** 2)
-    return np.maximum(walls * steep, lattice.layer_height)
+    line, along = lattice.wall_thickness, lattice.pressed == ALONG
+    if isinstance(lattice, SlicedSheet):
+        return printed_thickness(line, lattice.layer_height, net.directions, along)
+    return np.full(len(net.quads), line)
 
 
 def build_sheet(net: Net, thickness: Floats) -> SheetMesh:

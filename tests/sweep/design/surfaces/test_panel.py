@@ -5,7 +5,7 @@ import pytest
 
 from sweep.design.surfaces.level_set import LEVEL_SETS
 from sweep.design.surfaces.names import SHEETS
-from sweep.design.surfaces.panel import net_of
+from sweep.design.surfaces.panel import net_of, printed_thickness
 
 PANELS = [(name, turned) for name in SHEETS for turned in (False, True)]
 
@@ -49,3 +49,12 @@ def test_areas_and_steepness_are_those_of_fine_nets():
         area, steep = net.area.sum(), np.hypot(*net.directions[:, :2].T)
         assert sheet.area == pytest.approx(area, rel=7e-3)
         assert sheet.steep == pytest.approx(np.average(steep, weights=net.area), rel=5e-3)
+
+
+@pytest.mark.parametrize("along", [False, True])
+def test_a_printed_sheet_is_thinner_where_it_lies_flat_and_never_below_a_layer(along):
+    upward = np.array([0.0, 0.6, 1.0])
+    level = np.sqrt(1.0 - upward**2)
+    normals = np.column_stack([level, 0.0 * level, upward])
+    normals = normals if along else normals[:, [0, 2, 1]]
+    np.testing.assert_allclose(printed_thickness(0.5, 0.2, normals, along), [0.5, 0.4, 0.2])
