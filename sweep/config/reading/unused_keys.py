@@ -103,6 +103,8 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     """
     if key == "lattice.infill" and isinstance(case.lattice, SlicedSheet):
         return True
+    if key == "lattice.file":
+        return case.lattice.value("file") is not None
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":
