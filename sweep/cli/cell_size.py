@@ -10,7 +10,7 @@ from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.numbers import in_unit, text_in
+from sweep.numbers import counted, in_unit, text_in
 from sweep.plain_text import plain
 
 
@@ -31,16 +31,18 @@ def _of_drawing(made: Drawn) -> str:
     from sweep.design.drawn import loose_ends
 
     joints, walls = made.counts
-    sentence = f"{plain(made.name)}: {_pair(made.width, made.height, ' x ')}, {joints} joints, {walls} walls"
-    if not len(loose := loose_ends(made.network)):
+    size = _pair((made.width, made.height), " x ")
+    sentence = f"{plain(made.name)}: {size}, {counted(joints, 'joint')}, {counted(walls, 'wall')}"
+    loose = loose_ends(made.network)
+    if not len(loose):
         return sentence
-    ends = "1 wall ends" if len(loose) == 1 else f"{len(loose)} walls end"
-    first = _pair(*made.drawing.joints[loose[0]], ", ")
-    return f"{sentence}; {ends} loose, {'at' if len(loose) == 1 else 'one at'} {first}"
+    ends = "1 wall ends loose, at" if len(loose) == 1 else f"{len(loose)} walls end loose, one at"
+    return f"{sentence}; {ends} {_pair(made.drawing.joints[loose[0]], ', ')}"
 
 
-def _pair(x: float, y: float, between: str) -> str:
+def _pair(lengths: tuple[float, float], between: str) -> str:
     """Two lengths (m) in mm."""
+    x, y = lengths
     return f"{in_unit(x, 'mm'):.4g}{between}{text_in(y, 'mm', 4)}"
 
 

@@ -29,7 +29,7 @@ class Network:
     part: Floats | None = field(default=None, kw_only=True)
 
     def pieces(self, most: int) -> Indices:
-        """Number of elements of every wall, (w,): ``most`` of a smooth line of walls, at least 1."""
+        """Number of elements of every wall, (w,): ``most`` of a smooth line of them, 1 at least."""
         if self.part is None:
             return np.full(len(self.walls), most)
         return np.maximum(np.rint(most * self.part).astype(np.int64), 1)

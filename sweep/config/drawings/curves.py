@@ -52,5 +52,7 @@ def _points(curve: Floats) -> Floats:
 def _at(control: Floats, share: Floats) -> Floats:
     """Points (n, 2) of a Bezier curve of control points (k, 2) at parameters (n,) from 0 to 1."""
     degree = len(control) - 1
-    weights = [comb(degree, i) * share**i * (1.0 - share) ** (degree - i) for i in range(degree + 1)]
-    return np.asarray(np.array(weights).T @ control)
+    power = np.arange(degree + 1)
+    times = [comb(degree, k) for k in power.tolist()]
+    weight = times * share[:, None] ** power * (1.0 - share[:, None]) ** (degree - power)
+    return np.asarray(weight @ control)

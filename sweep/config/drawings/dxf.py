@@ -20,7 +20,7 @@ PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
 
 
 def read_dxf(path: Path) -> Lines:
-    """The lines of the model space, in the plane x, y; those of layers that are off are left out."""
+    """The lines of the model space, in the plane x, y, but for those of layers that are off."""
     try:
         import ezdxf.recover
         from ezdxf.disassemble import recursive_decompose
@@ -34,7 +34,9 @@ def read_dxf(path: Path) -> Lines:
         entities = [*islice(recursive_decompose(document.modelspace()), MOST_ENTITIES + 1)]
         if len(entities) > MOST_ENTITIES:
             raise MisfitError(f"more than {MOST_ENTITIES:,} entities")
-        hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
+        hidden = {
+            layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()
+        }
         ends = straightened(_curves(entities, hidden, left_out))
         unit = UNITS.get(str(decode(document.units)))
     except MisfitError:

@@ -170,7 +170,7 @@ def read_lammps(path: Path) -> Lines:
     if not {"Atoms", "Bonds"} <= sections.keys():
         raise MisfitError("no LAMMPS data file with the sections Atoms and Bonds")
     place: dict[str, int] = {}
-    points = []
+    points: list[list[float]] = []
     for line, words in sections["Atoms"]:
         at = ATOM_STYLES.get(style) or BY_LENGTH.get(len(words))
         if at is None:
@@ -183,8 +183,8 @@ def read_lammps(path: Path) -> Lines:
     at_rest = np.array(points)
     if np.ptp(at_rest[:, 2]) > 1e-6 * np.ptp(at_rest[:, :2]):
         raise MisfitError("its atoms are not in a plane of equal z")
-    bonds = [[_node(place, name) for name in _both(words, line)] for line, words in sections["Bonds"]]
-    return Lines(at_rest[np.array(bonds)][..., :2])
+    pairs = [_both(words, line) for line, words in sections["Bonds"]]
+    return Lines(at_rest[[[_node(place, name) for name in pair] for pair in pairs]][..., :2])
 
 
 def _both(words: Sequence[str], line: int) -> Sequence[str]:

@@ -34,9 +34,7 @@ def _known(kind: str) -> str:
     return kind
 
 
-Kind = Annotated[
-    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any](KINDS)})
-]
+Kind = Annotated[str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any](KINDS)})]
 
 
 class Cells(Laid):

@@ -168,5 +168,5 @@ def _of_file(given: Given) -> dict[str, Any]:
         values["depth"] = lines.depth
     if lines.elements is not None:
         values["nodes_per_wall"] = lines.elements - 1
-    pairs = (tuple(map(tuple, array.tolist())) for array in (joints, walls))
-    return values | {"drawing": Drawing(*pairs, shares)}
+    at, pairs = (tuple(map(tuple, array.tolist())) for array in (joints, walls))
+    return values | {"drawing": Drawing(at, pairs, shares)}

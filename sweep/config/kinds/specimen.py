@@ -134,7 +134,7 @@ def check_size(specimen: Laid, causes: tuple[str, ...]) -> None:
 
 
 def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float:
-    """The wall thickness (m) of a mass (kg); refused are impossible ones, and another in `given`."""
+    """The wall thickness (m) of a mass (kg); refused if there is none, or another is given."""
     from sweep.design.sizing import thickness_for
 
     thickness, light, heavy = thickness_for(made.geometry, mass, made.thickest, made.depth, density)

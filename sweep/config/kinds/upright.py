@@ -79,10 +79,9 @@ def _check(made: Lattice) -> None:
     if isinstance(made, Sliced):
         allowed = f"none {WHERE}: give kind and cells"
         raise RefusedError("lattice.slicer", made.slicer, allowed)
-    if isinstance(made, CustomStructure):
-        if unfit := made.structure.beside_walls:
-            allowed = f"a file without {', '.join(unfit)} {WHERE}: its walls stand on platens"
-            raise RefusedError("lattice.file", made.file, allowed)
+    if isinstance(made, CustomStructure) and (unfit := made.structure.beside_walls):
+        allowed = f"a file without {', '.join(unfit)} {WHERE}: its walls stand on platens"
+        raise RefusedError("lattice.file", made.file, allowed)
 
 
 def _too_low(made: Lattice, thickest: float) -> RefusedError:

@@ -6,7 +6,6 @@ The reader knows no units: its caller passes the conversion.
 import json
 import re
 from collections.abc import Callable, Iterable
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -400,22 +399,28 @@ def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, An
     return kept, taken[0], taken[1]
 
 
-def _kinds(document: dict[str, Any]) -> set[object]:
-    """The kinds of lattice that a document names."""
-    lattice, grid, ties = (document.get(name) for name in ("lattice", "grid", "zip"))
-    tables = [_flat(t) for t in [grid, *(ties if isinstance(ties, list) else [])] if isinstance(t, dict)]
-    varied = [t["lattice.kind"] for t in tables if isinstance(t.get("lattice.kind"), list)]
-    one = lattice.get("kind") if isinstance(lattice, dict) else None
-    return {kind for kind in [one, *chain(*varied)] if isinstance(kind, str)}
+def _kinds(document: dict[str, Any]) -> set[str]:
+    """The kinds of lattice that a document names, or varies."""
+    lattice = document.get("lattice")
+    found = [lattice.get("kind")] if isinstance(lattice, dict) else []
+    found += [table.get("lattice.kind") for table in _varying(document)]
+    values = [value for kind in found for value in (kind if isinstance(kind, list) else [kind])]
+    return {value for value in values if isinstance(value, str)}
 
 
 def _stated(document: dict[str, Any]) -> set[str]:
     """The keys of [lattice] that a document states, or varies."""
-    lattice, grid, search, ties = (document.get(n) for n in ("lattice", "grid", "search", "zip"))
-    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
+    lattice = document.get("lattice")
     names = {f"lattice.{key}" for key in (lattice if isinstance(lattice, dict) else {})}
-    names |= {key for table in tables if isinstance(table, dict) for key in _flat(table)}
+    names |= {key for table in _varying(document) for key in table}
     return names | {target for name in names for target in ALIASES.get(name, ())}
+
+
+def _varying(document: dict[str, Any]) -> list[dict[str, Any]]:
+    """The tables of a document whose keys vary, with dotted keys."""
+    grid, search, ties = (document.get(name) for name in ("grid", "search", "zip"))
+    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
+    return [_flat(table) for table in tables if isinstance(table, dict)]
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:

@@ -83,7 +83,10 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     change = mesh(lattice, ratio)
     if not isinstance(lattice, Laid):
         return change
-    return change | {"mass": None, "infill": lattice.infill if isinstance(lattice, Sliced) else None}
+    return change | {
+        "mass": None,
+        "infill": lattice.infill if isinstance(lattice, Sliced) else None,
+    }
 
 
 def _with(design: Case, change: dict[str, Any]) -> Case | None:

@@ -1,4 +1,4 @@
-"""One drawing in every format that is read: the grid of 3 x 3 squares of 12.5 mm, as whole lines."""
+"""One drawing in every format: the grid of 3 x 3 squares in 12.5 mm, as lines that cross."""
 
 import json
 
