@@ -20,6 +20,7 @@ from sweep.numbers import text_in
 READERS = {**tables.READERS, ".dxf": dxf.read_dxf, ".svg": svg.read_svg}
 NEEDED = "the path of a .svg, .dxf, .csv or .json file, or of LAMMPS data (.data, .lmp)"
 MOST_BYTES = 8_000_000
+MOST_BYTES_OF_SVG = 2_000_000  # whose paths are read slowly
 FARTHEST = 1e9  # units of the file
 
 
@@ -36,8 +37,9 @@ def read_drawing(path: Path) -> Read:
         state = path.stat()
         if path.suffix.lower() not in READERS:
             raise MisfitError(f"not the name of a drawing; needed: {NEEDED}")
-        if state.st_size > MOST_BYTES:
-            raise MisfitError(f"larger than {text_in(MOST_BYTES, 'MB')}")
+        most = MOST_BYTES_OF_SVG if path.suffix.lower() == ".svg" else MOST_BYTES
+        if state.st_size > most:
+            raise MisfitError(f"larger than {text_in(most, 'MB')}")
         return _read(path, state.st_mtime_ns)
     except OSError as error:
         raise StructureError([f"cannot be read ({error.strerror}); needed: {NEEDED}"]) from None
@@ -57,6 +59,8 @@ def _read(path: Path, _: int) -> Read:
         raise MisfitError(f"has {len(ends):,} lines; needed: 1 to {MOST_LINES:,}")
     if np.abs(ends).max() > FARTHEST:
         raise MisfitError(f"reaches farther than {FARTHEST:g} from its origin")
+    if lines.thickness is not None and not lines.thickness.min() > 0.0:
+        raise MisfitError(f"has a wall of thickness {lines.thickness.min():g}; needed: above 0")
     width, height = np.ptp(ends, axis=(0, 1))
     if min(width, height) <= 0.0:
         raise MisfitError(f"is {width:.4g} wide and {height:.4g} high; needed: lines in the plane")

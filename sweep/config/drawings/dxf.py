@@ -15,22 +15,22 @@ from sweep.config.faults import MisfitError
 LINES = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 UNITS = METRES | {"ft": 12.0 * METRES["in"], "mil": 1e-3 * METRES["in"], "µm": METRES["um"]}
 """Those of $INSUNITS that drawings of lattices have."""
-MOST_ENTITIES = 100_000
+MOST_ENTITIES = 50_000
 PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
 
 
 def read_dxf(path: Path) -> Lines:
     """The lines of the model space, in the plane x, y, but for those of layers that are off."""
     try:
-        import ezdxf.recover
         from ezdxf.disassemble import recursive_decompose
+        from ezdxf.filemanagement import readfile
         from ezdxf.units import decode
     except ModuleNotFoundError as missing:
         needed = 'a .dxf file needs the package ezdxf: pip install ezdxf, or "crumple[drawings]"'
         raise MisfitError(needed) from missing
     left_out: Counter[str] = Counter()
     try:
-        document, _ = ezdxf.recover.readfile(path)
+        document = readfile(path)
         entities = [*islice(recursive_decompose(document.modelspace()), MOST_ENTITIES + 1)]
         if len(entities) > MOST_ENTITIES:
             raise MisfitError(f"more than {MOST_ENTITIES:,} entities")

@@ -16,7 +16,8 @@ METRES = {"um": 1e-3 * MM, "mm": MM, "cm": 10.0 * MM, "m": 1.0, "in": 25.4 * MM}
 class Lines(NamedTuple):
     """Centre lines (s, 2, 2) in the unit of a file.
 
-    unit: its length, m; None if the file does not say. thickness: of the wall of each line (s,), in
+    unit: its length, m; None if the file does not say. named: whether its own heads or keys name
+    it, so that no other can be meant. thickness: of the wall of each line (s,), in
     the same unit. depth: of the walls, m. elements: of a wall. notes: what was left out.
     """
 
@@ -26,3 +27,4 @@ class Lines(NamedTuple):
     depth: float | None = None
     elements: int | None = None
     notes: tuple[str, ...] = ()
+    named: bool = False

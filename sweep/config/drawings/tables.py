@@ -13,6 +13,7 @@ from sweep.config.faults import MisfitError
 from sweep.config.reading.text import foreign_text, rows_of
 from sweep.config.structures.structure_file import faults_of_lists, read_structure
 from sweep.constants import MM
+from sweep.plain_text import plain
 
 MOST_ROWS = 200_000
 LINE, NODE, WALL = ("x1", "y1", "x2", "y2"), ("x", "y"), ("from", "to")
@@ -39,7 +40,8 @@ def read_json(path: Path) -> Lines:
     stated = structure.model_fields_set
     thickness = np.array(structure.thickness_mm) if "wall_thickness_mm" in stated else None
     depth = MM * structure.depth_mm if "depth_mm" in stated else None
-    return Lines(ends, MM, thickness, depth, elements if "subdivide" in stated else None)
+    elements = elements if "subdivide" in stated else None
+    return Lines(ends, MM, thickness, depth, elements, named=True)
 
 
 def read_csv(path: Path) -> Lines:
@@ -56,7 +58,7 @@ def read_csv(path: Path) -> Lines:
     if not lines:
         raise MisfitError(f"has no walls; needed: {CSV}")
     used = lines if nodes is None else [nodes, *lines]
-    named = {table.named for table in used if table.units and table.rows}
+    named = {size is not None for table in used for size in table.units.values()}
     if len(named) > 1:
         raise MisfitError("some heads name a unit and others do not; needed: all of them, or none")
     ends = [_ends(table, nodes) for table in lines]
@@ -64,7 +66,8 @@ def read_csv(path: Path) -> Lines:
     if any(t is None for t in thick) and any(t is not None for t in thick):
         raise MisfitError("some walls have a thickness and others do not")
     thickness = None if thick[0] is None else np.concatenate([t for t in thick if t is not None])
-    return Lines(np.concatenate(ends), 1.0 if named == {True} else None, thickness)
+    unit = 1.0 if named == {True} else None
+    return Lines(np.concatenate(ends), unit, thickness, named=unit is not None)
 
 
 class _Table(NamedTuple):
@@ -77,10 +80,6 @@ class _Table(NamedTuple):
 
     def has(self, heads: Sequence[str]) -> bool:
         return all(head in self.heads for head in heads)
-
-    @property
-    def named(self) -> bool:
-        return None not in self.units.values()
 
     def column(self, head: str) -> Floats | None:
         """The numbers below a head, in m if it names its unit."""
@@ -143,7 +142,7 @@ def _ends(table: _Table, nodes: _Table | None) -> Floats:
 
 def _node(place: Mapping[str, int], name: str) -> int:
     if name not in place:
-        raise MisfitError(f'a wall ends at node "{name}", which no row has')
+        raise MisfitError(f'a wall ends at node "{plain(name[:40])}", which no row has')
     return place[name]
 
 
@@ -159,7 +158,7 @@ def _number(row: Sequence[str], place: int, line: int, decimal: str = ".") -> fl
     """The finite number in a cell."""
     cell = row[place] if place < len(row) else ""
     if not _is_number(cell, decimal) or not isfinite(value := float(cell.replace(decimal, "."))):
-        raise MisfitError(f'line {line}: "{cell[:40]}" is no number')
+        raise MisfitError(f'line {line}: "{plain(cell[:40])}" is no number')
     return value
 
 

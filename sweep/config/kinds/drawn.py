@@ -150,6 +150,9 @@ def _of_file(given: Given) -> dict[str, Any]:
     path = Path(given["file"])
     network, lines = read_drawing(path)
     unit = given.get("file_unit") or lines.unit
+    if lines.named and "file_unit" in given:
+        allowed = f"none, as {path.name} itself names the unit of its numbers"
+        raise RefusedError("lattice.file_unit", unit, allowed)
     if unit is None:
         allowed = f'the length of one unit of {path.name}, such as "1 mm", as it names none'
         raise RefusedError("lattice.file_unit", None, allowed)
