@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from sweep.config.drawings.curves import Floats, straightened
+from sweep.config.drawings.curves import MOST_LINES, Floats, straightened
 from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
 LINES = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 UNITS = METRES | {"ft": 12.0 * METRES["in"], "mil": 1e-3 * METRES["in"], "µm": METRES["um"]}
 """Those of $INSUNITS that drawings of lattices have."""
-MOST_ENTITIES = 50_000
 PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
 
 
@@ -31,9 +30,9 @@ def read_dxf(path: Path) -> Lines:
     left_out: Counter[str] = Counter()
     try:
         document = readfile(path)
-        entities = [*islice(recursive_decompose(document.modelspace()), MOST_ENTITIES + 1)]
-        if len(entities) > MOST_ENTITIES:
-            raise MisfitError(f"more than {MOST_ENTITIES:,} entities")
+        entities = [*islice(recursive_decompose(document.modelspace()), MOST_LINES + 1)]
+        if len(entities) > MOST_LINES:
+            raise MisfitError(f"more than {MOST_LINES:,} entities")
         hidden = {
             layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()
         }

@@ -33,36 +33,36 @@ def read_json(path: Path) -> Lines:
     structure = read_structure(path, faults_of_lists)
     if unfit := structure.beside_walls:
         raise MisfitError(f'has {", ".join(unfit)}; needed: walls alone, or lattice.kind "custom"')
-    elements = structure.subdivide
-    if isinstance(elements, tuple):
+    if isinstance(structure.subdivide, tuple):
         raise MisfitError("subdivide is a list; needed: one number for all walls")
     ends = np.array(structure.nodes_mm)[np.array(structure.walls)]
     stated = structure.model_fields_set
     thickness = np.array(structure.thickness_mm) if "wall_thickness_mm" in stated else None
     depth = MM * structure.depth_mm if "depth_mm" in stated else None
-    elements = elements if "subdivide" in stated else None
+    elements = structure.subdivide if "subdivide" in stated else None
     return Lines(ends, MM, thickness, depth, elements, named=True)
 
 
 def read_csv(path: Path) -> Lines:
     """Walls by the coordinates of their ends, or by nodes that a table above them has."""
     text = foreign_text(path, CSV)
-    first = next(filter(str.strip, text.splitlines()), "")
+    lines = (line for line in text.splitlines() if line.strip() and not line.startswith("#"))
+    first = next(lines, "")
     separator = max(";\t,", key=first.count)
     rows = rows_of(text.splitlines()[: MOST_ROWS + 1], separator)
     if len(rows) > MOST_ROWS:
         raise MisfitError(f"more than {MOST_ROWS:,} rows")
     tables = [*_tables(rows, decimal="," if separator == ";" else ".")]
     nodes = next((table for table in tables if table.has(NODE)), None)
-    lines = [table for table in tables if table.has(LINE) or (nodes and table.has(WALL))]
-    if not lines:
+    walls = [table for table in tables if table.has(LINE) or (nodes and table.has(WALL))]
+    if not walls:
         raise MisfitError(f"has no walls; needed: {CSV}")
-    used = lines if nodes is None else [nodes, *lines]
+    used = walls if nodes is None else [nodes, *walls]
     named = {size is not None for table in used for size in table.units.values()}
     if len(named) > 1:
         raise MisfitError("some heads name a unit and others do not; needed: all of them, or none")
-    ends = [_ends(table, nodes) for table in lines]
-    thick = [table.column("thickness") for table in lines]
+    ends = [_ends(table, nodes) for table in walls]
+    thick = [table.column("thickness") for table in walls]
     if any(t is None for t in thick) and any(t is not None for t in thick):
         raise MisfitError("some walls have a thickness and others do not")
     thickness = None if thick[0] is None else np.concatenate([t for t in thick if t is not None])

@@ -42,6 +42,7 @@ CONFIGS = Path(__file__).parents[4] / "configs"
         ("rammed", 102),
         ("thousand", 1000),
         ("custom", 1),
+        ("drawn", 4),
         ("seed", 14),
         ("impact", 24),
         ("drop", 8),
