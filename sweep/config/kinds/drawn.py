@@ -1,7 +1,7 @@
 """A lattice of a user's own drawing, pressed as the built-in infills are."""
 
 from functools import lru_cache
-from math import inf, sqrt
+from math import inf, isclose, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from sweep.design.network import Network
 
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
+
+SIZED = 1e-6  # relative error of a size of the drawing that a config states
 
 
 def _sound(drawing: Drawing) -> Drawing:
@@ -119,6 +121,11 @@ def drawn(given: Given, density: float) -> Drawn:
     made = Drawn.model_validate(usual | values)
     width, height = (max(at[axis] for at in made.drawing.joints) for axis in (0, 1))
     made = Drawn.model_validate(dict(made) | {"width": width, "height": height})
+    for key in Drawn.derived:
+        size = getattr(made, key)
+        if not isclose(given.get(key, size), size, rel_tol=SIZED):
+            allowed = f"{size:.6g} m, that of the drawing; lattice.file_unit changes it"
+            raise RefusedError(f"lattice.{key}", given[key], allowed)
     check_proportion(made)
     check_size(made, ("nodes_per_wall",))
     if made.mass is not None:
