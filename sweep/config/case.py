@@ -133,6 +133,10 @@ class Case(BaseModel):
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
         return self.lattice.tied and not self.shells and loose and self.loading.quasi_static
 
+    def __hash__(self) -> int:
+        """Equal cases have equal ids; labels, which may differ, are no part of them."""
+        return hash(self.case_id)
+
     @cached_property
     def case_id(self) -> str:
         """Hash of all parameters except labels: 16 hexadecimal digits."""

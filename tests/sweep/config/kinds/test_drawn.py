@@ -39,14 +39,12 @@ def test_a_drawn_grid_is_the_built_in_one(grid):
     built_in = case(lattice=lattice, material={"name": "cheetah"}, loading=CRUSH)
     one, other = (converged(design).summary for design in (grid, built_in))
     assert one["absorbed_energy_J"] == pytest.approx(0.37142, rel=1e-4)
-    names = ("case_id", "lattice_kind", "slicer_settings", "energy_residual_J", "cpu_s")
-    numbers = [key for key in other if key not in names]
-    differing = {
-        key: (one[key], other[key])
-        for key in numbers
-        if one[key] != pytest.approx(other[key], rel=1e-6, nan_ok=True)
-    }
-    assert differing == {}
+    own = ("case_id", "lattice_kind", "slicer_settings", "energy_residual_J", "cpu_s")
+    texts = {key: text for key, text in other.items() if key not in own and isinstance(text, str)}
+    assert texts == {key: one[key] for key in texts}
+    numbers = {key: other[key] for key in other if key not in (*own, *texts)}
+    assert len(numbers) > 60
+    assert {key: one[key] for key in numbers} == pytest.approx(numbers, rel=1e-5, nan_ok=True)
 
 
 @pytest.mark.parametrize("name", FORMATS)
