@@ -5,6 +5,7 @@ A file comes from anywhere: its size, and the lines that follow from it, are bou
 
 from functools import lru_cache
 from pathlib import Path
+from stat import S_ISREG
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ def read_drawing(path: Path) -> Read:
     """Read a file once; `StructureError` says why it is no drawing."""
     try:
         state = path.stat()
+        if not S_ISREG(state.st_mode):
+            raise MisfitError(f"not a file; needed: {NEEDED}")
         if path.suffix.lower() not in READERS:
             raise MisfitError(f"not the name of a drawing; needed: {NEEDED}")
         most = MOST_BYTES_OF_SVG if path.suffix.lower() == ".svg" else MOST_BYTES

@@ -46,7 +46,13 @@ def test_what_is_no_lattice_is_refused(tmp_path, monkeypatch, text, told):
 
 def test_what_is_no_file_of_a_drawing_is_refused(tmp_path):
     (tmp_path / "a.stl").touch()
-    told = {"a.stl": "not the name of a drawing", "b.csv": "No such file", "\0.csv": "no path"}
+    (tmp_path / "folder.svg").mkdir()
+    told = {
+        "a.stl": "not the name of a drawing",
+        "folder.svg": "not a file",
+        "b.csv": "No such file",
+        "\0.csv": "no path",
+    }
     for name, text in told.items():
         with pytest.raises(StructureError, match=rf"{text}.*; needed: the path of a \.svg, \.dxf"):
             read_drawing(tmp_path / name)
