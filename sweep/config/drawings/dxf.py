@@ -21,6 +21,7 @@ PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
 def read_dxf(path: Path) -> Lines:
     """The lines of the model space, in the plane x, y, but for those of layers that are off."""
     try:
+        from ezdxf import DXFStructureError, recover
         from ezdxf.disassemble import recursive_decompose
         from ezdxf.filemanagement import readfile
         from ezdxf.units import decode
@@ -28,8 +29,13 @@ def read_dxf(path: Path) -> Lines:
         needed = 'a .dxf file needs the package ezdxf: pip install ezdxf, or "crumple[drawings]"'
         raise MisfitError(needed) from missing
     left_out: Counter[str] = Counter()
+    notes: list[str] = []
     try:
-        document = readfile(path)
+        try:
+            document = readfile(path)
+        except DXFStructureError:
+            document, _ = recover.readfile(path)
+            notes.append("of an old form or damaged, and repaired by ezdxf: look at its walls")
         entities = [*islice(recursive_decompose(document.modelspace()), MOST_LINES + 1)]
         if len(entities) > MOST_LINES:
             raise MisfitError(f"more than {MOST_LINES:,} entities")
@@ -43,7 +49,8 @@ def read_dxf(path: Path) -> Lines:
     except Exception as error:  # noqa: BLE001  a damaged file fails anywhere in its reader
         raise MisfitError(f"not DXF that ezdxf can read ({type(error).__name__})") from None
     said = ", ".join(f"{count} x {what}" for what, count in sorted(left_out.items()))
-    return Lines(ends, unit, notes=(f"left out: {said}",) if said else ())
+    notes += [f"left out: {said}"] if said else []
+    return Lines(ends, unit, notes=tuple(notes))
 
 
 def _curves(entities: list[Any], hidden: set[str], left_out: Counter[str]) -> Iterator[Floats]:

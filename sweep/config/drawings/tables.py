@@ -22,7 +22,11 @@ _HEAD = re.compile(
     rf"({'|'.join((*LINE, *NODE, *IDS, 'thickness'))})(?:[ _]*[(\[]?({'|'.join(METRES)})[)\]]?)?"
 )
 CSV = 'the heads "x1_mm, y1_mm, x2_mm, y2_mm", or "x_mm, y_mm" of nodes and below "from, to"'
-ATOM_STYLES = {"atomic": 2, "bond": 3, "angle": 3, "molecular": 3, "charge": 3, "full": 4}
+ATOM_STYLES = {
+    **dict.fromkeys(("atomic", "hybrid"), 2),
+    **dict.fromkeys(("bond", "angle", "molecular", "charge"), 3),
+    **dict.fromkeys(("full", "sphere"), 4),
+}
 """LAMMPS: the place of x in a line of an atom."""
 BY_LENGTH = {5: 2, 6: 3, 7: 4, 8: 2, 9: 3, 10: 4}
 """The same where the style is not named; lines of eight and more end in three image flags."""
@@ -171,11 +175,11 @@ def read_lammps(path: Path) -> Lines:
     place: dict[str, int] = {}
     points: list[list[float]] = []
     for line, words in sections["Atoms"]:
-        at = ATOM_STYLES.get(style) or BY_LENGTH.get(len(words))
+        at = ATOM_STYLES.get(style) if style else BY_LENGTH.get(len(words))
         if at is None:
             raise MisfitError(f"line {line}: an atom of unknown style; needed: Atoms # molecular")
         x = [_number(words, at + k, line) for k in range(3)]
-        if len(words) == at + 6:
+        if len(words) == at + 6 and style != "hybrid":
             x = [a + _number(words, at + 3 + k, line) * box[k] for k, a in enumerate(x)]
         place[words[0]] = len(points)
         points.append(x)

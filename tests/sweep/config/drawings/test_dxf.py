@@ -96,10 +96,20 @@ def test_what_is_no_drawing_in_the_plane_is_refused(tmp_path, monkeypatch, draw,
         read_dxf(saved(tmp_path / "a.dxf", draw))
 
 
+def test_a_repair_is_told(tmp_path):
+    """Release 9 wrote x of both ends, then y."""
+    line = ["LINE", 8, "0", 10, 1.5, 11, 2.0, 20, 3.0, 21, 4.0, 30, 0.0, 31, 0.0]
+    pairs = [0, "SECTION", 2, "ENTITIES", 0, *line, 0, "ENDSEC", 0, "EOF"]
+    (tmp_path / "a.dxf").write_text("\n".join(map(str, pairs)))
+    lines = read_dxf(tmp_path / "a.dxf")
+    assert lines.ends.tolist() == [[[1.5, 3.0], [2.0, 4.0]]]
+    assert lines.notes == ("of an old form or damaged, and repaired by ezdxf: look at its walls",)
+
+
 def test_damage_and_a_missing_package_are_told(tmp_path, monkeypatch):
-    path = as_dxf(tmp_path / "a.dxf")
-    path.write_text(path.read_text().replace("ENTITIES", "ENTIT\nIES"))
-    with pytest.raises(MisfitError, match=r"not DXF that ezdxf can read \(DXF"):
+    path = tmp_path / "a.dxf"
+    path.write_text("no drawing")
+    with pytest.raises(MisfitError, match=r"not DXF that ezdxf can read \(OSError"):
         read_dxf(path)
     monkeypatch.setitem(sys.modules, "ezdxf.filemanagement", None)
     with pytest.raises(MisfitError, match=r'pip install ezdxf, or "crumple\[drawings\]"'):

@@ -105,7 +105,7 @@ def test_bonds_of_lammps_are_walls_whatever_the_style(tmp_path):
     ("old", "new", "told"),
     [
         ("Bonds", "Bands", "the sections Atoms and Bonds"),
-        ("# bond", "# body", None),
+        ("# bond", "# body", "an atom of unknown style"),
         ("0.0 0 0 0\n", "1.0 0 0 0\n", "not in a plane"),
         ("1 1 1 2", "1 1 1 99", 'node "99"'),
         ("1 1 1 2", "1 1 1", "no bond"),
