@@ -21,9 +21,10 @@ PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
 def read_dxf(path: Path) -> Lines:
     """The lines of the model space, in the plane x, y, but for those of layers that are off."""
     try:
-        from ezdxf import DXFStructureError, recover
+        from ezdxf import recover
         from ezdxf.disassemble import recursive_decompose
         from ezdxf.filemanagement import readfile
+        from ezdxf.lldxf.const import DXFStructureError
         from ezdxf.units import decode
     except ModuleNotFoundError as missing:
         needed = 'a .dxf file needs the package ezdxf: pip install ezdxf, or "crumple[drawings]"'
