@@ -25,8 +25,8 @@ class MeetingError(ValueError):
 
 
 class Meeting(NamedTuple):
-    """joints (j, 2), row by row from the bottom; walls (w, 2): their joints; line (w,): the line
-    that each wall is part of.
+    """joints (j, 2) from the lower left corner, row by row from the bottom; walls (w, 2): their
+    joints; line (w,): the line that each wall is part of.
     """
 
     joints: Floats
@@ -144,7 +144,7 @@ def _in_rows(points: Floats, walls: Indices, line: Indices, near: float) -> Meet
     one, or the highest, as ``near`` are in one row with it.
     """
     digit = near * ROUND_OFF / NEAR
-    points = np.rint(points / digit) * digit
+    points = np.rint((points - points.min(axis=0)) / digit) * digit
     for row in (points[:, 1].min(), points[:, 1].max()):
         points[np.abs(points[:, 1] - row) < near, 1] = row
     order = np.lexsort(points.T)

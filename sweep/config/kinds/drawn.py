@@ -23,12 +23,14 @@ SIZED = 1e-6  # relative error of a size of the drawing that a config states
 
 
 def _sound(drawing: Drawing) -> Drawing:
-    """A drawing whose walls end at two of its joints, and each of whose joints has a wall."""
+    """A drawing from its lower left corner, whose walls end at two of its joints; all are used."""
     used = {joint for wall in drawing.walls for joint in wall}
     apart = all(a != b for a, b in drawing.walls)
     even = len(drawing.shares) in (0, len(drawing.walls)) and all(s > 0.0 for s in drawing.shares)
-    if not (apart and even and used == set(range(len(drawing.joints)))):
+    if not (apart and even and drawing.joints and used == set(range(len(drawing.joints)))):
         raise PydanticCustomError("drawing", "walls between two of the joints, all of them used")
+    if any(min(at[axis] for at in drawing.joints) != 0.0 for axis in (0, 1)):
+        raise PydanticCustomError("drawing", "joints whose least x and y are 0")
     return drawing
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError
+from sweep.config.faults import ConfigError, MisfitError
 from sweep.config.kinds.table import RefusedError
 from sweep.config.load import case, load_config
 from sweep.design.geometry import Drawing
@@ -128,6 +128,17 @@ def test_what_does_not_fit_a_drawing_is_refused(tmp_path, lattice, told):
         case(lattice={k: v for k, v in table.items() if v is not None}, loading=CRUSH)
 
 
+def test_the_corner_of_a_sloppy_drawing_is_its_own(tmp_path):
+    """Where the lowest end is one that overshoots, the walls begin above it, and at 0."""
+    off = 5e-5 * SIDE
+    lines = [
+        ((x, y - off), (x, SIDE)) if y == 0.0 and x > 0.0 else ((x, y), e) for (x, y), e in GRID
+    ]
+    made = drawn(as_csv(tmp_path / "sloppy.csv", lines)).lattice
+    assert made.counts == (16, 24)
+    assert made.height == pytest.approx(1e-3 * SIDE, rel=1e-9)
+
+
 def test_walls_of_a_drawing_in_python_are_checked():
     square = Drawing(((0.0, 0.0), (0.01, 0.0), (0.01, 0.01)), ((0, 1), (1, 2), (2, 0)))
     made = Case.of(lattice={"kind": "drawn", "drawing": square}, loading=dict(strain=0.1))
@@ -136,6 +147,13 @@ def test_walls_of_a_drawing_in_python_are_checked():
     for walls in (((0, 1), (1, 2), (2, 3)), ((0, 1), (1, 1)), ((0, 1), (1, 0))):
         with pytest.raises(RefusedError, match="walls between two of the joints"):
             Case.of(lattice={"kind": "drawn", "drawing": square._replace(walls=walls)})
+    moved = square._replace(joints=tuple((x + 0.01, y) for x, y in square.joints))
+    with pytest.raises(RefusedError, match="least x and y are 0"):
+        Case.of(lattice={"kind": "drawn", "drawing": moved})
+    with pytest.raises(MisfitError, match="finite number"):
+        Case.from_json(made.to_json().replace("[0.01,0.01]", "[0.01,NaN]"))
+    with pytest.raises(RefusedError, match="walls between"):
+        Case.of(lattice={"kind": "drawn", "drawing": Drawing((), ())})
 
 
 def test_notes_tell_what_a_file_has_beside_lines(tmp_path):
