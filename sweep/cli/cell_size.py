@@ -43,7 +43,7 @@ def _of_drawing(made: Drawn) -> str:
 def _pair(lengths: tuple[float, float], between: str) -> str:
     """Two lengths (m) in mm."""
     x, y = lengths
-    return f"{in_unit(x, 'mm'):.4g}{between}{text_in(y, 'mm', 4)}"
+    return f"{in_unit(x, 'mm'):.5g}{between}{text_in(y, 'mm', 5)}"
 
 
 def _of_sheet(made: Surface) -> str:
