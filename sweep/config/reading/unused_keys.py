@@ -109,7 +109,9 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
         return given[key] == DROP and isinstance(case.loading, Impact)
     if key == "solver.time_step":
         return case_value is not None and "solver.load_steps" not in given
-    return key == "material.name" or (key == "loading.speed" and isinstance(case.loading, Crush))
+    if key in ("material.name", "lattice.file"):
+        return case_value is not None
+    return key == "loading.speed" and isinstance(case.loading, Crush)
 
 
 def _why_no_memory(given: Mapping[str, Any]) -> str:
