@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.direction import ALONG
-from sweep.config.kinds.sheet import Surface
+from sweep.config.kinds.sheet import SIDES, Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.numbers import in_unit, text_in
 
@@ -24,12 +24,18 @@ def cell_sentences(cases: Iterable[Case]) -> list[str]:
 
 
 def _of_sheet(made: Surface) -> str:
-    """A line: "gyroid, pressed along the print axis: 2 x 6.25 mm, the period, in 12.5 mm"."""
+    """A line: "gyroid, pressed along the print axis: 2 x 6.25 mm, the period, in 12.5 mm"; of a
+    block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
+    """
     height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
     count = f"{made.pressed_height / made.period:.4g} x {period}"
     axis = "along" if made.pressed == ALONG else "across"
     share = f", {text_in(made.infill, '%', 3)}" if isinstance(made, SlicedSheet) else ""
-    return f"{made.name}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
+    line = f"{made.name}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
+    if made.tied:
+        return line
+    size = " x ".join(f"{in_unit(made.value(side), 'mm'):.4g}" for side in SIDES)
+    return f"{line}; a block of {size} mm within perimeters"
 
 
 def _sentence(made: Cells) -> str:

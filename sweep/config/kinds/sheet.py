@@ -116,6 +116,11 @@ class Surface(Specimen):
         return SHEETS[self.sheet].area / self.period * self.width * self.height * self.depth
 
     @property
+    def extruded(self) -> float:
+        """Volume as printed, m^3."""
+        return self.wall_thickness * self.area
+
+    @property
     def elements(self) -> int:
         """About how many quads the sheet is divided into."""
         (width, height), depth = (self.width, self.height), self.depth

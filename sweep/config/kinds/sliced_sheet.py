@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
-from sweep.config.kinds.sheet import Surface, checked, fitted, fitted_block
+from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines, Specimen
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
@@ -40,7 +40,7 @@ class SlicedSheet(Surface):
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
-        sides = {} if self.tied else {"width": self.width, "height": self.height, "depth": self.depth}
+        sides = {} if self.tied else {side: self.value(side) for side in SIDES}
         return super().given() | sides
 
     @property
@@ -71,8 +71,8 @@ class SlicedSheet(Surface):
 
     @property
     def extruded(self) -> float:
-        """Volume as extruded, m^3."""
-        sheet = self.wall_thickness * SHEETS[self.sheet].steep * self.area
+        """Volume as printed, m^3."""
+        sheet = SHEETS[self.sheet].steep * super().extruded
         return sheet * self.inside + self.framed
 
 

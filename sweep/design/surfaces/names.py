@@ -44,7 +44,11 @@ class SheetName(NamedTuple):
 
 SHEETS = {
     "gyroid": SheetName(
-        3.0915, 0.7953, Cut(0.0, 0.25), Cut(0.125 * ROOT, 0.25 * ROOT, across=ROOT), (0.0, 0.25, 0.0)
+        3.0915,
+        0.7953,
+        Cut(0.0, 0.25),
+        Cut(0.125 * ROOT, 0.25 * ROOT, across=ROOT),
+        (0.0, 0.25, 0.0),
     ),
     "schwarz_p": SheetName(
         2.3517, 0.8017, Cut(0.0, 0.5), Cut(0.0, 0.5 * ROOT, across=ROOT), (0.0, 0.0, 0.0)
