@@ -99,8 +99,10 @@ class Net:
 
     @cached_property
     def normals(self) -> Floats:
-        """Unit normals of the surface at the nodes, (n, 3)."""
-        return _unit(self.box.gradient(self.points))
+        """Unit normals of the surface at its nodes, (n, 3); zero at other ones."""
+        normals, on = np.zeros_like(self.points), self.on_surface
+        normals[on] = _unit(self.box.gradient(self.points[on]))
+        return normals
 
     @cached_property
     def corners(self) -> Floats:

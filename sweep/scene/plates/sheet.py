@@ -117,8 +117,7 @@ def bowed(net: Net, lattice: Surface) -> Net:
         mean = 0.25
     bow = (across * np.sin(np.pi * share[:, 2:] * waves[:, 2])) @ number
     size = lattice.imperfection * lattice.wall_thickness / np.sqrt(0.5 * mean * (number**2).sum())
-    move = np.where(net.on_surface, size * bow, 0.0)
-    return replace(net, points=net.points + move[:, None] * net.normals)
+    return replace(net, points=net.points + (size * bow)[:, None] * net.normals)
 
 
 def solid_of(lattice: Surface, mesh: SheetMesh) -> float:

@@ -1,8 +1,8 @@
 """Stiffness of a block of a gyroid within perimeters, of shells and of bricks of the solid.
 
-The block is pressed along z between platens that hold its ends. The period and the modulus are 1;
-lengths are in periods. The solid is all within half of the thickness of the sheet, which ends
-at the middle of the perimeters, or of these. Stiffness is force over displacement.
+The block is pressed along z between platens that hold its ends, of perimeters the middle. The
+period and the modulus are 1. The solid is all within half of the thickness of perimeters and of the
+sheet, which ends at the middle of these. Stiffness is force over displacement.
 """
 
 from itertools import product
@@ -44,7 +44,7 @@ def of_shells(quads, side, sheet, perimeters, walled, poisson):
 def of_bricks(n, side, sheet, perimeters, walled, poisson):
     """The same of the solid, of cubes of 1 / n, on whose grid its faces lie."""
     margin = np.zeros(3)
-    margin[list(walled)] = 0.5 * perimeters
+    margin[[axis for axis in walled if axis != 2]] = 0.5 * perimeters
     size = np.rint((side + 2.0 * margin) * n).astype(int)
     at = np.indices(size).reshape(3, -1).T
     inner = (np.array(list(product(range(voxels.PARTS), repeat=3))) + 0.5) / voxels.PARTS

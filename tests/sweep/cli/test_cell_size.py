@@ -18,3 +18,18 @@ def test_each_lattice_is_told_once():
         "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)",
         "lattice.cell_size 4 mm: 25 x 3 cells of 3.95 x 4.29 mm (hex flat)",
     ]
+
+
+def test_the_share_of_a_sheet_and_the_sides_of_a_block_are_told():
+    sheet = dict(slicer="orca", pattern="gyroid", infill=0.15, height=12.5e-3)
+    loading = dict(mode="displacement")
+    assert cell_sentences([Case.of(lattice=sheet, loading=loading)], 0.15) == [
+        "gyroid, 14.7 % for 15 %, pressed across the print axis: 1.75 x 7.143 mm, the period, in "
+        "12.5 mm"
+    ]
+    block = dict(sheet, width=20e-3, depth=10e-3, perimeters=2)
+    (line,) = cell_sentences(
+        [Case.of({"lattice.infill": 0.2}, lattice=block, loading=loading)], 0.3
+    )
+    assert line.startswith("gyroid, 16.8 % for 20 %, ")
+    assert line.endswith("; a block of 18.75 x 12.5 x 9.375 mm within perimeters")
