@@ -9,6 +9,7 @@ from itertools import product
 
 import numpy as np
 from scipy.sparse import csr_array
+from scipy.sparse.linalg import splu
 
 from kernels.plates.layout import PER_NODE
 from sweep.design.surfaces.names import SHEETS
@@ -38,7 +39,7 @@ def of_shells(quads, side, sheet, perimeters, walled, poisson):
     leader = leaders(mesh, "clamped")[: numbering.low]
     free = np.flatnonzero(leader == np.arange(numbering.low))
     top = numbering.position(mesh.top, 2)
-    return _condensed(matrix, free, top)
+    return _condensed(matrix, free, top, lambda inner, force: splu(inner.tocsc()).solve(force))
 
 
 def of_bricks(n, side, sheet, perimeters, walled, poisson):
@@ -60,7 +61,16 @@ def of_bricks(n, side, sheet, perimeters, walled, poisson):
     matrix = csr_array((bricks.ravel(), rows), (3 * len(used),) * 2)
     ends = (used[:, 2] == 0) | (used[:, 2] == size[2])
     free = np.flatnonzero(np.repeat(~ends, 3))
-    return _condensed(matrix, free, 3 * np.flatnonzero(used[:, 2] == size[2]) + 2)
+    top = 3 * np.flatnonzero(used[:, 2] == size[2]) + 2
+    return _condensed(matrix, free, top, voxels.solved)
+
+
+def limit(n, *block):
+    """The stiffness of the solid in the limit of fine grids, of order 2, from cubes of 1 / n and
+    half of it.
+    """
+    coarse, fine = (of_bricks(k * n, *block) for k in (1, 2))
+    return fine + (fine - coarse) / 3.0
 
 
 def _share(points, n, side, sheet, perimeters, walled):
@@ -73,10 +83,10 @@ def _share(points, n, side, sheet, perimeters, walled):
     return np.clip(0.5 - away * n * voxels.PARTS, 0.0, 1.0)
 
 
-def _condensed(matrix, free, top):
+def _condensed(matrix, free, top, solve):
     """Force over displacement of the coordinates ``top`` if only the ``free`` ones may move."""
     moved = np.zeros(matrix.shape[0])
     moved[top] = 1.0
     force = matrix @ moved
-    moved[free] = voxels.solved(matrix[free][:, free], -force[free])
+    moved[free] = solve(matrix[free][:, free], -force[free])
     return float(moved[top] @ (matrix @ moved)[top])
