@@ -20,8 +20,9 @@ def test_plan_of_a_tube_is_a_square_of_its_thickness():
 
 def test_a_plan_has_the_sides_on_the_ground_wherever_quads_begin():
     frames = tube()
-    turned = frames | {"quads": np.array([np.roll(row, k) for k, row in enumerate(frames["quads"])])}
-    np.testing.assert_array_equal(plan(turned)["edges"], plan(frames)["edges"])
+    quads = np.array([np.roll(row, k) for k, row in enumerate(frames["quads"])])
+    found = plan(frames | {"quads": quads})
+    np.testing.assert_array_equal(found["edges"], plan(frames)["edges"])
 
 
 def test_lines_are_the_edges_of_the_quads_each_once():
