@@ -26,7 +26,9 @@ class SlicedSheet(Surface):
     sides of the part, at 0 and 90 degrees between them.
     """
 
-    because: ClassVar[str] = "lattice.slicer prints a sheet"
+    because: ClassVar[str] = (
+        "lattice.slicer prints a sheet, one period of which is computed without perimeters"
+    )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
 
     slicer: Literal["prusa", "orca", "cura"]

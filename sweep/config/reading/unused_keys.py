@@ -94,14 +94,16 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
 
 
 def _is_held(key: str, given: Mapping[str, Any], kind: Table) -> bool:
-    """Whether a table holds a given value, or what follows from it."""
+    """Whether a table holds a given value, or one that follows from it."""
     name = key.split(".")[1]
     if key in CHOICES:
         return kind.value(name) == given[key]
     if key == "solver.time_step" and "solver.load_steps" in given:
         return kind.value("load_steps") is None  # else they set it
     labels = name == "speed" and name in type(kind).model_fields  # of a quasi-static crush
-    return kind.value(name) is not None or labels
+    value = kind.value(name)
+    adjusted = name in kind.given() and value != kind.neutral.get(name)
+    return adjusted or value == given[key] or labels
 
 
 def _why_no_memory(given: Mapping[str, Any]) -> str:

@@ -115,6 +115,7 @@ def test_a_key_that_some_case_needs_is_fine(load, text):
             *('perimeters = 1\nlayer_height = "0.5 mm"', 'layer_height = "0.5 mm"'),
             "lattice.solid_layers is 0",
         ),
+        ('kind = "gyroid"\nwidth = "20 mm"', 'width = "20 mm"', "lattice.kind is a sheet"),
     ],
 )
 def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):
