@@ -2,6 +2,7 @@
 
 from sweep.cli.cell_size import cell_sentences
 from sweep.config.case import Case
+from sweep.design.geometry import Drawing
 
 PANEL = dict(width=0.1, height=15e-3, depth=0.05)
 
@@ -33,3 +34,17 @@ def test_the_share_of_a_sheet_and_the_sides_of_a_block_are_told():
     )
     assert line.startswith("gyroid, 16.8 % for 20 %, ")
     assert line.endswith("; a block of 18.75 x 12.5 x 9.375 mm within perimeters")
+
+
+def test_a_drawing_is_told_with_its_loose_ends():
+    joints = ((0.0, 0.0), (0.02, 0.0), (0.0, 0.01), (0.02, 0.01), (0.005, 0.0025))
+    whole = Drawing(joints[:4], ((0, 1), (0, 2), (1, 3), (2, 3)))
+    sentences = ["drawn: 20 x 10 mm, 4 joints, 4 walls"]
+    assert cell_sentences([case_of(whole), case_of(whole)]) == sentences
+    loose = Drawing(joints, (*whole.walls, (0, 4)))
+    (sentence,) = cell_sentences([case_of(loose)])
+    assert sentence == "drawn: 20 x 10 mm, 5 joints, 5 walls; 1 wall ends loose, at 5, 2.5 mm"
+
+
+def case_of(drawing):
+    return Case.of(lattice={"kind": "drawn", "drawing": drawing, "wall_thickness": 0.5e-3})
