@@ -90,7 +90,8 @@ NEEDED = [
     '[contact]\nmodel = "none"\nfriction = 0.2\n[loading]\nplaten = "contact"',
     PRESSED + '[damping]\nmodel = "none"\n[solver]\nintegrator = "static"',
     "[lattice]\ncells = 3\n[grid]\nlattice.cells = [2, 3]",
-    '[lattice]\nslicer = "orca"\npattern = "gyroid"\ninfill = 0.2\nperimeters = 2\nwidth = "14 mm"',
+    '[lattice]\nslicer = "orca"\npattern = "gyroid"\ninfill = "20 %"\n'
+    'perimeters = 2\nwidth = "14 mm"',  # the nearest that fits
 ]
 
 
