@@ -278,7 +278,8 @@ def _config(name: str) -> Config:
     hint(config.notes)
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
-    hint(cell_sentences(config.cases))
+    infill = config.recipe.base.get("lattice.infill")
+    hint(cell_sentences(config.cases, infill.value if infill else None))
     return config
 
 

@@ -11,7 +11,7 @@ from sweep.export.errors import ExportError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sweep.config.kinds.lattice import Lattice
+    from sweep.config.kinds.specimen import Specimen
     from sweep.design.network import Network
     from sweep.export.design import Design
 
@@ -54,7 +54,7 @@ def outline(network: Network) -> Any:
     return shapely.set_precision(placed, GRID)
 
 
-def block(lattice: Lattice) -> Any:
+def block(lattice: Specimen) -> Any:
     """The box round a specimen, mm, which a slicer fills."""
     import shapely
 

@@ -1,4 +1,4 @@
-"""A part of a sheet: its walls over a panel, or the block that a slicer fills with them.
+"""A part of a sheet: its walls over a panel, or the block that a slicer fills.
 
 Both faces of a wall lie half its thickness from a fine net of one period (`design.surfaces`), which
 is laid over the panel and beyond, and cut to size. The sheet meets the faces that are pressed
@@ -17,7 +17,7 @@ from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.constants import TO_MM
 from sweep.design.surfaces.panel import net_of, printed_thickness
 from sweep.export.errors import ExportError
-from sweep.export.outline import Layout
+from sweep.export.outline import Layout, block
 from sweep.export.solid import Body, within_box
 from sweep.numbers import in_unit
 
@@ -39,7 +39,13 @@ BEYOND = 1  # period of the net around the panel
 
 def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[str]]:
     """The walls over a panel of two lengths (m), as they are printed, and what they are."""
-    lattice, (first, second) = _sheet_of(case), _two(case, sides)
+    lattice = _sheet_of(case)
+    if not lattice.tied:
+        raise ExportError(
+            f"case {case.case_id} is a block within perimeters, whose walls the slicer lays; "
+            "allowed: a .3mf with --kind settings, .csv, .pvd, .vtu, .gif"
+        )
+    first, second = _two(case, sides)
     periods = first * second / (case.footprint[0] * case.footprint[1])
     if first < case.footprint[0] or second < case.footprint[1]:
         period = " x ".join(f"{TO_MM * side:.4g}" for side in case.footprint)
@@ -61,10 +67,15 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
 
 
 def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list[str]]:
-    """The block over a panel of two lengths (m), as it is printed, and what is in it."""
+    """The block over a panel of two lengths (m), or within perimeters, as it is printed, and what
+    is in it.
+    """
     import shapely
 
-    lattice, (first, second) = _sheet_of(case), _two(case, sides)
+    lattice = _sheet_of(case)
+    if not lattice.tied:
+        return _within_perimeters(case, sides)
+    first, second = _two(case, sides)
     height = lattice.pressed_height
     plan, depth = (
         ((first, second), height) if lattice.pressed == ALONG else ((first, height), second)
@@ -74,6 +85,17 @@ def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list
     return Layout(case.case_id, shape, TO_MM * depth, 1, 1, grams), _description(
         case, first, second
     )
+
+
+def _within_perimeters(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list[str]]:
+    lattice = _sheet_of(case)
+    if sides is not None:
+        raise ExportError(f"case {case.case_id} is one block within perimeters; allowed: no panel")
+    grams = in_unit(case.material.density * lattice.extruded, "g")
+    size = " x ".join(f"{TO_MM * side:.4g}" for side in (*lattice.outer_size, lattice.depth))
+    pressed = f"pressed {'along' if case.along else 'across'} the print axis, which is z"
+    layout = Layout(case.case_id, block(lattice), TO_MM * lattice.depth, 1, 1, grams)
+    return layout, [f"{size} mm, {pressed}: rank counts {grams:.4g} g"]
 
 
 def _sheet_of(case: Case) -> Surface:
@@ -149,14 +171,8 @@ def _laid_down(points: Floats) -> Floats:
 
 def _grams(case: Case, first: float, second: float) -> float:
     """Mass of a panel as it is ranked, g."""
-    lattice = _sheet_of(case)
-    volume = (
-        lattice.extruded
-        if isinstance(lattice, SlicedSheet)
-        else lattice.area * lattice.wall_thickness
-    )
     share = first * second / (case.footprint[0] * case.footprint[1])
-    return in_unit(case.material.density * volume * share, "g")
+    return in_unit(case.material.density * _sheet_of(case).extruded * share, "g")
 
 
 def _description(case: Case, first: float, second: float) -> list[str]:

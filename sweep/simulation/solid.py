@@ -22,7 +22,8 @@ def filled(case: Case, scene: Scene | PlateScene) -> float:
     """Volume as drawn / volume of the outer box."""
     lattice = case.lattice
     if isinstance(lattice, Surface):
-        box = lattice.width * lattice.height * lattice.depth
+        width, height = lattice.outer_size
+        box = width * height * lattice.depth
         return drawn_mass(case, scene) / (case.material.density * box)
     assert scene.network is not None
     return relative_density(scene.network, lattice.outer_size)

@@ -140,7 +140,7 @@ def _own(lattice: Sliced | SlicedSheet) -> SlicerSettings:
         lattice.line_width,
         lattice.layer_height,
         lattice.fill_angle,
-        lattice.perimeters if isinstance(lattice, Sliced) else 0,
+        lattice.perimeters,
         lattice.line_width,
         exact=True,
         fill_multiline=lattice.fill_multiline,

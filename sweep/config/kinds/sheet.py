@@ -1,4 +1,6 @@
-"""A sheet that divides space in two, such as the gyroid: one period of a panel between platens."""
+"""A sheet that divides space in two, such as the gyroid, between platens: a period of a panel, or a
+block.
+"""
 
 from abc import abstractmethod
 from math import isclose
@@ -8,7 +10,7 @@ from sweep.config.kinds.direction import ACROSS, ALONG, Direction
 from sweep.config.kinds.specimen import Nodes, Specimen
 from sweep.config.kinds.table import Given, Length, Mass, RefusedError, chosen
 from sweep.constants import TO_MM
-from sweep.design.surfaces.names import SHEETS
+from sweep.design.surfaces.names import BLOCK, SHEETS
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
 CELL_SIZE = 0.5  # of the height pressed: two periods
@@ -18,12 +20,14 @@ LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 MOST_QUADS = 20_000  # with six unknowns for each
 MOST_IMPERFECTION = 1.0  # in wall thicknesses
+SIDES = ("width", "height", "depth")
+FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
 
 
 class Surface(Specimen):
     """A periodic surface as a sheet, layers stacked along `depth`.
 
-    The panel repeats without end along its sides: one period of it is computed, whose size does not
+    A panel repeats without end along its sides: one period of it is computed, whose size does not
     change. `period` (m) is that of the surface; the height pressed is a whole number of
     `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
     """
@@ -31,7 +35,6 @@ class Surface(Specimen):
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
     neutral: ClassVar[dict[str, Any]] = Specimen.neutral | {"sides": "periodic"}
-    cells_x: ClassVar[int] = 1
 
     period: Length
     pressed: Direction
@@ -68,14 +71,44 @@ class Surface(Specimen):
         return self.depth if self.pressed == ALONG else self.height
 
     @property
+    def cells_x(self) -> int:
+        """About how many periods are side by side."""
+        return max(1, round(self.width / self.period)) if not self.tied else 1
+
+    @property
     def cells_y(self) -> int:
         """About how many periods are pressed above one another."""
         return max(1, round(self.pressed_height / self.period))
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Width and height over all, m: those of the period."""
-        return self.width, self.height
+        """Width and height over all, m."""
+        return self.width + self.outline[0], self.height + self.outline[1]
+
+    @property
+    def box(self) -> tuple[float, float, float]:
+        """Width, the other lateral side, and the height pressed, m."""
+        if self.pressed == ALONG:
+            return self.width, self.height, self.depth
+        return self.width, self.depth, self.height
+
+    @property
+    def walled(self) -> tuple[int, int]:
+        """The axes of `box` across which a block has perimeters."""
+        return (0, 1) if self.pressed == ALONG else (0, 2)
+
+    @property
+    def inside(self) -> float:
+        """Share of the box that is inside of perimeters."""
+        (sides, caps), (width, height) = self.outline, (self.width, self.height)
+        return (1.0 - sides / width) * (1.0 - caps / height)
+
+    @property
+    def framed(self) -> float:
+        """Volume of the perimeters, m^3."""
+        width, height = self.outer_size
+        hollow = (self.width - self.outline[0]) * (self.height - self.outline[1])
+        return self.depth * (width * height - hollow)
 
     @property
     def area(self) -> float:
@@ -83,9 +116,16 @@ class Surface(Specimen):
         return SHEETS[self.sheet].area / self.period * self.width * self.height * self.depth
 
     @property
+    def extruded(self) -> float:
+        """Volume as printed, m^3."""
+        return self.wall_thickness * self.area
+
+    @property
     def elements(self) -> int:
         """About how many quads the sheet is divided into."""
-        return round(self.area * (self.quads_per_period / self.period) ** 2)
+        (width, height), depth = (self.width, self.height), self.depth
+        walls = 0.0 if self.tied else FINER * 2.0 * (width + height) * depth
+        return round((self.area + walls) * (self.quads_per_period / self.period) ** 2)
 
     @property
     def quads_per_period(self) -> int:
@@ -142,22 +182,42 @@ def fitted(
     """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
     the one ``wanted`` (m), which follows from a ``key``; turned: as of `Surface`.
     """
-    direction, height = ALONG if along else ACROSS, pressed_height(given, along)
-    cut = SHEETS[name].cut(turned)
-    period = height / (cut.step * max(round(height / (cut.step * wanted)), 1))
-    if not LEAST <= period / wanted <= MOST:
-        most = f"at most {TO_MM * height / (cut.step * LEAST):.4g} mm"
-        pressed = f"a {'depth' if along else 'height'} of {TO_MM * height:.4g} mm"
-        allowed = f"periods of {most} in {pressed}; {TO_MM * wanted:.4g} mm here"
-        raise RefusedError(f"lattice.{key}", given.get(key), allowed)
+    height, cut = pressed_height(given, along), SHEETS[name].cut(turned)
+    period = _period(given, along, cut.step, wanted, key)
     across, pressed = ("height", "depth") if along else ("depth", "height")
     return {
         "width": cut.across * period,
         across: cut.along * period,
         pressed: height,
         "period": period,
-        "pressed": direction,
+        "pressed": ALONG if along else ACROSS,
     }
+
+
+def fitted_block(given: Given, along: bool, wanted: float) -> dict[str, Any]:
+    """The sizes of a block with the period that fits its height, nearest to the one ``wanted`` (m),
+    which follows from the share: all sides are whole numbers of `BLOCK` periods.
+    """
+    period = _period(given, along, BLOCK, wanted, "infill")
+    step = BLOCK * period
+    sizes = {side: given.get(side, Specimen.model_fields[side].default) for side in SIDES}
+    whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
+    pressed = {"depth" if along else "height": pressed_height(given, along)}
+    return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
+
+
+def _period(given: Given, along: bool, step: float, wanted: float, key: str) -> float:
+    """The period (m) nearest to the one ``wanted``, of which the height pressed is a whole number
+    of steps; step: in periods.
+    """
+    height = pressed_height(given, along)
+    period = height / (step * max(round(height / (step * wanted)), 1))
+    if LEAST <= period / wanted <= MOST:
+        return period
+    most = f"at most {TO_MM * height / (step * LEAST):.4g} mm"
+    pressed = f"a {'depth' if along else 'height'} of {TO_MM * height:.4g} mm"
+    allowed = f"periods of {most} in {pressed}; {TO_MM * wanted:.4g} mm here"
+    raise RefusedError(f"lattice.{key}", given.get(key), allowed)
 
 
 def checked(made: S) -> S:

@@ -14,7 +14,17 @@ from sweep.config.kinds.specimen import (
     check_proportion,
     check_size,
 )
-from sweep.config.kinds.table import Angle, Few, Given, Length, Mass, RefusedError, Share, chosen
+from sweep.config.kinds.table import (
+    Angle,
+    Few,
+    Given,
+    Length,
+    Mass,
+    RefusedError,
+    Share,
+    chosen,
+    similar,
+)
 from sweep.design.geometry import Geometry
 from sweep.design.slicer.patterns import (
     LATERAL,
@@ -261,7 +271,8 @@ def _checked_pattern(given: Given) -> str:
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
-        raise RefusedError(key, pattern, f"{names}{_no_prism(pattern, patterns)}")
+        near = _no_prism(pattern, patterns) or similar(pattern, names.split('"')[1::2])
+        raise RefusedError(key, pattern, f"{names}{near}")
     if all(given.get(key) is None for key in SIZES):
         allowed = 'a share such as "20 %", a lattice.line_distance, or a lattice.mass'
         raise RefusedError("lattice.infill", None, allowed)

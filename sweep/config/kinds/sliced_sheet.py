@@ -1,14 +1,15 @@
 """A sheet as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
 
+from collections.abc import Mapping
 from math import cos, isclose
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
-from sweep.config.kinds.sheet import Surface, checked, fitted
+from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
-from sweep.config.kinds.specimen import LAYER_HEIGHT, Specimen
+from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines, Specimen
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
 from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of, spread_lines
 from sweep.design.surfaces.names import SHEETS
@@ -17,7 +18,7 @@ LEAST_SHARE = 0.02
 
 
 class SlicedSheet(Surface):
-    """The infill "gyroid" or "tpmsd" of a slicer, without perimeters.
+    """The infill "gyroid" or "tpmsd" of a slicer: of a panel, or of a block within `perimeters`.
 
     A line of mean thickness s, or several side by side, makes the sheet s |n_xy| thick, n its
     normal, and at least as thick as a layer is high. `infill` is the share whose period fits the
@@ -25,7 +26,9 @@ class SlicedSheet(Surface):
     sides of the part, at 0 and 90 degrees between them.
     """
 
-    because: ClassVar[str] = "lattice.slicer prints a sheet, one period of which is computed"
+    because: ClassVar[str] = (
+        "lattice.slicer prints a sheet, one period of which is computed without perimeters"
+    )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
 
     slicer: Literal["prusa", "orca", "cura"]
@@ -35,6 +38,23 @@ class SlicedSheet(Surface):
     fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     line_width: Length
     layer_height: Length = LAYER_HEIGHT
+    perimeters: Lines = 0
+
+    def given(self) -> dict[str, Any]:
+        """The values from which this follows: of a block all of its sides."""
+        sides = {} if self.tied else {side: self.value(side) for side in SIDES}
+        return super().given() | sides
+
+    @property
+    def tied(self) -> bool:
+        """Whether its sides repeat: without perimeters."""
+        return self.perimeters == 0
+
+    @property
+    def outline(self) -> tuple[float, float]:
+        """Thickness (m) of the perimeters at the sides, and at the bottom and top."""
+        thickness = self.perimeters * self.wall_thickness / self.fill_multiline
+        return thickness, thickness
 
     @property
     def sheet(self) -> str:
@@ -53,8 +73,9 @@ class SlicedSheet(Surface):
 
     @property
     def extruded(self) -> float:
-        """Volume as extruded, m^3."""
-        return self.wall_thickness * SHEETS[self.sheet].steep * self.area
+        """Volume as printed, m^3."""
+        sheet = SHEETS[self.sheet].steep * super().extruded
+        return sheet * self.inside + self.framed
 
 
 def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
@@ -67,7 +88,11 @@ def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
     angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
     spread = pattern.period * spread_lines(given["slicer"], lines) * one
     wanted, turned = spread / given["infill"], _is_turned(angle, along)
-    sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
+    if given.get("perimeters"):
+        sides = fitted_block(given, along, wanted)
+        _check_block(given, angle, one, sides)
+    else:
+        sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
     follows: dict[str, Any] = {
         "wall_thickness": lines * one,
         "line_width": width,
@@ -109,6 +134,16 @@ def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
         allowed = "0, 45 or 90 degrees, where it is pressed across the print axis"
         raise RefusedError("lattice.fill_angle", angle, allowed)
     return angle
+
+
+def _check_block(given: Given, angle: float, line: float, sides: Mapping[str, Any]) -> None:
+    """Refuse perimeters that leave no room, and waves across the corners of a block."""
+    if not _parallel(angle, FILL_ANGLE):
+        allowed = "45 degrees, or lattice.perimeters = 0: the waves of a block lie along its sides"
+        raise RefusedError("lattice.fill_angle", angle, allowed)
+    most = int(0.5 * min(sides["width"], sides["height"]) / line)
+    if given["perimeters"] >= most:
+        raise RefusedError("lattice.perimeters", given["perimeters"], f"0 to {most - 1}")
 
 
 def _check(given: Given, width: float, layer: float, lines: int) -> None:

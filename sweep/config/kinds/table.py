@@ -1,7 +1,8 @@
 """What the tables of a case have in common: types of values in SI, refusals, and canonical text."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
 from functools import cache, lru_cache
 from typing import Annotated, Any, ClassVar, TypeVar
 
@@ -102,6 +103,12 @@ def chosen(values: Given, model: type[Table]) -> dict[str, Any]:
 def keys_of(model: type[BaseModel]) -> set[str]:
     """The keys of a table or a case, one set for all of a kind: sets of their own take 1 kB."""
     return {*model.model_fields}
+
+
+def similar(word: str, words: Iterable[str]) -> str:
+    """A clause with the known word most similar to this one; empty if none is."""
+    near = get_close_matches(word.lower(), [*words], n=1)
+    return f'; the nearest is "{near[0]}"' if near else ""
 
 
 def given_or(value: T | None, default: T) -> T:

@@ -17,7 +17,7 @@ from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.cells import DRAWN
-from sweep.config.kinds.table import TABLES, rounded
+from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
     UnknownMaterialError,
@@ -28,7 +28,7 @@ from sweep.config.materials.plausibility import suspicion
 from sweep.config.profiles.profile import read_profile
 from sweep.config.profiles.settings import NEEDED
 from sweep.config.question import QUESTION, Rank, Require
-from sweep.config.reading.other_names import meant, present_choice, with_words
+from sweep.config.reading.other_names import CHOICES, meant, present_choice, with_words
 from sweep.config.structures.structure_file import StructureError, read_structure
 
 _REASONS = {
@@ -317,8 +317,11 @@ class Reader:
                 self._refuse(name, raw, line, where)
             return None
         except MisfitError as error:
-            allowed = with_words(keys[name].targets[0], keys[name].allowed)
-            self._refuse(name, raw, f"{error}; allowed: {allowed}", where)
+            key = keys[name]
+            allowed = with_words(key.targets[0], key.allowed)
+            words = [*CHOICES.get(key.targets[0], ()), *key.schema.get("enum", ())]
+            near = similar(raw, words) if isinstance(raw, str) else ""
+            self._refuse(name, raw, f"{error}; allowed: {allowed}{near}", where)
             return None
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:

@@ -12,6 +12,7 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
 from sweep.config.kinds.impact import DROP, Impact
+from sweep.config.kinds.sheet import SIDES
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import ARCS
 from sweep.config.materials.material_file import locate, read_record
@@ -38,6 +39,7 @@ NEEDS = {
 """Why an optional key is left out of the kind that has it."""
 
 ONLY_ALONG = ("lattice.layers", "lattice.symmetry", "lattice.imperfection_seed")
+FITTED = ("lattice.infill", *(f"lattice.{side}" for side in SIDES))
 IDLE_ALONG = (
     "loading.base_patch",
     *(f"material.{key}" for key in materials.IDLE_ALONG),
@@ -99,10 +101,11 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
     label; contact "auto" becomes the barrier, a "drop" an impact with gravity; the name of a file
-    is that without its folder; the share of a sheet is the nearest that fits.
+    is that without its folder; the share of a sheet, and the sides of a block, are the nearest that
+    fit.
     """
-    if key == "lattice.infill" and isinstance(case.lattice, SlicedSheet):
-        return True
+    if key in FITTED and isinstance(case.lattice, SlicedSheet):
+        return key.split(".")[1] in case.lattice.given()
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":

@@ -26,13 +26,16 @@ class SheetName(NamedTuple):
     mean of |n_xy|, n its unit normal.
 
     straight: a panel that is pressed along one of the axes of the surface, which are all alike.
-    turned: pressed along (1, 1, 0), the other axes of the panel are (1, -1, 0) and z.
+    turned: pressed along (1, 1, 0), the other axes of the panel are (1, -1, 0) and z. corner: of a
+    block of whole halves of a period along these axes, in periods: all of its faces meet the
+    surface steeply, and its corners are far from it.
     """
 
     area: float
     steep: float
     straight: Cut
     turned: Cut
+    corner: tuple[float, float, float]
 
     def cut(self, turned: bool) -> Cut:
         """Where a panel is cut from it."""
@@ -41,9 +44,18 @@ class SheetName(NamedTuple):
 
 SHEETS = {
     "gyroid": SheetName(
-        3.0915, 0.7953, Cut(0.0, 0.25), Cut(0.125 * ROOT, 0.25 * ROOT, across=ROOT)
+        3.0915,
+        0.7953,
+        Cut(0.0, 0.25),
+        Cut(0.125 * ROOT, 0.25 * ROOT, across=ROOT),
+        (0.0, 0.25, 0.0),
     ),
-    "schwarz_p": SheetName(2.3517, 0.8017, Cut(0.0, 0.5), Cut(0.0, 0.5 * ROOT, across=ROOT)),
-    "schwarz_d": SheetName(3.8387, 0.7939, Cut(0.125, 0.25), Cut(0.0, 0.25 * ROOT, across=ROOT)),
+    "schwarz_p": SheetName(
+        2.3517, 0.8017, Cut(0.0, 0.5), Cut(0.0, 0.5 * ROOT, across=ROOT), (0.0, 0.0, 0.0)
+    ),
+    "schwarz_d": SheetName(
+        3.8387, 0.7939, Cut(0.125, 0.25), Cut(0.0, 0.25 * ROOT, across=ROOT), (0.125, 0.375, 0.125)
+    ),
 }
 """By the name in `lattice.kind`."""
+BLOCK = 0.5  # periods: the sides of a block are whole numbers of it

@@ -1,13 +1,16 @@
-"""A net of quads on a level surface between two planes: surface nets, then smoothed.
+"""A net of quads on a level surface in a box: surface nets, then smoothed.
 
-A grid of cells covers one box of the surface. Every cell that the surface passes through has one
-node, every edge of the grid that the surface cuts one quad between the four cells round it (S.
-Gibson, Constrained elastic surface nets, 1998). The nodes then move along the surface towards the
-means of their neighbours. So there are quads only, of nearly equal size.
+A grid of cells covers the box. Every cell that the surface passes through has one node, every edge
+of the grid that the surface cuts one quad between the four cells round it (S. Gibson, Constrained
+elastic surface nets, 1998). The nodes then move along the surface towards the means of their
+neighbours. So there are quads only, of nearly equal size.
 
-The box repeats along x and y. It ends at the planes z = 0 and z = height: the cells of the outer
-layers are centred on these, and their nodes are moved along the surface to the curves in which it
-meets the planes.
+A panel repeats along x and y, and ends at the planes z = 0 and z = height; a block ends at all six
+faces of its box. The cells of the outer layers are centred on the faces where a box ends, and their
+nodes are moved along the surface to the curves in which it meets these.
+
+A face may be a wall. Then a grid of quads covers it, whose nodes are those of the surface where
+both meet: edges of the grid that leave the box have quads too, so that three labels have one net.
 """
 
 from dataclasses import dataclass, replace
@@ -25,7 +28,7 @@ ROUNDS = 30  # of smoothing
 STRIDE = 0.5  # share of the way to the mean of the neighbours, in a round
 NEWTON = 4  # steps back to the surface after a move
 LONGEST = 0.3  # such a step, in cells
-GOOD = 0.3  # `Net.quality`
+GOOD, GOOD_BESIDE_WALLS = 0.3, 0.15  # `Net.quality`; quads beside a curve are half as wide
 MORE = sorted(product(range(3), repeat=3), key=sum)  # cells
 PLACES = tuple(product((0.13, 0.63), repeat=2))  # of the box, in cells
 AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from the last of these
@@ -33,16 +36,23 @@ AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from
 
 @dataclass(frozen=True)
 class Box:
-    """The part of a level surface that repeats, in its own axes.
+    """A part of a level surface, in its own axes.
 
-    size (3,): periods along x and y, and the height, m. phase (3, 3): phases by coordinates in
-    1/m; its columns are orthogonal. origin (3,): phases at the corner of the box.
+    size (3,): along x, y and z, m. phase (3, 3): phases by coordinates in 1/m; its columns are
+    orthogonal. origin (3,): phases at the corner of the box. walls: axes across which its faces are
+    walls; None of a panel, whose x and y are whole periods.
     """
 
     surface: LevelSet
     size: Floats
     phase: Floats
     origin: Floats
+    walls: tuple[int, ...] | None = None
+
+    @property
+    def ends(self) -> np.ndarray:
+        """Along which axes it ends, (3,)."""
+        return np.array([self.walls is not None, self.walls is not None, True])
 
     def value(self, points: Floats) -> Floats:
         """The function at points (n, 3) in m."""
@@ -55,24 +65,44 @@ class Box:
 
 @dataclass(frozen=True)
 class Net:
-    """A net of quads on the surface of a ``box``; n nodes.
+    """A net of quads on the surface of a ``box`` and on its walls; n nodes.
 
     points (n, 3): m. quads (m, 4): nodes in order round each quad, its normal to the side of the
-    gradient. shift (m, 4, 2): by how many periods the corner of a quad is moved along x and y from
-    the node. bottom, top: nodes on the planes.
+    gradient, or out of the box. shift (m, 4, 2): by how many periods the corner of a quad is moved
+    along x and y from the node. wall (m,): axis across which it is a wall, -1 on the surface. face
+    (n, 3): on which faces a node is, -1, 0 between them, or 1.
     """
 
     box: Box
     points: Floats
     quads: Ints
     shift: Ints
-    bottom: Ints
-    top: Ints
+    wall: Ints
+    face: Ints
+
+    @property
+    def bottom(self) -> Ints:
+        """Nodes on the plane z = 0."""
+        return np.flatnonzero(self.face[:, 2] < 0)
+
+    @property
+    def top(self) -> Ints:
+        """Nodes on the plane z = height."""
+        return np.flatnonzero(self.face[:, 2] > 0)
+
+    @cached_property
+    def on_surface(self) -> np.ndarray:
+        """Which nodes are on the surface, (n,)."""
+        on = np.zeros(len(self.points), np.bool_)
+        on[self.quads[self.wall < 0]] = True
+        return on
 
     @cached_property
     def normals(self) -> Floats:
-        """Unit normals of the surface at the nodes, (n, 3)."""
-        return _unit(self.box.gradient(self.points))
+        """Unit normals of the surface at its nodes, (n, 3); zero at other ones."""
+        normals, on = np.zeros_like(self.points), self.on_surface
+        normals[on] = _unit(self.box.gradient(self.points[on]))
+        return normals
 
     @cached_property
     def corners(self) -> Floats:
@@ -82,13 +112,21 @@ class Net:
         return at
 
     @cached_property
+    def corner_normals(self) -> Floats:
+        """Unit normals of the surface or the wall at the corners of the quads, (m, 4, 3)."""
+        across = np.eye(3)[self.wall][:, None] * self.face[self.quads]
+        return np.where(self.wall[:, None, None] < 0, self.normals[self.quads], across)
+
+    @cached_property
     def quality(self) -> float:
         """The least, over all corners, of the area of its two sides over the squared mean side: 1
-        in a net of squares.
+        in a net of squares, negative where a quad is not convex.
         """
         ahead = np.roll(self.corners, -1, axis=1) - self.corners
-        areas = np.linalg.norm(np.cross(ahead, -np.roll(ahead, 1, axis=1)), axis=2)
-        return float(areas.min() / np.mean(np.linalg.norm(ahead, axis=2)) ** 2)
+        areas = np.cross(np.roll(ahead, 1, axis=1), ahead)
+        size = np.linalg.norm(areas, axis=2)
+        size[np.einsum("mci,mi->mc", areas, self.directions) < 0.0] *= -1.0
+        return float(size.min() / np.mean(np.linalg.norm(ahead, axis=2)) ** 2)
 
     @cached_property
     def directions(self) -> Floats:
@@ -106,19 +144,19 @@ class Net:
 
 
 def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
-    """The first net of `GOOD` quads, else the best one, on a grid of about so many cells.
+    """The first net of good quads, else the best one, on a grid of about so many cells.
 
     How a grid lies on the surface decides which quads meet at a node, and so how slender some of
-    them are. Nothing else changes if the box moves along x and y; up to two more cells along each
-    axis are tried, too.
+    them are. Nothing else changes if the box of a panel moves along x and y; up to two more cells
+    along each axis are tried, too.
     """
-    best = None
+    best, good = None, GOOD if box.walls is None else GOOD_BESIDE_WALLS
     for more in MORE:
         grid = (cells[0] + more[0], cells[1] + more[1], cells[2] + more[2])
-        for x, y in PLACES:
-            start = box.phase[:, :2] @ (np.array([x, y]) * box.size[:2] / np.array(grid[:2]))
+        for place in PLACES if box.walls is None else ((0.0, 0.0),):
+            start = box.phase[:, :2] @ (np.array(place) * box.size[:2] / np.array(grid[:2]))
             net = build_net(replace(box, origin=box.origin + start), grid)
-            if net.quality > GOOD:
+            if net.quality > good:
                 return net
             if best is None or net.quality > best.quality:
                 best = net
@@ -128,57 +166,91 @@ def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
 
 def build_net(box: Box, cells: tuple[int, int, int]) -> Net:
     """A net of ``box`` on a grid of so many cells along x, y and z."""
-    value = _grid_values(box, cells)
-    inside = value > 0.0
-    quads = np.concatenate([_quads(inside, cells, axis) for axis in range(3)])
-    cell = quads[..., 2] * cells[0] * cells[1]
-    cell += (quads[..., 1] % cells[1]) * cells[0] + quads[..., 0] % cells[0]
-    shift = quads[..., :2] // np.array(cells[:2])
-    used, corner = np.unique(cell, return_inverse=True)
-    layer = used // (cells[0] * cells[1])
-    place = np.column_stack([used % cells[0] + 0.5, used // cells[0] % cells[1] + 0.5, layer])
-    step = box.size / np.array(cells)
-    net = Net(
-        box, place * step, corner.reshape(-1, 4), shift,
-        np.flatnonzero(layer == 0), np.flatnonzero(layer == cells[2]),
-    )  # fmt: skip
-    return _smoothed(net, float(step.max()))
+    count, step = np.array(cells), box.size / np.array(cells)
+    inside = _grid_values(box, cells) > 0.0
+    cell = np.concatenate([_quads(inside, box.ends, axis) for axis in range(3)])
+    side, wall = np.zeros(len(cell), np.int64), np.full(len(cell), -1)
+    for axis in box.walls or ():
+        covered, of = _on_walls(inside, axis)
+        cell, side = np.concatenate([cell, covered]), np.append(side, of)
+        wall = np.append(wall, np.full(len(of), axis))
+    places = np.where(box.ends, count + 1, count)  # of cells along each axis
+    number = np.ravel_multi_index(np.moveaxis((cell % places)[..., ::-1], 2, 0), places[::-1])
+    used, corner = np.unique(number, return_inverse=True)
+    at = np.stack(np.unravel_index(used, places[::-1])[::-1], axis=1)
+    face = box.ends * ((at == count).astype(np.int64) - (at == 0))
+    points = np.where(face > 0, box.size, np.where(box.ends, at, at + 0.5) * step)
+    net = Net(box, points, corner.reshape(-1, 4), (cell // places)[..., :2], wall, face)
+    return _smoothed(_padded(net, side) if box.walls else net, float(step.max()))
+
+
+def _padded(net: Net, side: Ints) -> Net:
+    """The net with a row of quads on both sides of each curve in which the surface meets a wall.
+
+    Without these, a quad with three corners on such a curve would become a triangle. side (m,): on
+    which side of the surface a quad of a wall is, -1 or 1; 0 of the surface.
+    """
+    n, first = len(net.points), int((side == 0).sum())
+    old, side, wall = net.quads[first:], side[first:], net.wall[first:]
+    quads, moved = old.copy(), net.on_surface[old]  # corners, which leave the curve
+    copies, new = np.unique((old + n * (side > 0)[:, None])[moved], return_inverse=True)
+    quads[moved] = n + new
+    ends = np.sort(np.stack([old, np.roll(old, -1, axis=1)], axis=-1).reshape(-1, 2))
+    _, number = np.unique(ends, axis=0, return_inverse=True)
+    between = np.bincount(number.ravel(), np.repeat(side, 4))[number.ravel()] == 0.0
+    at, k = np.nonzero(between.reshape(-1, 4))  # sides of quads that are parts of the curve
+    ahead = (k + 1) % 4
+    rows = np.column_stack([old[at, k], old[at, ahead], quads[at, ahead], quads[at, k]])
+    return replace(
+        net,
+        points=np.concatenate([net.points, net.points[copies % n]]),
+        face=np.concatenate([net.face, net.face[copies % n]]),
+        quads=np.concatenate([net.quads[:first], quads, rows]),
+        wall=np.concatenate([net.wall, wall[at]]),
+        shift=np.concatenate([net.shift, np.zeros((len(at), 4, 2), np.int64)]),
+    )
 
 
 def _grid_values(box: Box, cells: tuple[int, int, int]) -> Floats:
-    """The function at the grid: nodes of cells along x and y, half a cell outside along z."""
+    """The function at the grid: between the nodes of cells, on the side of lower coordinates where
+    the box repeats.
+    """
     step = box.size / np.array(cells)
-    axes = [
-        np.arange(cells[0]) * step[0],
-        np.arange(cells[1]) * step[1],
-        (np.arange(cells[2] + 2) - 0.5) * step[2],
-    ]
+    axes = [(np.arange(n) + 0.5 * e) * h for n, e, h in zip(cells, box.ends, step, strict=True)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    return box.value(points).reshape(cells[0], cells[1], cells[2] + 2)
+    return box.value(points).reshape(cells)
 
 
-def _quads(inside: np.ndarray, cells: tuple[int, int, int], axis: int) -> Ints:
+def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Ints:
     """The cells round each edge along ``axis`` that the surface cuts, (k, 4, 3).
 
-    Cells are numbered along x and y without regard to the period. Edges along z inside the outer
-    layers lie between cells whose nodes are on one plane, and have no quad.
+    Cells are numbered along x and y of a panel without regard to the period.
     """
-    if axis == 2:
-        levels = np.arange(1, cells[2])
-        ahead = inside[:, :, levels + 1]
-    else:
-        levels = np.arange(1, cells[2] + 1)
-        ahead = np.roll(inside, -1, axis)[:, :, levels]
-    here = inside[:, :, levels]
-    at = np.argwhere(here != ahead)
-    falls = here[tuple(at.T)]
-    at[:, 2] = levels[at[:, 2]]
-    first, second = (axis + 1) % 3, (axis + 2) % 3
-    found = np.repeat(at[:, None], 4, axis=1)
-    found[..., first] += AROUND[:, 0] - 1
-    found[..., second] += AROUND[:, 1] - 1
+    ahead = np.roll(inside, -1, axis)
+    if ends[axis]:
+        last = np.arange(inside.shape[axis] - 1)
+        inside, ahead = np.take(inside, last, axis), np.take(ahead, last, axis)
+    at = np.argwhere(inside != ahead)
+    falls = inside[tuple(at.T)]
+    found = np.repeat(at[:, None] + ends, 4, axis=1)
+    for k in (1, 2):
+        found[..., (axis + k) % 3] += AROUND[:, k - 1] - 1
     found[falls] = found[falls][:, ::-1]
     return np.asarray(found)
+
+
+def _on_walls(inside: np.ndarray, axis: int) -> tuple[Ints, Ints]:
+    """The cells at the corners of the quads of both walls across ``axis``, (k, 4, 3), and the side
+    of the surface on which each quad is, (k,): 1 inside, else -1.
+    """
+    one, two = (axis + 1) % 3, (axis + 2) % 3
+    first = np.indices([inside.shape[one], inside.shape[two]]).reshape(2, -1).T
+    low = np.zeros((len(first), 4, 3), np.int64)
+    low[..., [one, two]] = first[:, None] + AROUND
+    high = low.copy()
+    high[..., axis] = inside.shape[axis]
+    layers = np.moveaxis(inside, (axis, one, two), (0, 1, 2))[[0, -1]]
+    return np.concatenate([low[:, ::-1], high]), np.where(layers, 1, -1).ravel()
 
 
 def _unit(vectors: Floats) -> Floats:
@@ -187,20 +259,19 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def _smoothed(net: Net, cell: float) -> Net:
-    """The net with its nodes on the surface, evenly; cell: its size in m."""
+    """The net with its nodes evenly on the surface and the walls; cell: its size in m."""
     one, two, way = _sides(net)
     n = len(net.points)
-    outer = np.zeros(n, np.bool_)
-    outer[net.bottom] = outer[net.top] = True
-    along = ~outer[one] | outer[two]  # neighbours of a node on a plane are on it, too
+    outer = np.column_stack([net.face != 0, net.on_surface])
+    along = np.all(~outer[one] | outer[two], axis=1)  # neighbours of a node on a face are on it
     one, two, way = one[along], two[along], way[along]
-    count = np.bincount(one, minlength=n)[:, None]
-    points = _projected(net, net.points, outer, cell)
+    count = np.maximum(np.bincount(one, minlength=n), 1)[:, None]
+    points = _projected(net, net.points, cell)
     for _ in range(ROUNDS):
         ahead = points[two] + way - points[one]
         move = np.stack([np.bincount(one, ahead[:, k], n) for k in range(3)], axis=1) / count
-        points = _projected(net, points + STRIDE * move, outer, cell)
-    return Net(net.box, points, net.quads, net.shift, net.bottom, net.top)
+        points = _projected(net, points + STRIDE * move, cell)
+    return replace(net, points=points)
 
 
 def _sides(net: Net) -> tuple[Ints, Ints, Floats]:
@@ -216,14 +287,13 @@ def _sides(net: Net) -> tuple[Ints, Ints, Floats]:
     return sides[:, 0], sides[:, 1], way
 
 
-def _projected(net: Net, points: Floats, outer: np.ndarray, cell: float) -> Floats:
-    """Points (n, 3) moved to the surface; those on the planes along them."""
+def _projected(net: Net, points: Floats, cell: float) -> Floats:
+    """Points (n, 3) moved to the surface, along the faces on which they are."""
     points = points.copy()
-    points[net.bottom, 2], points[net.top, 2] = 0.0, net.box.size[2]
+    of = np.flatnonzero(net.on_surface)
     for _ in range(NEWTON):
-        slope = net.box.gradient(points)
-        slope[outer, 2] = 0.0
-        move = -(net.box.value(points) / (slope**2).sum(axis=1))[:, None] * slope
+        slope = np.where(net.face[of] != 0, 0.0, net.box.gradient(points[of]))
+        move = -(net.box.value(points[of]) / (slope**2).sum(axis=1))[:, None] * slope
         length = np.linalg.norm(move, axis=1)
-        points += move * np.minimum(1.0, LONGEST * cell / np.maximum(length, 1e-300))[:, None]
+        points[of] += move * np.minimum(1.0, LONGEST * cell / np.maximum(length, 1e-300))[:, None]
     return points

@@ -1,4 +1,4 @@
-"""The net of one period of a panel: a box of a level surface, as `names.Cut` lays it."""
+"""Nets of a period of a panel and of a block: boxes of a level surface, as `names` lays them."""
 
 from functools import lru_cache
 
@@ -23,6 +23,21 @@ def net_of(name: str, turned: bool, period: float, height: float, quads: int) ->
     axes = DIAGONAL if turned else np.eye(3)
     phase = 2.0 * np.pi / period * axes.T
     box = Box(LEVEL_SETS[name], size, phase, phase[:, 2] * cut.start * period)
+    across, along, up = (max(round(quads * side / period), 2) for side in size)
+    return best_net(box, (across, along, up))
+
+
+@lru_cache(maxsize=4)
+def net_of_block(
+    name: str, period: float, size: tuple[float, float, float], walls: tuple[int, int], quads: int
+) -> Net:
+    """The net of a block, of ``quads`` a period, with walls across two axes.
+
+    period, size: m; along z of the net the sheet is pressed.
+    """
+    phase = 2.0 * np.pi / period * np.eye(3)
+    origin = 2.0 * np.pi * np.array(SHEETS[name].corner)
+    box = Box(LEVEL_SETS[name], np.array(size), phase, origin, walls)
     across, along, up = (max(round(quads * side / period), 2) for side in size)
     return best_net(box, (across, along, up))
 

@@ -18,23 +18,21 @@ LEVEL = 1e-6  # of the height: nodes no farther apart have one height
 
 def plan(frames: Mapping[str, Any]) -> dict[str, Any]:
     """The shape at rest as walls in the plan: `frames` with `edges`, and one frame."""
-    quads, position = frames["quads"], frames["position_m"][:1]
+    edges, thickness = _sides(frames)
+    position = frames["position_m"][:1]
     height = position[0, :, 2]
-    lowest = height.min() + LEVEL * np.ptp(height)
-    bottom = height[quads[:, 0]] <= lowest
+    bottom = np.all(height[edges] <= height.min() + LEVEL * np.ptp(height), axis=1)
     return {
         **{name: frames[name][:1] for name in ("strain", "time_s", "plate_y_m")},
         "position_m": position[..., :2],
-        "edges": quads[bottom, :2],
-        "edge_thickness_m": frames["quad_thickness_m"][bottom],
+        "edges": edges[bottom],
+        "edge_thickness_m": thickness[bottom],
     }
 
 
 def lines(frames: Mapping[str, Any]) -> dict[str, Any]:
     """The lines of the grid as thin walls on the screen; there are no platens."""
-    sides = np.concatenate([frames["quads"][:, [k, (k + 1) % 4]] for k in range(4)])
-    edges, first = np.unique(np.sort(sides, axis=1), axis=0, return_index=True)
-    thickness = np.tile(frames["quad_thickness_m"], 4)[first]
+    edges, thickness = _sides(frames)
     screen: NDArray[Any] = shaded.seen(np.asarray(frames["position_m"], float))[0]
     return {
         **{name: frames[name] for name in ("strain", "time_s")},
@@ -43,3 +41,10 @@ def lines(frames: Mapping[str, Any]) -> dict[str, Any]:
         "edges": edges,
         "edge_thickness_m": THIN * thickness,
     }
+
+
+def _sides(frames: Mapping[str, Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The sides of the quads as edges (m, 2), and the thickness of a quad of each one, (m,) m."""
+    sides = np.concatenate([frames["quads"][:, [k, (k + 1) % 4]] for k in range(4)])
+    edges, first = np.unique(np.sort(sides, axis=1), axis=0, return_index=True)
+    return edges, np.tile(frames["quad_thickness_m"], 4)[first]

@@ -11,6 +11,7 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
+from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
@@ -24,6 +25,7 @@ from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import interrupted, loaded, same_scenes, stroke_left, unloaded
 from sweep.report.figures.flattened import lines, plan
+from sweep.report.figures.shaded import cut_open
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.selection import (
     SCENES,
@@ -330,10 +332,13 @@ class _Stored:
         return self._known.get(key)
 
     def _move(self, case: StoredRun, row: Series) -> None:
-        """Keep the moving shape of a case if there is room."""
+        """Keep the moving shape of a case if there is room; of a sheet that behind its middle, as
+        all of its lines would hide one another.
+        """
         if self._room["shapes"] <= 0:
             return
-        shapes = lines(case.frames) if "quads" in case.frames else case.frames
+        shapes = cut_open(case.frames) if is_sheet(row["lattice_kind"]) else case.frames
+        shapes = lines(shapes) if "quads" in shapes else shapes
         moving = moving_shape(shapes, _forces(case.frames, case.history, row))
         if self._fits("shapes", len(json.dumps(moving))):
             self.shapes[case.case_id] = moving

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.columns import ALONG
+from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES, Mode, has
 from sweep.numbers import percent
 from sweep.ranking.merit import is_period, unequal_periods
@@ -43,7 +44,7 @@ SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""
 FIRST_LOADING = """\
-Along the cells: of walls as drawn, at their first loading. Printed ones that have been pressed
+{}: of walls as drawn, at their first loading. Printed ones that have been pressed
 before may be several times softer."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
@@ -52,9 +53,9 @@ TIED = """\
 BEYOND = """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
 length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
-pressed along the cells fill the whole area (solid_strain). Placed behind all others."""
+that are shells fill the whole area (solid_strain). Placed behind all others."""
 PRINTED = """\
-print g: mass as the slicer extrudes it, crossings twice. Budgets, panels and J/g count this mass;
+print g: mass as the slicer extrudes it{}. Budgets, panels and J/g count this mass;
 for designs without a slicer they count mass g."""
 UNPRINTABLE = """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
@@ -112,8 +113,21 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     period = [ONE_PERIOD] if is_period(rows).any() else []
     period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
     shaped = [SHAPED] if _is_shaped(rows) else []
-    upright = [FIRST_LOADING] if (rows["direction"] == ALONG).any() else []
-    return [*_meanings(rows, mode), *shaped, *upright, *period]
+    return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
+
+
+def _first_loading(rows: DataFrame) -> list[str]:
+    """What holds of walls that are shells; nothing if there are none."""
+    sheet, along = rows["lattice_kind"].map(is_sheet), rows["direction"] == ALONG
+    cells = ["Along the cells"] if (along & ~sheet).any() else []
+    named = " and ".join(cells + (["Sheets"] if sheet.any() else []))
+    return [FIRST_LOADING.format(named)] if named else []
+
+
+def printed_note(rows: DataFrame) -> str:
+    """Which mass a slicer extrudes: lines of a sheet do not cross."""
+    crossed = ~rows["lattice_kind"].map(is_sheet) & rows["printed_mass_g"].notna()
+    return PRINTED.format(", crossings twice" if crossed.any() else "")
 
 
 def _is_shaped(rows: DataFrame) -> bool:

@@ -18,11 +18,11 @@ from sweep.report.tables.legend import (
     EARLY,
     OPEN,
     PASSED_OVER,
-    PRINTED,
     TWICE,
     UNSURE,
     mark_notes,
     marks,
+    printed_note,
 )
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
@@ -103,7 +103,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
             notes=(
-                *((PRINTED,) if "print g" in columns else ()),
+                *((printed_note(rows),) if "print g" in columns else ()),
                 *mark_notes(rows),
                 *_passed_over(rows),
                 *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),

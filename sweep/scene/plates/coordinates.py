@@ -7,8 +7,8 @@ surfaces of the lower and the upper platen.
 The third rotation of a node inside a wall, about the normal of the wall, is held, as nothing
 resists it. Bonded platens hold the lower ends of walls in place; the upper ends follow the upper
 platen. Neither lets an end turn about the vertical axis. "glued" leaves the slope of the wall free,
-as a thin bead of glue would; "clamped" holds it. "contact" holds nothing. On a mirror plane of
-normal e a node cannot move along e, and turns about e alone.
+as a thin bead of glue would; "clamped" holds it, and both hold a wall that lies on them. "contact"
+holds nothing. On a mirror plane of normal e a node cannot move along e, and turns about e alone.
 """
 
 from dataclasses import dataclass
@@ -64,7 +64,7 @@ def leaders(mesh: ShellMesh, platen: str) -> Indices:
         supports += [numbering.position(ends, axis) for axis in (0, 1)]
         supports += [numbering.position(mesh.bottom, 2), numbering.rotation(ends, vertical)]
         leader[numbering.position(mesh.top, 2)] = numbering.high
-    if platen == "clamped":
+    if platen == "clamped" or (platen in BONDED and mesh.capped):
         supports += [numbering.rotation(ends, axis) for axis in range(3)]
     leader[np.concatenate(supports)] = -1
     return leader[numbering.of_nodes(mesh.original)]

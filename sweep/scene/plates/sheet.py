@@ -1,4 +1,4 @@
-"""One period of a sheet between platens: its net of quads, and images of its nodes around it."""
+"""A sheet between platens as quads: a block, or a period of a panel with images of its nodes."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -10,12 +10,13 @@ from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
-from sweep.design.surfaces.panel import net_of, printed_thickness
+from sweep.design.surfaces.panel import net_of, net_of_block, printed_thickness
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
 AROUND = 0.5  # of a period: how far images of triangles stand around it
 WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
+VERTICAL_AXIS = 2  # of a net, which is pressed along it
 VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is vertical
 SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
 
@@ -23,12 +24,14 @@ SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j
 @dataclass(frozen=True)
 class SheetMesh(ShellMesh):
     """A sheet as quads. Nodes of the period come first; the axes of a node are horizontal, rising,
-    and its normal. Sizes are means of two opposite sides; the shorter diagonal cuts a quad.
+    and its normal, where the sheet meets a wall, or two walls meet, x, y and z. Sizes are means of
+    two opposite sides; the shorter diagonal cuts a quad.
 
-    net: of the period.
+    net: of the period, or the block. is_flat (n,): `flat`.
     """
 
     net: Net
+    is_flat: np.ndarray
 
     @property
     def bottom(self) -> Ints:
@@ -42,8 +45,13 @@ class SheetMesh(ShellMesh):
 
     @property
     def flat(self) -> np.ndarray:
-        """As of `ShellMesh`: a sheet is smooth everywhere."""
-        return np.ones(self.n_nodes, np.bool_)
+        """As of `ShellMesh`."""
+        return self.is_flat
+
+    @property
+    def capped(self) -> bool:
+        """As of `ShellMesh`."""
+        return VERTICAL_AXIS in (self.net.box.walls or ())
 
     @property
     def quad_area(self) -> Floats:
@@ -52,13 +60,13 @@ class SheetMesh(ShellMesh):
 
     @property
     def smooth_corners(self) -> Ints:
-        """The original of each corner of the quads, (m, 4)."""
-        return np.asarray(self.original[self.quads])
+        """As of `ShellMesh`."""
+        return np.asarray(4 * self.original[self.quads] + self.net.wall[:, None] + 1)
 
     @property
     def cell(self) -> float:
-        """Half of the shorter period, m."""
-        return float(0.5 * self.period.min())
+        """Half of a period of the surface, m."""
+        return float(np.pi / np.linalg.norm(self.net.box.phase, axis=0).max())
 
     @property
     def force(self) -> float:
@@ -75,13 +83,11 @@ class SheetMesh(ShellMesh):
 @lru_cache(maxsize=16)
 def mesh_of_sheet(lattice: Surface) -> SheetMesh:
     """The mesh of a sheet."""
-    net = net_of(
-        lattice.sheet,
-        lattice.turned,
-        lattice.period,
-        lattice.pressed_height,
-        lattice.quads_per_period,
-    )
+    name, period, quads = lattice.sheet, lattice.period, lattice.quads_per_period
+    if lattice.tied:
+        net = net_of(name, lattice.turned, period, lattice.pressed_height, quads)
+    else:
+        net = net_of_block(name, period, lattice.box, lattice.walled, quads)
     return build_sheet(bowed(net, lattice), _thickness(lattice, net))
 
 
@@ -92,37 +98,50 @@ def bowed(net: Net, lattice: Surface) -> Net:
 
     over i, j = -2 .. 2 and k = 1 .. 4, with standard normal numbers g and even phases f from
     `lattice.imperfection_seed`; a is such that the root of the mean square of the bow over height
-    and phases is `lattice.imperfection` times the thickness.
+    and phases is `lattice.imperfection` times the thickness. In a block, whose walls are flat,
+
+        a sum g_ijk sin(i pi x / W) sin(j pi y / D) sin(k pi z / H),   i, j, k = 1 .. 4.
     """
     if lattice.imperfection == 0.0:
         return net
-    drawn = np.random.default_rng(lattice.imperfection_seed)
-    waves = np.stack(np.meshgrid(WAVES, WAVES, LAYERS, indexing="ij"), axis=-1).reshape(-1, 3)
-    number, phase = drawn.standard_normal(len(waves)), 2.0 * np.pi * drawn.random(len(waves))
-    share = net.points / net.box.size
-    across = np.cos(2.0 * np.pi * share[:, :2] @ waves[:, :2].T + phase)
+    drawn, share = np.random.default_rng(lattice.imperfection_seed), net.points / net.box.size
+    lateral = WAVES if lattice.tied else LAYERS
+    waves = np.stack(np.meshgrid(lateral, lateral, LAYERS, indexing="ij"), axis=-1).reshape(-1, 3)
+    number = drawn.standard_normal(len(waves))
+    if lattice.tied:
+        phase = 2.0 * np.pi * drawn.random(len(waves))
+        across = np.cos(2.0 * np.pi * share[:, :2] @ waves[:, :2].T + phase)
+        mean = 0.5
+    else:
+        across = np.prod(np.sin(np.pi * share[:, None, :2] * waves[:, :2]), axis=2)
+        mean = 0.25
     bow = (across * np.sin(np.pi * share[:, 2:] * waves[:, 2])) @ number
-    size = lattice.imperfection * lattice.wall_thickness / np.sqrt(0.25 * (number**2).sum())
+    size = lattice.imperfection * lattice.wall_thickness / np.sqrt(0.5 * mean * (number**2).sum())
     return replace(net, points=net.points + (size * bow)[:, None] * net.normals)
 
 
 def solid_of(lattice: Surface, mesh: SheetMesh) -> float:
-    """Volume of a sheet, m^3: that of its mesh, less what that has more area than the surface."""
-    return float(mesh.volume.sum() * lattice.area / mesh.net.area.sum())
+    """Volume of a sheet, m^3: that of its mesh, less what that has more area than the surface; and
+    of the walls of a block, within which the sheet ends.
+    """
+    area, sheet = mesh.net.area, mesh.net.wall < 0
+    volume = (area * mesh.thickness)[sheet].sum() * lattice.area / area[sheet].sum()
+    return float(volume * lattice.inside + lattice.framed)
 
 
 def _thickness(lattice: Surface, net: Net) -> Floats:
     """Thickness of each quad, (m,) in m."""
     line, along = lattice.wall_thickness, lattice.pressed == ALONG
     if isinstance(lattice, SlicedSheet):
-        return printed_thickness(line, lattice.layer_height, net.directions, along)
+        sheet = printed_thickness(line, lattice.layer_height, net.directions, along)
+        return np.where(net.wall < 0, sheet, lattice.outline[0])
     return np.full(len(net.quads), line)
 
 
 def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     """The mesh of a net whose quads have this thickness (m,) in m."""
-    period, n = net.box.size[:2], len(net.points)
-    copies = [np.asarray(shift) for shift in SHIFTS]
+    period, n, repeats = net.box.size[:2], len(net.points), net.box.walls is None
+    copies = [np.asarray(shift) for shift in (SHIFTS if repeats else SHIFTS[:1])]
     near = [
         _near(net, shift) if np.any(shift != 0) else np.ones(len(net.quads), bool)
         for shift in copies
@@ -139,19 +158,22 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     shorter = np.concatenate([_shorter(net.corners)[rows] for rows in near])
     side = np.linalg.norm(np.roll(net.corners, -1, axis=1) - net.corners, axis=2)
     own = quads[: len(net.quads)]
+    frames, flat = _frames(net)
+    directors = np.einsum("mcji,mcj->mci", frames[net.quads], net.corner_normals)
     return SheetMesh(
         height=float(net.box.size[2]),
         rest=rest,
-        frames=_frames(net.normals)[original],
+        frames=frames.reshape(-1, 9)[original],
         quads=own,
         size=np.column_stack([side[:, [0, 2]].mean(axis=1), side[:, [1, 3]].mean(axis=1)]),
         thickness=thickness,
-        directors=np.tile([0.0, 0.0, 1.0], (len(own), 4, 1)),
+        directors=np.where(flat[net.quads][..., None], [0.0, 0.0, 1.0], directors),
         triangles=cut(quads, shorter),
         original=original,
         shift=shift,
-        period=period,
+        period=period if repeats else np.full(2, np.inf),
         net=net,
+        is_flat=flat[original],
     )
 
 
@@ -178,11 +200,20 @@ def _shorter(corners: Floats) -> np.ndarray:
     return np.asarray((one**2).sum(axis=1) < (two**2).sum(axis=1))
 
 
-def _frames(normals: Floats) -> Floats:
-    """Axes (n, 9): a horizontal tangent, the tangent across it, which rises, and the normal."""
-    across = np.column_stack([-normals[:, 1], normals[:, 0], np.zeros(len(normals))])
+def _frames(net: Net) -> tuple[Floats, np.ndarray]:
+    """Axes of the nodes as columns of matrices (n, 3, 3): a horizontal tangent, the tangent across
+    it, which rises, and the normal; x, y and z where nodes have two tangent planes. And whether
+    they have one, (n,).
+    """
+    n = len(net.points)
+    planes = np.zeros((n, 4), np.bool_)  # of the surface, and of walls across x, y and z
+    planes[net.quads, net.wall[:, None] + 1] = True
+    flat, normals = planes.sum(axis=1) == 1, np.empty((n, 3))
+    normals[net.quads] = net.corner_normals
+    across = np.column_stack([-normals[:, 1], normals[:, 0], np.zeros(n)])
     length = np.linalg.norm(across, axis=1)
     vertical = length < VERTICAL
     across[vertical], length[vertical] = [1.0, 0.0, 0.0], 1.0
     across /= length[:, None]
-    return np.stack([across, np.cross(normals, across), normals], axis=2).reshape(-1, 9)
+    own = np.stack([across, np.cross(normals, across), normals], axis=2)
+    return np.where(flat[:, None, None], own, np.eye(3)), flat

@@ -82,6 +82,11 @@ class ShellMesh(ABC):
         """The shells, without stress at ``x_rest``; moduli: as `law.shear_moduli`, Pa."""
 
     @property
+    def capped(self) -> bool:
+        """Whether walls lie on the platens."""
+        return False
+
+    @property
     def planes(self) -> Floats:
         """Places of the mirror planes of x and y, (2,) m; infinite without."""
         return np.full(2, np.inf)

@@ -128,7 +128,7 @@ class Voxels:
         uniform = [(CORNERS @ tensor(e) / self.n).ravel() for e in np.eye(6)]
         pushed = self.bricks @ np.stack(uniform, axis=1)
         force = np.bincount(unknown.ravel(), (sign * pushed[..., component]).ravel(), size)
-        move = _solved(self._matrix(unknown, sign, size), -force)
+        move = solved(self._matrix(unknown, sign, size), -force)
         stress = uniform @ pushed.sum(axis=0)[:, component]
         stress += np.einsum("mik,mi->k", pushed, sign * move[unknown])
         like = [np.all(symmetry.characters(self.members, k) == character) for k in range(6)]
@@ -142,7 +142,7 @@ class Voxels:
         return csr_array((values, (rows, columns)), (size, size))
 
 
-def _solved(matrix, force):
+def solved(matrix, force):
     """The solution, zero where the matrix is; RuntimeError if it does not converge."""
     diagonal = matrix.diagonal()
     scale = np.where(diagonal > 0.0, 1.0 / np.where(diagonal > 0.0, diagonal, 1.0), 0.0)

@@ -21,6 +21,21 @@ def test_each_lattice_is_told_once():
     ]
 
 
+def test_the_share_of_a_sheet_and_the_sides_of_a_block_are_told():
+    sheet = dict(slicer="orca", pattern="gyroid", infill=0.15, height=12.5e-3)
+    loading = dict(mode="displacement")
+    assert cell_sentences([Case.of(lattice=sheet, loading=loading)], 0.15) == [
+        "gyroid, 14.7 % for 15 %, pressed across the print axis: 1.75 x 7.143 mm, the period, in "
+        "12.5 mm"
+    ]
+    block = dict(sheet, width=20e-3, depth=10e-3, perimeters=2)
+    (line,) = cell_sentences(
+        [Case.of({"lattice.infill": 0.2}, lattice=block, loading=loading)], 0.3
+    )
+    assert line.startswith("gyroid, 16.8 % for 20 %, ")
+    assert line.endswith("; a block of 18.75 x 12.5 x 9.375 mm within perimeters")
+
+
 def test_a_drawing_is_told_with_its_loose_ends():
     joints = ((0.0, 0.0), (0.02, 0.0), (0.0, 0.01), (0.02, 0.01), (0.005, 0.0025))
     whole = Drawing(joints[:4], ((0, 1), (0, 2), (1, 3), (2, 3)))

@@ -79,7 +79,7 @@ def test_a_period_of_a_sheet_is_no_part(capsys, config, tmp_path, range_):
     path.write_text(f'{sheet}"lattice.{range_}\n')
     status, out, err = crumple(capsys, "optimize", str(path), "--budget", "1 g")
     assert (status, out) == (2, "")
-    assert "gyroid in [search]; allowed: lattices that are parts" in err
+    assert "gyroid in [search]; allowed: lattices that are drawn with lines" in err
 
 
 def test_rows_of_another_loading_are_left_alone(capsys, config):

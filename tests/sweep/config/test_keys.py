@@ -53,7 +53,8 @@ CHOICES = {
 @pytest.mark.parametrize("text", CHOICES)
 def test_unknown_choices_name_the_known_ones(lines, text):
     value, allowed = CHOICES[text].split("; ")
-    assert lines(text) == [f"{value}: unknown choice; allowed: {allowed}"]
+    (line,) = lines(text)
+    assert line.partition("; the nearest is")[0] == f"{value}: unknown choice; allowed: {allowed}"
 
 
 @pytest.mark.parametrize(

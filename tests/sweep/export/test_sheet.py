@@ -102,3 +102,20 @@ def test_what_no_part_can_be_made_of_is_refused(tmp_path, name, wish, words):
     with pytest.raises(ExportError, match=words):
         export_case(case(name), tmp_path / wish.pop("to"), **wish)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_block_is_printed_by_the_settings_of_its_slicer(tmp_path):
+    lattice = dict(SHEETS["straight"], width=6 * MM, height=6 * MM, depth=6 * MM, perimeters=2)
+    block = Case.of(lattice=lattice, loading={"direction": "in_plane"})
+    layout, notes = sheet_block(block, None)
+    assert layout.shape.bounds[2:] == pytest.approx(
+        [side / MM for side in block.lattice.outer_size]
+    )
+    assert layout.depth == pytest.approx(block.lattice.depth / MM)
+    assert f"{layout.grams:.4g} g" in notes[0]
+    made = export_case(block, tmp_path / "a.3mf", kind="settings")
+    assert "wall loops 2" in made.notes[1]
+    with pytest.raises(ExportError, match="no panel"):
+        sheet_block(block, (0.06, 0.04))
+    with pytest.raises(ExportError, match="--kind settings"):
+        sheet_panel(block, None)

@@ -28,3 +28,15 @@ def test_a_slicer_draws_a_little_more_than_it_extrudes():
     assert 1.0 < drawn_mass(case, of) / extruded < 1.05
     assert of.mesh.thickness.min() == case.lattice.layer_height
     assert of.mesh.thickness.max() <= case.lattice.wall_thickness
+
+
+@pytest.mark.parametrize("direction", ["in_plane", "out_of_plane"])
+def test_a_block_is_drawn_nearly_as_it_is_extruded(direction):
+    sizes = dict.fromkeys(("width", "height", "depth"), 5e-3)
+    values = {"slicer": "prusa", "pattern": "gyroid", "infill": 0.2, "perimeters": 2} | sizes
+    case = Case.of(lattice=values, loading={"direction": direction})
+    of, (width, height) = build_scene(case), case.lattice.outer_size
+    extruded = case.material.density * case.lattice.extruded
+    assert drawn_mass(case, of) == pytest.approx(extruded, rel=0.01)
+    box = case.material.density * width * height * 5e-3
+    assert filled(case, of) == pytest.approx(drawn_mass(case, of) / box, rel=1e-12)

@@ -82,3 +82,46 @@ def test_what_a_slicer_does_not_print_is_refused(values, words):
     with pytest.raises(RefusedError) as refused:
         sheet(**values)
     assert words in str(refused.value)
+
+
+def block(direction="out_of_plane", **lattice):
+    sizes = {"width": 14 * MM, "height": 11 * MM, "depth": 12 * MM, "perimeters": 2}
+    values = {"slicer": "orca", "pattern": "gyroid", "infill": 0.2} | sizes | lattice
+    return Case.of(lattice=values, loading={"direction": direction})
+
+
+@pytest.mark.parametrize("direction", ["in_plane", "out_of_plane"])
+@pytest.mark.parametrize("pattern", ["gyroid", "tpmsd"])
+def test_the_sides_of_a_block_are_whole_halves_of_the_period(pattern, direction):
+    case = block(direction, pattern=pattern)
+    made = case.lattice
+    halves = [2 * side / made.period for side in (made.width, made.height, made.depth)]
+    assert halves == pytest.approx([round(half) for half in halves])
+    assert case.height == (12 * MM if case.along else 11 * MM)
+    assert made.width == pytest.approx(14 * MM, abs=0.25 * made.period)
+    assert made.outer_size == pytest.approx((made.width + 2 * LINE, made.height + 2 * LINE))
+    assert not made.tied
+    assert made.cells_x == round(0.5 * halves[0])
+    assert Case.from_json(case.to_json()).case_id == case.case_id
+
+
+def test_a_block_is_its_perimeters_and_the_sheet_between_them():
+    made, panel = block().lattice, sheet(infill=block().lattice.infill, height=12 * MM)
+    frame = 2 * 2 * LINE * (made.width + made.height) * made.depth
+    inside = (made.width - 2 * LINE) * (made.height - 2 * LINE) * made.depth
+    share = panel.extruded / (panel.width * panel.height * panel.depth)
+    assert made.extruded == pytest.approx(frame + share * inside, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"fill_angle": 0.0}, "45 degrees"),
+        ({"perimeters": 20}, "0 to 13"),
+        ({"infill": 0.02}, "periods of at most"),
+    ],
+)
+def test_a_block_that_does_not_fit_is_refused(values, words):
+    with pytest.raises(RefusedError) as refused:
+        block(**values)
+    assert words in str(refused.value)

@@ -53,7 +53,8 @@ def test_a_drop_is_an_impact_that_can_be_excluded(load):
 def test_other_words_for_the_choices_are_named(lines):
     (line,) = lines('[loading]\nmode = "crash"')
     allowed = '"force" ("dead load"), "displacement" ("crush"), "impact", "drop" or "custom"'
-    assert line == f'loading.mode = "crash": unknown choice; allowed: {allowed}'
+    near = '; the nearest is "crush"'
+    assert line == f'loading.mode = "crash": unknown choice; allowed: {allowed}{near}'
 
 
 def test_other_values_are_left_for_the_key_to_refuse(lines):
@@ -61,6 +62,14 @@ def test_other_values_are_left_for_the_key_to_refuse(lines):
     assert present_choice("material.name", "grid") == "grid"
     (line,) = lines('[lattice]\nkind = "gird"')
     assert 'kind = "gird": unknown choice; allowed: "brick"' in line
+    assert line.endswith('; the nearest is "grid"')
+
+
+def test_misspelled_sheets_are_found(lines):
+    (line,) = lines('[lattice]\nkind = "gyriod"')
+    assert line.endswith('; the nearest is "gyroid"')
+    (line,) = lines('[lattice]\nslicer = "orca"\npattern = "tmpsd"\ninfill = "20 %"')
+    assert line.endswith('; the nearest is "tpmsd"')
 
 
 @pytest.mark.parametrize(

@@ -90,6 +90,8 @@ NEEDED = [
     '[contact]\nmodel = "none"\nfriction = 0.2\n[loading]\nplaten = "contact"',
     PRESSED + '[damping]\nmodel = "none"\n[solver]\nintegrator = "static"',
     "[lattice]\ncells = 3\n[grid]\nlattice.cells = [2, 3]",
+    '[lattice]\nslicer = "orca"\npattern = "gyroid"\ninfill = "20 %"\n'
+    'perimeters = 2\nwidth = "14 mm"',  # the nearest that fits
 ]
 
 
@@ -115,6 +117,7 @@ def test_a_key_that_some_case_needs_is_fine(load, text):
             *('perimeters = 1\nlayer_height = "0.5 mm"', 'layer_height = "0.5 mm"'),
             "lattice.solid_layers is 0",
         ),
+        ('kind = "gyroid"\nwidth = "20 mm"', 'width = "20 mm"', "lattice.kind is a sheet"),
     ],
 )
 def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):

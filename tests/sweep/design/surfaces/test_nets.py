@@ -1,12 +1,12 @@
-"""Nets of quads on a surface: on it, closed but for the planes, even, and periodic."""
+"""Nets of quads on a surface: on it, closed but for the planes, even, and periodic; with walls."""
 
 import numpy as np
 import pytest
 
 from sweep.design.surfaces.level_set import LevelSet
 from sweep.design.surfaces.names import SHEETS
-from sweep.design.surfaces.nets import GOOD, Box, build_net
-from sweep.design.surfaces.panel import net_of
+from sweep.design.surfaces.nets import GOOD, GOOD_BESIDE_WALLS, Box, build_net
+from sweep.design.surfaces.panel import net_of, net_of_block
 
 PANELS = [(name, turned) for name in SHEETS for turned in (False, True)]
 IDS = [f"{name}{', turned' * turned}" for name, turned in PANELS]
@@ -76,3 +76,46 @@ def test_a_plane_is_a_grid_of_squares():
     assert len(net.quads) == 2 * 64
     np.testing.assert_allclose(net.area, 1.0 / 64, rtol=1e-6)
     assert net.quality == pytest.approx(1.0, rel=1e-6)
+
+
+BLOCKS = [(name, walls) for name in ("gyroid", "schwarz_d") for walls in ((0, 1), (0, 2))]
+SIZE = np.array([3.0, 2.0, 2.0])
+
+
+def block(name, walls):
+    """A block of three by two by two halves of a period of 2."""
+    return net_of_block(name, 2.0, tuple(SIZE), walls, 8)
+
+
+@pytest.mark.parametrize(("name", "walls"), BLOCKS)
+def test_walls_cover_the_faces_of_a_block_and_share_nodes_with_the_surface(name, walls):
+    net = block(name, walls)
+    assert net.quality > GOOD_BESIDE_WALLS
+    slope = np.linalg.norm(net.box.gradient(net.points), axis=1)
+    away = np.abs(net.box.value(net.points) / slope)[net.on_surface]
+    assert away.max() < 1e-9
+    ends = np.where(net.face > 0, SIZE, 0.0)
+    np.testing.assert_array_equal(net.points[net.face != 0], ends[net.face != 0])
+    for axis in range(3):
+        covered = net.area[net.wall == axis].sum()
+        assert covered == pytest.approx((axis in walls) * 2 * SIZE.prod() / SIZE[axis], rel=1e-12)
+    facing = np.einsum("mci,mi->mc", net.corner_normals, net.directions)
+    assert facing.min() > 0.4
+    np.testing.assert_allclose(facing[net.wall >= 0], 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "walls"), BLOCKS)
+def test_three_quads_meet_along_a_curve_and_two_where_walls_meet(name, walls):
+    net = block(name, walls)
+    ends = np.sort(np.stack([net.quads, np.roll(net.quads, -1, axis=1)], axis=-1).reshape(-1, 2))
+    wall = np.repeat(net.wall, 4)
+    rows, number = np.unique(ends, axis=0, return_inverse=True)
+    count = np.bincount(number.ravel())
+    of_surface = np.bincount(number.ravel(), wall < 0)
+    on = (net.face[rows[:, 0]] == net.face[rows[:, 1]]) & (net.face[rows[:, 0]] != 0)
+    expected = np.where(on.any(axis=1), 0, 2)
+    for axis in walls:  # two quads of a wall, or one at the end of the wall
+        expected += on[:, axis] * np.where(on.sum(axis=1) == 2, 1, 2)
+    expected += (of_surface == 1) & on.any(axis=1)
+    np.testing.assert_array_equal(count, expected)
+    assert np.any(count == 3)

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.design.surfaces.level_set import LEVEL_SETS
 from sweep.design.surfaces.names import SHEETS
-from sweep.design.surfaces.panel import net_of, printed_thickness
+from sweep.design.surfaces.panel import net_of, net_of_block, printed_thickness
 
 PANELS = [(name, turned) for name in SHEETS for turned in (False, True)]
 
@@ -58,3 +58,13 @@ def test_a_printed_sheet_is_thinner_where_it_lies_flat_and_never_below_a_layer(a
     normals = np.column_stack([level, 0.0 * level, upward])
     normals = normals if along else normals[:, [0, 2, 1]]
     np.testing.assert_allclose(printed_thickness(0.5, 0.2, normals, along), [0.5, 0.4, 0.2])
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_a_block_meets_its_faces_steeply_and_no_corner_is_near_the_sheet(name):
+    net = net_of_block(name, 1.0, (1.0, 0.5, 1.5), (0, 1), 12)
+    for axis in range(3):
+        outer = net.on_surface & (net.face[:, axis] != 0)
+        assert np.abs(net.normals[outer, axis]).max() < 0.7
+    corners = np.stack(np.meshgrid(*([0.0, side] for side in net.box.size)), -1).reshape(-1, 3)
+    assert np.abs(net.box.value(corners)).min() > 0.7

@@ -18,6 +18,13 @@ def test_plan_of_a_tube_is_a_square_of_its_thickness():
     assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
 
 
+def test_a_plan_has_the_sides_on_the_ground_wherever_quads_begin():
+    frames = tube()
+    quads = np.array([np.roll(row, k) for k, row in enumerate(frames["quads"])])
+    found = plan(frames | {"quads": quads})
+    np.testing.assert_array_equal(found["edges"], plan(frames)["edges"])
+
+
 def test_lines_are_the_edges_of_the_quads_each_once():
     frames = tube()
     found = lines(frames)

@@ -138,3 +138,6 @@ def test_plates_are_drawn_as_their_plan_and_move_as_lines(tmp_path):
     (shape,) = data["shapes"].values()
     assert shape["nodes"] == 8
     assert shape["plates"] == [[None, None]] * 3
+    upright = {"direction": "out_of_plane", "solid_strain": 0.7, "lattice_kind": "gyroid"}
+    (shape,) = gathered(tmp_path, summary(upright))["shapes"].values()
+    assert shape["nodes"] == 6  # of the two quads behind

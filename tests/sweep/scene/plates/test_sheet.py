@@ -12,6 +12,7 @@ from kernels.plates.contacts.thickness import THICKENING
 from kernels.shared.rows import CONTACT
 from sweep.config.case import Case
 from sweep.design.surfaces.nets import build_net
+from sweep.scene.plates.coordinates import leaders
 from sweep.scene.plates.scene import build_scene, scene_of
 from sweep.scene.plates.sheet import bowed, build_sheet, mesh_of_sheet
 from tests.support.kernels.pressed_plates import reduction, shaken, unit, whole
@@ -44,10 +45,14 @@ PRINTED = dict(
     fill_angle=0.0,
     nodes_per_wall=2,
 )
+BLOCK = PRINTED | dict.fromkeys(("width", "height", "depth"), 0.5 * HEIGHT)
+BLOCK |= {"perimeters": 1, "fill_angle": 0.25 * np.pi}
 CASES = {
     "glued": case(),
     "clamped": case(platen="clamped"),
     "loose": case(platen="contact"),
+    "block": pressed(BLOCK, "out_of_plane", "glued"),
+    "loose block": pressed(BLOCK, "in_plane", "contact"),
     "turned": pressed(PRINTED | {"height": HEIGHT}, "in_plane", "glued"),
 }
 
@@ -75,7 +80,7 @@ def squeezed(of, seed=0):
     x, mesh = of.x_rest.copy(), of.mesh
     nodes = x[:-2].reshape(-1, 6)
     nodes[:, 2] *= FLAT
-    before = mesh.net.normals[mesh.original]
+    before = mesh.frames.reshape(-1, 3, 3)[..., 2]
     after = before / [1.0, 1.0, FLAT]
     axis = np.cross(before, after / np.linalg.norm(after, axis=1)[:, None])
     sine = np.linalg.norm(axis, axis=1)
@@ -203,3 +208,24 @@ def test_an_imperfection_moves_nodes_along_normals_and_none_on_the_platens():
     np.testing.assert_allclose(along, size, atol=1e-15)
     other = bowed(net, case(imperfection=0.1, imperfection_seed=4).lattice).points
     assert np.abs(other - net.points - move).max() > 0.1 * size.max()
+
+
+def test_nodes_where_walls_meet_turn_about_all_axes_and_have_a_director_of_each():
+    mesh = scene("block").mesh
+    joints = ~mesh.flat
+    net, corner = mesh.net, mesh.directors
+    planes = net.on_surface + (net.face[:, :2] != 0).sum(axis=1)
+    np.testing.assert_array_equal(joints, planes > 1)
+    frames = mesh.frames.reshape(-1, 3, 3)[mesh.quads]
+    np.testing.assert_allclose(
+        np.einsum("mcij,mcj->mci", frames, corner), net.corner_normals, atol=1e-12
+    )
+    free = leaders(mesh, "glued")[:-2].reshape(-1, 6) >= 0
+    inner = net.face[:, 2] == 0
+    np.testing.assert_array_equal(free[inner, 5], joints[inner])
+
+
+def test_a_wall_that_is_glued_to_a_platen_does_not_turn():
+    mesh = build_scene(pressed(BLOCK, "in_plane", "glued")).mesh
+    leader = leaders(mesh, "glued")[:-2].reshape(-1, 6)
+    assert np.all(leader[np.concatenate([mesh.bottom, mesh.top]), 3:] == -1)
