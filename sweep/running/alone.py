@@ -1,25 +1,37 @@
 """A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-The process of suspect cases runs this module; function and cases reach it by its standard input.
+The process of suspect cases runs this module; function, cases and results pass through a socket.
 """
 
 import os
-import pickle
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from math import inf
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from typing import Any
 
 import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
+from sweep.running.memory import limited_memory
 
 MOMENT = 0.2  # seconds between two checks for a stop
+GRACE = 1.0  # seconds after its time limit in which a case may end by itself
+BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
+NO_MEMORY = "needs more memory than there is; try fewer cells, nodes or steps"
+KILLED = "solver.time_limit of {:g} s reached, and its process had to be killed; raise it"
 
 Simulate = Callable[[Case, np.ndarray], Result]
+
+
+class _StoppedError(Exception):
+    """The run ends."""
 
 
 def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
@@ -27,8 +39,7 @@ def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
     try:
         return simulate(case, control)
     except MemoryError:
-        message = "needs more memory than there is; try fewer cells, nodes or steps"
-        return failed_result(case, Status.STOPPED, message)
+        return failed_result(case, Status.STOPPED, NO_MEMORY)
     except Exception as error:  # noqa: BLE001 a defect in one case must not end the sweep
         message = f"unexpected {one_line(error)}; please report it"
         return failed_result(case, Status.STOPPED, message)
@@ -37,50 +48,66 @@ def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
 def run_alone(
     simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool] = lambda: False
 ) -> list[Result]:
-    """Results of cases in a process of their own; if it dies, of each half of them in another one.
+    """Results of cases in a process of their own; the case with which it ends begins another one.
 
-    A case whose process dies with no other case in it has the status `worker_died`. After a stop
-    there are no further results. simulate: a function of a module, by its name.
+    A case whose process dies with no other case before it has the status `worker_died`. The process
+    is killed `GRACE` after the time limit of a case. After a stop there are no further results.
+    simulate: a function of a module, by its name.
     """
-    results = _run_in_child(simulate, batch, is_stopped)
-    if results is not None:
-        return results
-    if len(batch) == 1:
-        return [failed_result(batch[0], Status.WORKER_DIED, DIED)]
-    half = len(batch) // 2
-    first = run_alone(simulate, batch[:half], is_stopped)
-    return first + run_alone(simulate, batch[half:], is_stopped)
+    results: list[Result] = []
+    while len(results) < len(batch) and not is_stopped():
+        results += _run_in_child(simulate, batch[len(results) :], is_stopped)
+    return results
 
 
 def _run_in_child(
     simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool]
-) -> list[Result] | None:
-    """Results of cases in a process; None if it dies."""
-    words, pipe = [sys.executable, "-P", "-m", __name__], subprocess.PIPE
+) -> Iterator[Result]:
+    """Results of cases in one process until it ends, at least one unless there is a stop."""
+    here, there = Pipe()
+    words = [sys.executable, "-P", "-m", __name__, str(there.fileno())]
     places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    task: bytes | None = pickle.dumps((simulate, batch))
     with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
-        words, stdin=pipe, stdout=pipe, env=places, start_new_session=True
+        words, stdout=2, env=places, pass_fds=[there.fileno()], start_new_session=True
     ) as process:
-        while not is_stopped():
-            try:
-                output, _ = process.communicate(task, timeout=MOMENT)
-            except subprocess.TimeoutExpired:
-                task = None
-                continue
-            return pickle.loads(output) if process.returncode == 0 else None
-        process.kill()
-    return []
+        there.close()
+        case, before = batch[0], 0
+        try:
+            here.send((simulate, batch))
+            for before, case in enumerate(batch):
+                _receive(here, inf, is_stopped)
+                yield _receive(here, case.solver.time_limit + GRACE, is_stopped)
+        except _StoppedError:
+            pass
+        except TimeoutError:
+            yield failed_result(case, Status.TIMED_OUT, KILLED.format(case.solver.time_limit))
+        except (EOFError, OSError):
+            if not before:
+                yield failed_result(case, Status.WORKER_DIED, DIED)
+        finally:
+            here.close()
+            process.kill()
 
 
-def answer() -> None:
-    """Run the cases on standard input; write results to standard output, and nothing else."""
+def _receive(channel: Connection, seconds: float, is_stopped: Callable[[], bool]) -> Any:
+    """What comes within some time."""
+    due = time.monotonic() + seconds
+    while not channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
+        if is_stopped():
+            raise _StoppedError
+        if time.monotonic() > due:
+            raise TimeoutError
+    return channel.recv()
+
+
+def answer(channel: Connection) -> None:
+    """Receive cases, run them, send their results."""
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    simulate, batch = pickle.load(sys.stdin.buffer)
-    channel, sys.stdout = sys.stdout.buffer, sys.stderr
-    results = [attempt(simulate, case, np.zeros(2, np.int64)) for case in batch]
-    channel.write(pickle.dumps(results))
-    channel.flush()
+    simulate, batch = channel.recv()
+    with limited_memory():
+        for case in batch:
+            channel.send(BEGUN)
+            channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
 
 
 def _end_with(parent: int) -> None:
@@ -96,4 +123,4 @@ def one_line(error: Exception) -> str:
 
 
 if __name__ == "__main__":
-    answer()
+    answer(Connection(int(sys.argv[1])))

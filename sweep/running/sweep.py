@@ -5,6 +5,7 @@ import signal
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from threading import current_thread, main_thread
 
@@ -12,11 +13,12 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, expand, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
-from sweep.running.alone import Simulate, run_alone
+from sweep.running.alone import NO_MEMORY, Simulate, run_alone
 from sweep.running.batches import Plan, cost
 from sweep.running.cluster import Cluster, Scheduler, open_cluster
 from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal
+from sweep.running.memory import limited_memory
 from sweep.running.period_note import sentences_on_periods
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
@@ -107,9 +109,12 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     if cluster:
                         run_on_cluster(plan, work, keep, stop, cluster, progress.say, suspects)
                     else:
-                        for case in suspects:
-                            keep(run_alone(work.simulate, [case], lambda: stop.flag))
-                        run_on_threads(plan, journal.watched(work.simulate), sink, stop)
+                        _run_alone(work.simulate, suspects, keep, stop)
+                        large: list[Case] = []
+                        fits = partial(_sort_out, large, sink)
+                        with limited_memory():
+                            run_on_threads(plan, journal.watched(work.simulate), fits, stop)
+                        _run_alone(work.simulate, large, sink, stop)
     kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
@@ -122,6 +127,18 @@ def _work(simulate: Simulate | None, cases: Sequence[Case], cluster: Cluster | N
     if simulate:
         return Work(simulate, [])
     return Work(*simulate_unloaded(cases)) if cluster else Work(real_simulate(cases), [])
+
+
+def _run_alone(simulate: Simulate, cases: Iterable[Case], sink: Sink, stop: Stop) -> None:
+    """Run cases one after the other, each in a process of its own."""
+    for case in cases:
+        sink(run_alone(simulate, [case], lambda: stop.flag))
+
+
+def _sort_out(large: list[Case], sink: Sink, results: list[Result]) -> None:
+    """Pass on results, but of cases that found too little memory beside others: these are left."""
+    large += [result.case for result in results if result.message == NO_MEMORY]
+    sink([result for result in results if result.message != NO_MEMORY])
 
 
 def _ending(suspects: Iterable[Case], journal: Journal, sink: Sink) -> Sink:

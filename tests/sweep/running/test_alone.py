@@ -4,6 +4,9 @@ import os
 import sys
 import threading
 import time
+from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit
+
+import numpy as np
 
 from sweep.result import Status
 from sweep.running.alone import run_alone
@@ -43,6 +46,30 @@ def test_of_several_only_the_one_that_kills_is_such_a_row():
     statuses = {number_of(result.case): result.status for result in results}
     assert [n for n, status in statuses.items() if status is Status.WORKER_DIED] == [1]
     assert statuses[4] is statuses[6] is Status.CONVERGED
+
+
+def test_a_case_that_does_not_end_by_itself_is_killed_in_time():
+    """Neither those before it nor those after it are lost."""
+    batch = [case.changed(solver={"time_limit": 1.0}) for case in cases(4)]
+    started = time.monotonic()
+    first, late, defect = run_alone(poisonous, [batch[0], *batch[2:]])
+    assert time.monotonic() - started < 30.0
+    assert (first.status, defect.status) == (Status.CONVERGED, Status.STOPPED)
+    assert (late.case, late.status) == (batch[2], Status.TIMED_OUT)
+    assert late.message.startswith("solver.time_limit of 1 s reached")
+
+
+def test_its_memory_is_limited_to_what_is_free():
+    (result,) = run_alone(large, cases(1))
+    assert result.status is Status.STOPPED
+    assert result.message.startswith("needs more memory than there is")
+
+
+def large(case, control):
+    """A case that takes half of its limit twice."""
+    limit = getrlimit(RLIMIT_DATA)[0]
+    assert limit != RLIM_INFINITY
+    return simulate(case), [np.empty(limit // 2, np.uint8) for _ in range(2)]
 
 
 def test_a_stop_ends_it():
