@@ -8,7 +8,8 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager, suppress
 from math import inf
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
@@ -46,67 +47,89 @@ def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
 
 
 def run_alone(
-    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool] = lambda: False
+    simulate: Simulate, batch: Iterable[Case], is_stopped: Callable[[], bool] = lambda: False
 ) -> list[Result]:
-    """Results of cases in a process of their own; the case with which it ends begins another one.
+    """Results of cases, one after the other, in a process of their own; fewer after a stop.
 
-    A case whose process dies with no other case before it has the status `worker_died`. The process
-    is killed `GRACE` after the time limit of a case. After a stop there are no further results.
     simulate: a function of a module, by its name.
     """
-    results: list[Result] = []
-    while len(results) < len(batch) and not is_stopped():
-        results += _run_in_child(simulate, batch[len(results) :], is_stopped)
-    return results
+    with Child() as child:
+        results = [child.run(simulate, case, is_stopped) for case in batch]
+    return [result for result in results if result]
 
 
-def _run_in_child(
-    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool]
-) -> Iterator[Result]:
-    """Results of cases in one process until it ends, at least one unless there is a stop."""
-    here, there = Pipe()
-    words = [sys.executable, "-P", "-m", __name__, str(there.fileno())]
-    places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
-        words, stdout=2, env=places, pass_fds=[there.fileno()], start_new_session=True
-    ) as process:
-        there.close()
-        case, before = batch[0], 0
+class Child(AbstractContextManager["Child"]):
+    """A process of cases, one at a time; it begins with the first of them, and again after it has
+    died or had to be killed.
+    """
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    def run(self, simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) -> Result | None:
+        """The result of a case; None after a stop.
+
+        A case is `worker_died` if it is the first one of a process that dies. It is killed `GRACE`
+        after its time limit.
+        """
+        limit, is_first = case.solver.time_limit, self._process is None
+        if is_first:
+            self._begin()
         try:
-            here.send((simulate, batch))
-            for before, case in enumerate(batch):
-                _receive(here, inf, is_stopped)
-                yield _receive(here, case.solver.time_limit + GRACE, is_stopped)
+            self._channel.send((simulate, case))
+            self._receive(inf, is_stopped)
+            result: Result = self._receive(limit + GRACE, is_stopped)
         except _StoppedError:
-            pass
+            self.end()
+            return None
         except TimeoutError:
-            yield failed_result(case, Status.TIMED_OUT, KILLED.format(case.solver.time_limit))
+            self.end()
+            return failed_result(case, Status.TIMED_OUT, KILLED.format(limit))
         except (EOFError, OSError):
-            if not before:
-                yield failed_result(case, Status.WORKER_DIED, DIED)
-        finally:
-            here.close()
-            process.kill()
+            self.end()
+            if is_first:
+                return failed_result(case, Status.WORKER_DIED, DIED)
+            return self.run(simulate, case, is_stopped)
+        return result
 
+    def end(self) -> None:
+        """Kill the process, if there is one."""
+        if self._process:
+            self._channel.close()
+            self._process.kill()
+            self._process.wait()
+            self._process = None
 
-def _receive(channel: Connection, seconds: float, is_stopped: Callable[[], bool]) -> Any:
-    """What comes within some time."""
-    due = time.monotonic() + seconds
-    while not channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
-        if is_stopped():
-            raise _StoppedError
-        if time.monotonic() > due:
-            raise TimeoutError
-    return channel.recv()
+    def _begin(self) -> None:
+        self._channel, there = Pipe()
+        words = [sys.executable, "-P", "-m", __name__, str(there.fileno())]
+        places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        with there:
+            self._process = subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
+                words, stdout=2, env=places, pass_fds=[there.fileno()], start_new_session=True
+            )
+
+    def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
+        """What comes within some time."""
+        due = time.monotonic() + seconds
+        while not self._channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
+            if is_stopped():
+                raise _StoppedError
+            if time.monotonic() > due:
+                raise TimeoutError
+        return self._channel.recv()
 
 
 def answer(channel: Connection) -> None:
-    """Receive cases, run them, send their results."""
+    """Run the cases that come, and send their results, until the process that sends them ends."""
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    simulate, batch = channel.recv()
-    with limited_memory():
-        for case in batch:
-            channel.send(BEGUN)
+    while True:
+        simulate, case = channel.recv()
+        channel.send(BEGUN)
+        with limited_memory():
             channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
 
 
@@ -123,4 +146,5 @@ def one_line(error: Exception) -> str:
 
 
 if __name__ == "__main__":
-    answer(Connection(int(sys.argv[1])))
+    with suppress(EOFError):
+        answer(Connection(int(sys.argv[1])))
