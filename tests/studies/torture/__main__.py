@@ -1,6 +1,7 @@
 """Run by `make torture`: damaged files, mutated inputs, killed commands, workers and schedulers.
 
-It fails if anything is silently wrong, and keeps the inputs that it fails on.
+It fails if anything is silently wrong, and keeps the inputs that it fails on. It also measures how
+long cases hold Python's lock.
 """
 
 import shutil
@@ -12,7 +13,7 @@ from tempfile import TemporaryDirectory
 from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from tests.studies.tables import publish
-from tests.studies.torture import clusters, damage, fuzz, kills
+from tests.studies.torture import clusters, damage, fuzz, kills, lock
 
 DAMAGES = 150  # of each kind
 KILLS = 20  # of each command
@@ -38,8 +39,10 @@ def main(folder: Path) -> int:
             killed[verb] = kills.torture(Path(place), verb, KILLS)
     with TemporaryDirectory() as place:
         cluster = clusters.torture(Path(place), WORKERS, SCHEDULERS, CASES)
+    locks = {name: lock.held(name, some) for name, some in lock.CONFIGS.items()}
     sheets = [
         damage.sheet(counts), fuzz.sheet(inputs), kills.sheet(killed), clusters.sheet(cluster),
+        lock.sheet(locks),
     ]  # fmt: skip
     publish(sheets, folder / "torture.md")
     nothing_lost = cluster.lost == cluster.wrong == 0

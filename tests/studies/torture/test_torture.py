@@ -6,7 +6,7 @@ from collections import Counter
 import pytest
 from pandas import DataFrame
 
-from tests.studies.torture import clusters, damage, fuzz, kills
+from tests.studies.torture import clusters, damage, fuzz, kills, lock
 from tests.studies.torture.reader import Reader
 from tests.support.results.standin import cases, write
 
@@ -68,3 +68,10 @@ def test_a_killed_worker_costs_no_row(tmp_path):
     found = clusters.torture(tmp_path, 1, schedulers=0, count=3)
     assert found == clusters.Killed(1, 0, 0, 0, 0)
     assert clusters.sheet(found).rows == [["1", "0", "0", "0", "0"]]
+
+
+def test_the_lock_is_held_for_a_part_of_a_case():
+    found = lock.held("smoke", 2)
+    assert 0.0 < found.lock < found.case
+    (row,) = lock.sheet({"smoke": lock.Held(0.05, 0.005)}).rows
+    assert row == ["smoke", "50", "5", "10", "10"]
