@@ -107,6 +107,22 @@ def test_the_steps_of_a_long_pilot_stay_as_slow_as_its_last_ones(monkeypatch):
     assert estimate([limited], slow).cpu == 2.0
 
 
+def test_walls_that_fold_are_slower_after_they_collapse(monkeypatch):
+    """A sixth of the time to 50 % strain passes before 20 %; unloading takes as long as loading."""
+    monkeypatch.setattr("sweep.running.estimate.LONGEST", 0.1)
+
+    def slow(case, control):
+        control[1] = 40
+        return Result(case, Status.TIMED_OUT, "raise it", {"cpu_s": 0.1}, {})
+
+    lattice = dict(cells_x=1, cells_y=1, layers=2)
+    loading = GLUED | dict(direction="out_of_plane", strain=0.5)
+    for unload, expected in ((False, 0.1 / 0.17), (True, 0.2 / 0.17)):
+        case = Case.of(lattice=lattice, loading=loading | dict(unload=unload))
+        assert case.solver.load_steps == 100
+        assert estimate([case], slow).cpu == pytest.approx(expected)
+
+
 def test_other_programs_take_their_share_of_the_cores(monkeypatch, tmp_path):
     load = tmp_path / "loadavg"
     load.write_text("9.99 5.00 1.00 4/134 12065\n")
