@@ -2,6 +2,8 @@
 
 It fails if anything is silently wrong, and keeps the inputs that it fails on. It also measures how
 long cases hold Python's lock.
+
+python -m tests.studies.torture FOLDER [SHARE of the numbers below]
 """
 
 import shutil
@@ -21,7 +23,7 @@ INPUTS = 3000
 WORKERS, SCHEDULERS, CASES = 30, 2, 2000  # killed, killed, of each run
 
 
-def main(folder: Path) -> int:
+def main(folder: Path, share: float = 1.0) -> int:
     """Print the tables, which go to the folder too."""
     folder.mkdir(parents=True, exist_ok=True)
     results, number = folder / "smoke.h5", count(1)
@@ -30,15 +32,15 @@ def main(folder: Path) -> int:
     def keep(what: str, path: Path) -> None:
         shutil.copy(path, folder / f"{next(number)} {what} {path.name}")
 
-    counts = damage.damage(results, DAMAGES)
+    counts = damage.damage(results, int(share * DAMAGES))
     with TemporaryDirectory() as place:
-        inputs = fuzz.fuzz(Path(place), results, INPUTS, keep)
+        inputs = fuzz.fuzz(Path(place), results, int(share * INPUTS), keep)
     killed = {}
     for verb in kills.VERBS:
         with TemporaryDirectory() as place:
-            killed[verb] = kills.torture(Path(place), verb, KILLS)
+            killed[verb] = kills.torture(Path(place), verb, int(share * KILLS))
     with TemporaryDirectory() as place:
-        cluster = clusters.torture(Path(place), WORKERS, SCHEDULERS, CASES)
+        cluster = clusters.torture(Path(place), int(share * WORKERS), SCHEDULERS, CASES)
     locks = {name: lock.held(name, some) for name, some in lock.CONFIGS.items()}
     sheets = [
         damage.sheet(counts), fuzz.sheet(inputs), kills.sheet(killed), clusters.sheet(cluster),
@@ -51,4 +53,4 @@ def main(folder: Path) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), *map(float, sys.argv[2:])))
