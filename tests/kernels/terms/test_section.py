@@ -9,7 +9,6 @@ from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 from sweep.scene.lattice import build_scene
 from sweep.scene.material import FIBRE, law_of_section
-from tests.support.designs.scenes import at, is_sound, run, unbalanced
 from tests.support.designs.tables import material_with
 from tests.support.kernels.frames import (
     MODULUS,
@@ -214,30 +213,6 @@ def test_sections_of_a_scene_are_its_beams(plane, element, joints):
 def test_linear_bending_has_no_sections():
     terms = build_scene(Case.of(material=dict(bend="linear"))).terms
     assert terms.bend.volume.size == terms.bend.spread.size == terms.bend.shear.size == 0
-
-
-def crushed(kind, **material):
-    steps = dict(load_steps=200)
-    material |= {"bend": kind}
-    return run(Case.of(material=material, loading=dict(strain=0.6), solver=steps))
-
-
-def test_a_crush_through_the_curve():
-    """Stiffer while strains are small, less so once walls have folded: ninjaflex softens."""
-    linear, through = crushed("linear"), crushed("section")
-    for result in (linear, through):
-        assert is_sound(result)
-        assert unbalanced(result.history) < 1e-6
-    early, late = (at(through, strain) / at(linear, strain) for strain in (0.051, 0.501))
-    assert early == pytest.approx(1.076, abs=0.005)
-    assert late == pytest.approx(1.043, abs=0.005)
-
-
-def test_section_bending_of_linear_walls():
-    """Each of the two may go by the curve without the other."""
-    result = crushed("section", stretch="linear")
-    assert is_sound(result)
-    assert result.summary["absorbed_energy_J"] != crushed("section").summary["absorbed_energy_J"]
 
 
 def test_bending_goes_by_the_curve_where_there_is_one():
