@@ -56,6 +56,7 @@ FOLDING = (
 
 The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as between 45 and 50 %.
 """
+UNFOLDING = 0.25  # of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
 LOAD = Path("/proc/loadavg")
 MOMENT = 0.1  # seconds between two looks at it
@@ -199,7 +200,8 @@ def _left(case: Case, middle: int, done: int) -> float:
     if _folds(case) and isinstance(loading, Crush) and case.solver.load_steps:
         strain = loading.strain * min(max(done, 1) / case.solver.load_steps, 1.0)
         until, whole = np.interp([strain, loading.strain], *FOLDING)
-        return float(whole / until) * max(count / max(case.solver.load_steps, done), 1.0)
+        unloading = UNFOLDING if loading.unload else 0.0
+        return float(whole / until) * loading.cycles * (1.0 + unloading)
     return 1.0 + 0.5 * max(count - done, 0.0) / max(done - middle, 1)
 
 
