@@ -10,6 +10,7 @@ Other programs share the cores as they do while the pilots run. The estimate may
 factor of two.
 """
 
+import os
 import time
 from bisect import bisect
 from collections.abc import Iterator, Sequence
@@ -45,7 +46,7 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 BYTES = 4  # of a stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
 SPENT = 8.0  # s of processor time for the groups of all kinds
-LONGEST = 10.0  # s for a pilot; one that takes longer is stopped, and its time extrapolated
+LONGEST = 10.0  # s of processor time for a pilot; a longer one is stopped and extrapolated
 GROUPS = 9  # of one kind
 SHARE = 3  # least number of cases in a group
 FOLDING = (
@@ -123,7 +124,7 @@ def dry_run(
         "nothing was written",
     ]
     if forecast.stopped:
-        first = f"{forecast.stopped} of them stopped after {LONGEST:g} s; later steps may be slower"
+        first = f"{forecast.stopped} of them stopped early; later steps may be slower"
         lines.insert(2, f"  {first}")
     if forecast.failures:
         count = f"{len(forecast.failures)} of the pilot cases did not converge"
@@ -175,10 +176,13 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
 
 
 def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
-    """The function `simulate` in at most `LONGEST`; it notes the processor time (s) of a case."""
+    """The function `simulate` in about `LONGEST`; it notes the processor time (s) of a case."""
+    from dask.system import cpu_count
+
+    longest = LONGEST * max((1.0 + os.getloadavg()[0]) / cpu_count(), 1.0)
 
     def run(case: Case, control: np.ndarray) -> Result:
-        limit, middle = min(LONGEST, case.solver.time_limit), [0]
+        limit, middle = min(longest, case.solver.time_limit), [0]
         timer = Timer(0.5 * limit, lambda: middle.append(int(control[1])))
         timer.start()
         try:
