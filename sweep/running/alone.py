@@ -1,6 +1,7 @@
 """A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-The process of suspect cases runs this module; function, cases and results pass through a socket.
+A process of cases runs `answer`; function, cases and results pass through a socket. It gets the
+paths of this process when it has started: a module there may have a name of Python's own.
 """
 
 import os
@@ -23,6 +24,7 @@ from sweep.running.memory import limited_memory
 
 MOMENT = 0.2  # seconds between two checks for a stop
 GRACE = 1.0  # seconds after its time limit in which a case may end by itself
+PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answer({descriptor})"
 BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
 NO_MEMORY = "needs more memory than there is; try fewer cells, nodes or steps"
@@ -105,11 +107,12 @@ class Child(AbstractContextManager["Child"]):
 
     def _begin(self) -> None:
         self._channel, there = Pipe()
-        words = [sys.executable, "-P", "-m", __name__, str(there.fileno())]
-        places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        places = [place for place in sys.path if place]
+        program = PROGRAM.format(places=places, module=__name__, descriptor=there.fileno())
+        words = [sys.executable, "-P", "-c", program]
         with there:
             self._process = subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
-                words, stdout=2, env=places, pass_fds=[there.fileno()], start_new_session=True
+                words, stdout=2, pass_fds=[there.fileno()], start_new_session=True
             )
 
     def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
@@ -123,14 +126,16 @@ class Child(AbstractContextManager["Child"]):
         return self._channel.recv()
 
 
-def answer(channel: Connection) -> None:
-    """Run the cases that come, and send their results, until the process that sends them ends."""
+def answer(descriptor: int) -> None:
+    """Run the cases that come through a socket, and send their results, until it is closed."""
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    while True:
-        simulate, case = channel.recv()
-        channel.send(BEGUN)
-        with limited_memory():
-            channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
+    channel = Connection(descriptor)
+    with suppress(EOFError):
+        while True:
+            simulate, case = channel.recv()
+            channel.send(BEGUN)
+            with limited_memory():
+                channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
 
 
 def _end_with(parent: int) -> None:
@@ -143,8 +148,3 @@ def _end_with(parent: int) -> None:
 def one_line(error: Exception) -> str:
     """An exception in words."""
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
-
-
-if __name__ == "__main__":
-    with suppress(EOFError):
-        answer(Connection(int(sys.argv[1])))

@@ -98,10 +98,10 @@ def interrupted(case, control):
     return simulate(case)
 
 
-def test_files_of_the_folder_are_no_modules(tmp_path, monkeypatch):
-    """A user's random.py would end the process, and the case would be blamed."""
-    (tmp_path / "random.py").write_text("raise SystemExit(3)")
-    monkeypatch.setattr(sys, "path", [os.getcwd(), *filter(None, sys.path)])
+def test_files_of_the_folder_are_no_modules_of_python(tmp_path, monkeypatch):
+    """A user's types.py would end the process, and the case would be blamed."""
+    (tmp_path / "types.py").write_text("raise SystemExit(3)")
+    monkeypatch.setattr(sys, "path", [str(tmp_path), os.getcwd(), *filter(None, sys.path)])
     monkeypatch.chdir(tmp_path)
     (result,) = run_alone(interrupted, cases(1))
     assert result.status is Status.CONVERGED
