@@ -1,7 +1,8 @@
 """Configs, units, objects and files; and the public names of `crumple`.
 
-The public functions raise `ConfigError`, `StoreError`, `RankError`, `ExportError`, `OptimizeError`,
-`CouponError` and `ClusterError`, which are public too. Each name is loaded when it is first used,
+The public functions raise `MisfitError`, whose kinds are `ConfigError` and `CouponError`,
+`StoreError`, `RankError`, `ExportError`, `OptimizeError` and `ClusterError`, which are public too.
+Each name is loaded when it is first used,
 so that `import sweep` takes almost no time.
 
 Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
-    from sweep.config.faults import ConfigError
+    from sweep.config.faults import ConfigError, MisfitError
     from sweep.config.grid import Config, expand
     from sweep.config.load import case, load_config
     from sweep.coupon.materials import fit_material, materials
@@ -52,6 +53,7 @@ __all__ = [
     "ExportError",
     "Exported",
     "Interrupted",
+    "MisfitError",
     "OptimizeError",
     "Picture",
     "RankError",
@@ -92,6 +94,7 @@ _HOME = {
     "ExportError": "export.errors",
     "Exported": "export.export",
     "Interrupted": "running.sweep",
+    "MisfitError": "config.faults",
     "OptimizeError": "running.searching.optimize",
     "Picture": "report.results",
     "RankError": "ranking.question",

@@ -43,7 +43,9 @@ COLUMNS: dict[str, Column] = {
         "1 if the first loading was completed, with energies that balance: full stroke, release, "
         "or the striker's stop; what it determines is ranked, whatever stopped the case later",
     ),
-    "lattice_kind": Column("", "family of the infill pattern, or pattern of the slicer"),
+    "lattice_kind": Column(
+        "", "family of the infill pattern, or pattern of the slicer, or file of a drawing"
+    ),
     "cells_x": Column("1", "cells across the width"),
     "cells_y": Column("1", "cells over the height"),
     "wall_thickness_m": Column("m", "thickness of a wall"),

@@ -1,5 +1,5 @@
-"""What `lattice.cell_size` has become: whole numbers of cells, and their size; and the period of a
-sheet.
+"""What `lattice.cell_size` has become: whole numbers of cells, and their size; the period of a
+sheet; the walls of a drawing.
 """
 
 from collections.abc import Iterable
@@ -7,9 +7,11 @@ from collections.abc import Iterable
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.direction import ALONG
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.numbers import in_unit, text_in
+from sweep.numbers import counted, in_unit, text_in
+from sweep.plain_text import plain
 
 
 def cell_sentences(cases: Iterable[Case]) -> list[str]:
@@ -20,7 +22,28 @@ def cell_sentences(cases: Iterable[Case]) -> list[str]:
     lattices = [case.lattice for case in cases]
     sized = (made for made in lattices if isinstance(made, Cells) and made.cell_size is not None)
     sheets = (_of_sheet(made) for made in lattices if isinstance(made, Surface))
-    return list(dict.fromkeys([*map(_sentence, sized), *sheets]))
+    drawings = (_of_drawing(made) for made in lattices if isinstance(made, Drawn))
+    return list(dict.fromkeys([*map(_sentence, sized), *sheets, *drawings]))
+
+
+def _of_drawing(made: Drawn) -> str:
+    """A line: "a.svg: 12.5 x 12.5 mm, 16 joints, 24 walls; 2 walls end loose, one at 3, 4.2 mm"."""
+    from sweep.design.drawn import loose_ends
+
+    joints, walls = made.counts
+    size = _pair((made.width, made.height), " x ")
+    sentence = f"{plain(made.name)}: {size}, {counted(joints, 'joint')}, {counted(walls, 'wall')}"
+    loose = loose_ends(made.network)
+    if not len(loose):
+        return sentence
+    ends = "1 wall ends loose, at" if len(loose) == 1 else f"{len(loose)} walls end loose, one at"
+    return f"{sentence}; {ends} {_pair(made.drawing.joints[loose[0]], ', ')}"
+
+
+def _pair(lengths: tuple[float, float], between: str) -> str:
+    """Two lengths (m) in mm."""
+    x, y = lengths
+    return f"{in_unit(x, 'mm'):.5g}{between}{text_in(y, 'mm', 5)}"
 
 
 def _of_sheet(made: Surface) -> str:

@@ -265,10 +265,15 @@ VERBS = {verb.__name__: verb for verb in ALL}
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
     from sweep.cli.cell_size import cell_sentences
+    from sweep.config.faults import ConfigError
     from sweep.config.load import load_config
     from sweep.config.reading.examples import FOLDER as EXAMPLES
 
-    config = load_config(name)
+    try:
+        config = load_config(name)
+    except ConfigError as error:
+        hint(error.notes)
+        raise
     if config.path and config.path.is_relative_to(EXAMPLES):
         hint([f"example {name}: {config.path} (copy it to change it)"])
     hint(config.notes)

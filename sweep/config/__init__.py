@@ -4,5 +4,6 @@
 `tables` have with their fixed defaults. `lattice_table` and `material_table` are the long tables;
 the former is checked by `lattice_limits`, and by `slicer_lines` if there is a slicer. `axis` and
 `grid` expand a grid, `case` is one case with its id, and `network` has the walls of a case.
-`defaults` fills in what depends on the case; `materials` and `structures` read files of their own.
+`defaults` fills in what depends on the case; `materials`, `structures`, `drawings` and `profiles`
+read files of their own.
 """

@@ -27,6 +27,7 @@ from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.custom_structure import CustomStructure, custom_structure
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
+from sweep.config.kinds.drawn import Drawn, drawn
 from sweep.config.kinds.lattice import Lattice, kind_of
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.material import Material
@@ -132,6 +133,10 @@ class Case(BaseModel):
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
         return self.lattice.tied and not self.shells and loose and self.loading.quasi_static
 
+    def __hash__(self) -> int:
+        """Equal cases have equal ids; labels, which may differ, are no part of them."""
+        return hash(self.case_id)
+
     @cached_property
     def case_id(self) -> str:
         """Hash of all parameters except labels: 16 hexadecimal digits."""
@@ -186,8 +191,8 @@ class Case(BaseModel):
             first = error.errors(include_url=False)[0]
             place = ".".join(map(str, first["loc"])) or "the text"
             raise MisfitError(f"{place}: {first['msg']}") from None
-        drawn = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
-        for line in faults(drawn) if drawn else ():
+        custom = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
+        for line in faults(custom) if custom else ():
             raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
             raise MisfitError("its numbers do not follow from one another")
@@ -361,6 +366,8 @@ def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
         return made
     if kind is CustomStructure:
         made = custom_structure(given)
+    elif kind is Drawn:
+        made = drawn(given, density)
     else:
         made = sliced(given, density) if kind is Sliced else cells(given, density, along)
     check_printable(made)

@@ -26,6 +26,8 @@ REPLACED = {
         "line_distance",
     ),
     "lattice.line_distance": ("mass", "infill"),
+    "lattice.file": ("structure", "drawing"),
+    "lattice.file_unit": ("drawing",),
     "lattice.cell_size": ("infill", "cells_x", "cells_y"),
     "lattice.cells_x": ("infill", "cell_size"),
     "lattice.cells_y": ("infill", "cell_size"),

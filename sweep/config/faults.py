@@ -22,11 +22,14 @@ class MisfitError(ValueError):
 
 
 class ConfigError(MisfitError):
-    """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them."""
+    """A config that cannot be run. `faults`: all faults; the text lists `SHOWN` of them.
 
-    def __init__(self, faults: list[Fault]) -> None:
-        super().__init__(faults)
-        self.faults = faults
+    notes: sentences about what was read until then.
+    """
+
+    def __init__(self, faults: list[Fault], notes: tuple[str, ...] = ()) -> None:
+        super().__init__(faults, notes)
+        self.faults, self.notes = faults, notes
 
     def __str__(self) -> str:
         return "\n".join(_shown(self.faults))

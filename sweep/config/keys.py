@@ -13,11 +13,12 @@ from typing import Any, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from sweep.config.defaults import drop_tests
-from sweep.config.kinds.cells import CUSTOM, Cells
+from sweep.config.kinds.cells import CUSTOM, DRAWN, Cells
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.direction import Direction
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.loading import BY_MODE, mode_word
 from sweep.config.kinds.material import Material
@@ -33,7 +34,7 @@ from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
-    "lattice": (Cells, Sliced, Sheet, SlicedSheet, CustomStructure),
+    "lattice": (Cells, Sliced, Sheet, SlicedSheet, CustomStructure, Drawn),
     "material": (Material,),
     "loading": BY_MODE,
     "contact": (Barrier,),
@@ -44,7 +45,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 
 CHOICES: dict[str, Any] = {
     "lattice.pattern": str,
-    "lattice.kind": Literal[*families(), *SHEETS, CUSTOM],
+    "lattice.kind": Literal[*families(), *SHEETS, CUSTOM, DRAWN],
     "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
     "loading.direction": Direction,
     "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
@@ -61,6 +62,7 @@ ALIASES = {
 }
 DERIVED = {
     "lattice.structure",
+    "lattice.drawing",
     "lattice.fill_distance",
     "lattice.period",
     "lattice.pressed",

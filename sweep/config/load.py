@@ -75,14 +75,14 @@ def _config(document: dict[str, Any], path: Path | None) -> Config:
     """The sweep of a document; path: of its file, if it has one."""
     reader = Reader(path.parent if path else Path(), in_si)
     config = reader.config(document, path)
+    notes = tuple(dict.fromkeys(reader.notes))
     try:
         cases, left_out = expanded(config.recipe)
-        notes = tuple(dict.fromkeys(reader.notes))
         config = replace(config, cases=cases, left_out=left_out, notes=notes)
     except ConfigError as error:
         reader.faults += [fault for fault in error.faults if reader.trusts(fault)]
     if reader.faults:
-        raise ConfigError(reader.faults)
+        raise ConfigError(reader.faults, notes)
     return config
 
 

@@ -79,13 +79,18 @@ def opening(geometry: Geometry) -> float:
 
 @lru_cache(maxsize=256)
 def _opening(drawn: Sketch) -> float:
+    points, walls = joints_and_walls(sample(drawn))
+    return float(clear_widths(points, walls).min())
+
+
+def clear_widths(points: Floats, walls: Indices) -> Floats:
+    """Diameter (m) of the largest circle in each cell between walls, but once of equal cells."""
     import shapely  # few sweeps need it
 
-    points, walls = joints_and_walls(sample(drawn))
     cells = shapely.get_parts(shapely.polygonize(shapely.linestrings(points[walls])))
     size = np.column_stack([shapely.area(cells), shapely.length(cells)])
-    scale = size[:, 1].max() ** np.array([2, 1])
+    scale = size[:, 1].max(initial=0.0) ** np.array([2, 1])
     _, differing = np.unique((size / scale).round(7), axis=0, return_index=True)
-    tolerance = 1e-6 * max(drawn.box)
+    tolerance = 1e-6 * np.ptp(points, axis=0).max()
     radii = shapely.maximum_inscribed_circle(cells[differing], tolerance)
-    return 2.0 * float(shapely.length(radii).min())
+    return np.asarray(2.0 * shapely.length(radii))

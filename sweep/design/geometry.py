@@ -5,6 +5,18 @@ from typing import NamedTuple
 from sweep.design.slicer.patterns import Sliced
 
 
+class Drawing(NamedTuple):
+    """A network of walls that a user has drawn, from its lower left corner.
+
+    joints: x and y of each, m. walls: the two joints of each. shares: thickness of each over the
+    mean thickness of all, weighted by length; empty if they are equal.
+    """
+
+    joints: tuple[tuple[float, float], ...]
+    walls: tuple[tuple[int, int], ...]
+    shares: tuple[float, ...] = ()
+
+
 class Geometry(NamedTuple):
     """A family of infill in a box; lengths in m.
 
@@ -12,7 +24,8 @@ class Geometry(NamedTuple):
     lines, or of one period where the lattice repeats. periodic: whether it repeats in x and in y.
     grading: thickness of the walls at the top over that at the bottom. outline: thickness of the
     walls round the infill, at the left and right sides and at the bottom and top; 0: no outline.
-    sliced: how a slicer lays the infill; then kind, orientation and cells have no meaning.
+    sliced: how a slicer lays the infill; drawing: the walls themselves; with either, kind,
+    orientation and cells have no meaning.
     """
 
     kind: str
@@ -24,3 +37,4 @@ class Geometry(NamedTuple):
     outline: tuple[float, float] = (0.0, 0.0)
     periodic: tuple[bool, bool] = (False, False)
     sliced: Sliced | None = None
+    drawing: Drawing | None = None

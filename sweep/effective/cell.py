@@ -9,6 +9,7 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.faults import MisfitError
 from sweep.config.kinds.cells import Cells
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.sliced import Sliced
 from sweep.design.drawing import extent, pitch
 from sweep.design.infill import trait
@@ -85,7 +86,10 @@ def infill_of(case: Case) -> Infill:
         size = unit * (lattice.width, lattice.height) / whole
         period = _period(case, lattice.kind, lattice.orientation, size)
         return Infill(period, 0.0, lattice.name)
-    raise MisfitError(f"{lattice.name} has no effective material here; allowed: {ALLOWED}")
+    why = " has no effective material here"
+    if isinstance(lattice, Drawn):
+        why = " is a drawing, of which no period is known that could be repeated without end"
+    raise MisfitError(f"{lattice.name}{why}; allowed: {ALLOWED}")
 
 
 def _period(case: Case, kind: str, orientation: str | None, size: Floats) -> Case:

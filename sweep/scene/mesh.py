@@ -117,18 +117,20 @@ def build_mesh(lattice: Laid, solid: bool, platen: str | None) -> tuple[Mesh, Ar
 
 
 def elements_of(network: Network, most: int, arms: Arms) -> Ints:
-    """Number of equal elements of each wall, (w,): ``most``, or fewer between solid joints.
+    """Number of equal elements of each wall, (w,): `pieces`, or fewer between solid joints.
 
-    There none is shorter than `SHORTEST` thicknesses, below which a wall is no beam; in what a
-    slicer prints, than a thickness, as the infill cuts the perimeters into pieces of any length.
+    There, and in a drawing, none is shorter than `SHORTEST` thicknesses, below which a wall is no
+    beam; in what a slicer prints, than a thickness, as the infill cuts the perimeters into pieces
+    of any length.
     """
     start, end = network.points[network.walls].swapaxes(0, 1)
     free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
     sliced = network.gyration is not None
     least = (1.0 if sliced else SHORTEST) * network.wall_thickness
     fit = np.floor(free / least).astype(np.int64)
-    solid = (arms.length > 0.0).any(axis=1) | sliced
-    return np.where(solid, np.clip(fit, 1, most), most)
+    limited = (arms.length > 0.0).any(axis=1) | sliced | (network.part is not None)
+    pieces = network.pieces(most)
+    return np.where(limited, np.clip(fit, 1, pieces), pieces)
 
 
 def split_walls(

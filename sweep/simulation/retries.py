@@ -1,10 +1,10 @@
 """A case that stops is simulated again with other steps, then with another imperfection.
 
 The advice of a failure is tried before it is given. Steps and integrator of an impact are at first
-the usual ones, then quarters of these steps; another imperfection would not resolve it. Other
-motions by an integrator of second order are also tried by backward Euler. What converges first has
-the numbers of the row; its column `retry` says what was changed. The id stays that of the case
-asked for.
+the usual ones, then quarters of these steps; where that would be too many, for a shorter duration,
+by whose end the striker has to be back. Another imperfection would not resolve it. Other motions by
+an integrator of second order are also tried by backward Euler. What converges first has the numbers
+of the row; its column `retry` says what was changed. The id stays that of the case asked for.
 """
 
 import time
@@ -19,7 +19,7 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import Arcs, InTime
-from sweep.config.kinds.steps import TIME_STEP
+from sweep.config.kinds.steps import MAX_STEPS, TIME_STEP
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status
@@ -29,6 +29,7 @@ from sweep.simulation.time_resolution import resolving_step
 SHORTER = 4  # times as many steps
 TIMES = 4  # retries of an impact, each with a quarter of the time step before
 FIRST = 0.25  # of the time limit, for a motion in steps that are much longer than usual
+ALMOST = 1.0 - 1e-9
 STEADY = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # times the imperfection; in place of none, in wall thicknesses
 
@@ -52,7 +53,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
         tried.append(words)
-        if _reach(last) > _reach(best):
+        if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
     return _told(case, best, tried, spent)
 
@@ -73,6 +74,14 @@ def _is_coarse(case: Case) -> bool:
         case _:
             return False
     return SHORTER * usual < case.solver.time_step
+
+
+def _is_cut_short(retry: Result, case: Case) -> bool:
+    """Whether the striker of an impact was not back when a retry of shorter duration ended."""
+    if not isinstance(case.loading, Impact) or not isinstance(retry.case.loading, Impact):
+        return False
+    followed = retry.case.loading.duration
+    return followed < case.loading.duration and retry.history["time_s"][-1] >= ALMOST * followed
 
 
 def _reach(result: Result) -> tuple[bool, bool]:
@@ -102,10 +111,13 @@ def _changes(result: Result) -> Iterator[tuple[str, Case]]:
         change: dict[str, Any] = {key: value}
         if key == "load_steps" and isinstance(case.solver, InTime):
             change["time_step"] = None  # follows
+        others: dict[str, Any] = {}
         if isinstance(case.loading, Impact):
             change["integrator"] = None  # the usual one
+            if MAX_STEPS * float(value) < case.loading.duration:  # most of it after the contact
+                others["loading"] = {"duration": MAX_STEPS * float(value)}
         try:
-            changed = case.changed(**{table: change})
+            changed = case.changed(**{table: change}, **others)
         except RefusedError:
             continue
         said = f"{table}.{key} = {words}"

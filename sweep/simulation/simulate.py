@@ -20,6 +20,7 @@ from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.solver import Arcs
 from sweep.config.kinds.table import Given
+from sweep.config.load import case as made_of
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.numbers import to_si
 from sweep.result import Result, Status, failed_result
@@ -78,12 +79,17 @@ UNTOUCHED = 1e-6  # of the typical force: a striker that touches nothing
 CREATED = 0.1  # of the work done: energy that an integrator may create
 
 
-def simulate(case: Case, stop: np.ndarray | None = None, seconds: float | None = None) -> Result:
+def simulate(
+    case: Case | Mapping[str, Any], stop: np.ndarray | None = None, seconds: float | None = None
+) -> Result:
     """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
 
+    case: or the tables of a config, as `crumple.case` takes them; `ConfigError` holds their faults.
     stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to `EXPIRED`;
     stop[1] counts steps. seconds: what is left of `solver.time_limit`; all of it if None.
     """
+    if isinstance(case, Mapping):
+        case = made_of(**case)
     started = time.thread_time()
     left = case.solver.time_limit if seconds is None else seconds
     try:

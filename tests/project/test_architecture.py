@@ -37,7 +37,8 @@ HOMES = {
     "h5py": "sweep.store.read sweep.store.hdf5",
     "matplotlib": "sweep.report.figures.case_plots",
     "manifold3d": "sweep.export.solid",
-    "ezdxf": "sweep.export.dxf",
+    "ezdxf": "sweep.export.dxf sweep.config.drawings.dxf",
+    "svgelements": "sweep.config.drawings.svg",
     "PIL": "sweep.report.figures.animation",
 }
 # What reads results, and so must run where nothing is installed that simulates.

@@ -23,7 +23,7 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     others = {"custom", "extreme", "impact", "khatri_egan_square"}
     assert names == others | {
-        "armor", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
+        "armor", "drawn", "drop", "infills", "khatri_egan_hexagon_out_of_plane",
         "khatri_egan_square_out_of_plane", "panel", "rammed", "reuse", "seed", "search", "slicer",
         "smoke", "thousand", "which_way", "which_way_lost", "gyroid", "sheets",
     }  # fmt: skip
@@ -112,6 +112,17 @@ def test_panel_holds_its_numbers():
     summary = simulate(wide).summary
     assert summary["status"] == "converged"
     assert summary["absorbed_energy_until_packed_J"] == pytest.approx(7.556, rel=1e-3)
+
+
+def test_drawn_holds_its_numbers():
+    """The braced panel, whose walls are as thick as its mass says."""
+    case = expand(load_config(CONFIGS / "drawn.toml"))[0]
+    assert (case.lattice.name, case.lattice.counts) == ("drawn.csv", (23, 44))
+    summary = simulate(case).summary
+    assert summary["status"] == "converged"
+    assert summary["max_crossings"] == 0
+    assert summary["mass_g"] == pytest.approx(4.0, rel=1e-9)
+    assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(405.48, rel=1e-3)
 
 
 def test_rammed_holds_its_numbers():

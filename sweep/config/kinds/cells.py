@@ -1,6 +1,5 @@
 """A lattice of cells of one family, drawn in a box."""
 
-from math import isclose, isnan
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
@@ -14,26 +13,28 @@ from sweep.config.kinds.specimen import (
     Lines,
     check_proportion,
     check_size,
+    thickness_of,
 )
 from sweep.config.kinds.table import Few, Given, Length, Mass, Positive, RefusedError, Share, chosen
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
 
-CUSTOM = "custom"
+CUSTOM, DRAWN = "custom", "drawn"  # the walls of a file, with its own loads or between platens
 ENDLESS = 'if lattice.boundary is "periodic"'
 TIED = 'if lattice.sides is "periodic"'
 
 
+KINDS = (*families(), CUSTOM, DRAWN)
+
+
 def _known(kind: str) -> str:
-    if kind not in (*families(), CUSTOM):
-        names = ", ".join((*families(), CUSTOM))
+    if kind not in KINDS:
+        names = ", ".join(KINDS)
         raise PydanticCustomError("literal_error", "{names}", {"names": names})
     return kind
 
 
-Kind = Annotated[
-    str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any]([*families(), CUSTOM])})
-]
+Kind = Annotated[str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any](KINDS)})]
 
 
 class Cells(Laid):
@@ -61,6 +62,7 @@ class Cells(Laid):
     mass: Mass | None = None
     infill: Share | None = None
     grading: Positive = 1.0
+    perimeters: Lines = 0
     line_width: Length | None = None
     solid_layers: Lines = 0
     layer_height: Length | None = None
@@ -157,7 +159,12 @@ def cells(given: Given, density: float, along: bool) -> Cells:
     check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
     if made.mass is None or "wall_thickness" in given:
         check_openings(made)
-    return _weighing(made, given, density)
+    if made.mass is None:
+        return made
+    thickness = thickness_of(made, made.mass, given, density)
+    sized = made.model_copy(update={"wall_thickness": thickness})
+    check_openings(sized)
+    return sized
 
 
 def _lines(made: Cells) -> dict[str, Any]:
@@ -219,26 +226,6 @@ def _check_follows(key: str, value: object, allowed: str, given: Given) -> None:
     """Refuse a given value that differs from the one that follows from other keys."""
     if given.get(key, value) != value:
         raise RefusedError(f"lattice.{key}", given[key], allowed)
-
-
-def _weighing(made: Cells, given: Given, density: float) -> Cells:
-    """The lattice with the wall thickness that gives its `mass`, if it has one."""
-    if made.mass is None:
-        return made
-    from sweep.design.sizing import thickness_for
-
-    thickness, light, heavy = thickness_for(
-        made.geometry, made.mass, made.thickest, made.depth, density
-    )
-    if isnan(thickness):
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
-        raise RefusedError("lattice.mass", made.mass, allowed)
-    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
-        allowed = f"{thickness:.6g} m at the mass given; give one of them"
-        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
-    sized = made.model_copy(update={"wall_thickness": thickness})
-    check_openings(sized)
-    return sized
 
 
 def check_openings(made: Cells) -> None:

@@ -4,8 +4,9 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag
 
-from sweep.config.kinds.cells import CUSTOM, Cells
+from sweep.config.kinds.cells import CUSTOM, DRAWN, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
@@ -19,7 +20,8 @@ def _kind(value: Any) -> str:
     fields = value if isinstance(value, dict) else getattr(value, "__dict__", {})
     if "period" in fields:
         return "sliced_sheet" if "slicer" in fields else "sheet"
-    return "custom" if "structure" in fields else "sliced" if "slicer" in fields else "cells"
+    kinds = {"structure": "custom", "drawing": "drawn", "slicer": "sliced"}
+    return next((kind for key, kind in kinds.items() if key in fields), "cells")
 
 
 Lattice = Annotated[
@@ -27,15 +29,18 @@ Lattice = Annotated[
     | Annotated[Sliced, Tag("sliced")]
     | Annotated[Sheet, Tag("sheet")]
     | Annotated[SlicedSheet, Tag("sliced_sheet")]
-    | Annotated[CustomStructure, Tag("custom")],
+    | Annotated[CustomStructure, Tag("custom")]
+    | Annotated[Drawn, Tag("drawn")],
     Discriminator(_kind),
 ]
 
 
-def kind_of(given: Given) -> type[Cells | Sliced | Sheet | SlicedSheet | CustomStructure]:
+def kind_of(given: Given) -> type[Cells | Sliced | Sheet | SlicedSheet | CustomStructure | Drawn]:
     """The kind of lattice that values mean."""
     if given.get("kind") == CUSTOM:
         return CustomStructure
+    if given.get("kind") == DRAWN:
+        return Drawn
     if given.get("slicer") is None:
         return Sheet if given.get("kind") in SHEETS else Cells
     return SlicedSheet if given.get("pattern") in SHEET_PATTERNS else Sliced

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sheet import Sheet, Surface
 from sweep.config.kinds.sliced import Sliced
@@ -38,7 +39,7 @@ def what_does_not_print(lattice: Lattice) -> str:
 
 
 def _line_width(lattice: Lattice) -> float:
-    if isinstance(lattice, CustomStructure | Sheet):
+    if isinstance(lattice, CustomStructure | Drawn | Sheet):
         return lattice.nozzle
     return lattice.line_width or lattice.nozzle
 
@@ -59,6 +60,8 @@ def _thicknesses(lattice: Lattice) -> list[float]:
             return [lattice.wall_thickness]
         case CustomStructure(structure=structure):
             return [MM * thickness for thickness in structure.thickness_mm]
+        case Drawn():
+            return sorted(set(lattice.network.wall_thickness.tolist()))
         case Cells(grading=1.0):
             return [lattice.wall_thickness]
     from sweep.design.box import gradient

@@ -6,7 +6,14 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from sweep.config.kinds.mesh import nodes_of
-from sweep.config.kinds.specimen import LAYER_HEIGHT, MAX_NODES, Laid, check_proportion, check_size
+from sweep.config.kinds.specimen import (
+    LAYER_HEIGHT,
+    MAX_NODES,
+    Laid,
+    Lines,
+    check_proportion,
+    check_size,
+)
 from sweep.config.kinds.table import Angle, Few, Given, Length, Mass, RefusedError, Share, chosen
 from sweep.design.geometry import Geometry
 from sweep.design.slicer.patterns import (
@@ -56,6 +63,7 @@ class Sliced(Laid):
     fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     line_width: Length
     layer_height: Length = LAYER_HEIGHT
+    perimeters: Lines = 0
     cells_x: Few
     cells_y: Few
 

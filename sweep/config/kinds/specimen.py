@@ -1,11 +1,12 @@
 """What all specimens have: a box over centre lines, walls, a mesh and an imperfection."""
 
 from abc import abstractmethod
+from math import isclose, isnan
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.table import Few, Length, RefusedError, Size, Table
+from sweep.config.kinds.table import Few, Given, Length, RefusedError, Size, Table
 from sweep.design.geometry import Geometry
 
 NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
@@ -80,7 +81,6 @@ class Laid(Specimen):
     """A specimen whose walls follow from a few numbers, its `geometry`."""
 
     nodes_per_wall: Nodes
-    perimeters: Lines = 0
 
     @property
     @abstractmethod
@@ -125,9 +125,23 @@ def check_proportion(specimen: Specimen) -> None:
 def check_size(specimen: Laid, causes: tuple[str, ...]) -> None:
     """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest value of keys."""
     joints, walls = specimen.counts
-    nodes = joints + walls * specimen.nodes_per_wall
+    nodes = joints + specimen.elements - walls
     if nodes > MAX_NODES:
         values = {key: getattr(specimen, key) for key in causes}
         key = max(values, key=values.__getitem__)
         allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
         raise RefusedError(f"lattice.{key}", values[key], allowed)
+
+
+def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float:
+    """The wall thickness (m) of a mass (kg); refused if there is none, or another is given."""
+    from sweep.design.sizing import thickness_for
+
+    thickness, light, heavy = thickness_for(made.geometry, mass, made.thickest, made.depth, density)
+    if isnan(thickness):
+        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
+        raise RefusedError("lattice.mass", mass, allowed)
+    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
+        allowed = f"{thickness:.6g} m at the mass given; give one of them"
+        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
+    return thickness

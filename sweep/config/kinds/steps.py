@@ -84,12 +84,12 @@ def _steps(
         return InTime.model_validate(timed | {"time_step": time / count, "load_steps": count})
     step = TIME_STEP
     if isinstance(loading, Impact):
-        step = impact_step(loading, extent)
+        step = max(impact_step(loading, extent), loading.duration / MAX_STEPS)
     return InTime.model_validate({"time_step": step} | timed | {"load_steps": None})
 
 
 def impact_step(loading: Impact, extent: Extent) -> float:
-    """The usual time step of an impact, s: a share of the time of contact.
+    """The usual time step of an impact, if it has no more than `MAX_STEPS`, s: a share of contact.
 
     A fast striker is stopped within the height of the lattice, in which its weight speeds it up. A
     slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever its speed,
@@ -97,7 +97,7 @@ def impact_step(loading: Impact, extent: Extent) -> float:
     """
     passage = extent.height / loading.greatest_speed(extent.height) / STEPS_OF_PASSAGE
     contact = pi * sqrt(loading.reduced_mass * extent.compliance) / STEPS_OF_CONTACT
-    return max(min(passage, contact), loading.duration / MAX_STEPS)
+    return min(passage, contact)
 
 
 def count_of(loading: Loading, solver: Solver) -> float:

@@ -5,6 +5,7 @@ from typing import Any
 from sweep.config.kinds.cells import TIED, Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.direction import WHERE
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.table import Given, RefusedError, keys_of
@@ -14,11 +15,6 @@ from sweep.constants import TO_MM
 NODES = 5  # inside a wall: six quads across
 MOST_NODES = 20_000  # with six unknowns each
 MOST_IMPERFECTION = 1.0  # in wall thicknesses: a bow should start a buckle, not be one
-PARTS = (
-    *("supports", "loads", "prescribed", "pins", "springs", "masses"),
-    *("floor_y_mm", "gravity_mm_s2", "initial_velocity_mm_s", "probes"),
-)
-"""Keys of the file of a structure that cannot be pressed along its walls."""
 
 
 def across(made: Lattice) -> Lattice:
@@ -39,7 +35,7 @@ def upright(made: Lattice, given: Given) -> Lattice:
 
     _check(made)
     changes: dict[str, Any] = {}
-    if isinstance(made, Cells) and "nodes_per_wall" not in given:
+    if isinstance(made, Cells | Drawn) and "nodes_per_wall" not in given:
         changes["nodes_per_wall"] = NODES
     if made.imperfection == 0.0:
         changes["imperfection_seed"] = None
@@ -62,7 +58,9 @@ def upright(made: Lattice, given: Given) -> Lattice:
 
 
 def quads_wanted(made: Lattice) -> Any:
-    """Number of quads along a whole wall: one for all walls, or (w,) of a custom structure."""
+    """Number of quads along a whole wall: one for all walls, or (w,) of those of a file."""
+    if isinstance(made, Drawn):
+        return made.network.pieces(made.nodes_per_wall + 1)
     if not isinstance(made, CustomStructure):
         return made.nodes_per_wall + 1
     import numpy as np
@@ -81,12 +79,9 @@ def _check(made: Lattice) -> None:
     if isinstance(made, Sliced):
         allowed = f"none {WHERE}: give kind and cells"
         raise RefusedError("lattice.slicer", made.slicer, allowed)
-    if isinstance(made, CustomStructure):
-        fields = type(made.structure).model_fields
-        unfit = [key for key in PARTS if getattr(made.structure, key) != fields[key].default]
-        if unfit:
-            allowed = f"a file without {', '.join(unfit)} {WHERE}: its walls stand on platens"
-            raise RefusedError("lattice.file", made.file, allowed)
+    if isinstance(made, CustomStructure) and (unfit := made.structure.beside_walls):
+        allowed = f"a file without {', '.join(unfit)} {WHERE}: its walls stand on platens"
+        raise RefusedError("lattice.file", made.file, allowed)
 
 
 def _too_low(made: Lattice, thickest: float) -> RefusedError:

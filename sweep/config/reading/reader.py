@@ -16,6 +16,7 @@ from sweep.config.defaults import drop_tests
 from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
+from sweep.config.kinds.cells import DRAWN
 from sweep.config.kinds.table import TABLES, rounded
 from sweep.config.materials.material_file import (
     RecordError,
@@ -65,6 +66,7 @@ class Reader:
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
         self.notes: list[str] = []
+        self.draws = False  # whether `lattice.file` is that of a drawing
 
     def config(self, document: dict[str, Any], path: Path | None) -> Config:
         """The config of a whole document, without its cases; path: of its file, if it has one."""
@@ -84,6 +86,7 @@ class Reader:
     def _recipe(self, document: dict[str, Any]) -> Recipe:
         """The values that a document writes, and those of profiles that it does not write."""
         document, one, several = _without_profiles(document)
+        self.draws = DRAWN in _kinds(document)
         stated = _stated(document)
         base = self._base(document)
         if one is not None:
@@ -334,7 +337,7 @@ class Reader:
         if key.targets == ("material.name",) and isinstance(raw, str):
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
-            return _structure(self.folder / raw)
+            return self._drawn(raw)
         raw = present_choice(key.targets[0], raw)
         if key.targets == ("loading.preset",) and isinstance(raw, str):
             return drop_tests.in_si(raw, self.to_si)
@@ -352,6 +355,17 @@ class Reader:
         if table == "material" and (why := suspicion(name, checked)):
             raise MisfitError(f"no printed material has this; {why}")
         return checked
+
+    def _drawn(self, raw: str) -> str:
+        """The absolute path of a user's own structure or drawing."""
+        path = self.folder / raw
+        if self.draws:
+            from sweep.config.drawings.drawing_file import read_drawing
+
+            self.notes += [f"{raw}: {note}" for note in read_drawing(path).lines.notes]
+        else:
+            read_structure(path)
+        return str(path.resolve())
 
     def _in_si(self, key: Key, raw: Any) -> Any:
         """One value without its unit, if its key has one."""
@@ -385,13 +399,28 @@ def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, An
     return kept, taken[0], taken[1]
 
 
+def _kinds(document: dict[str, Any]) -> set[str]:
+    """The kinds of lattice that a document names, or varies."""
+    lattice = document.get("lattice")
+    found = [lattice.get("kind")] if isinstance(lattice, dict) else []
+    found += [table.get("lattice.kind") for table in _varying(document)]
+    values = [value for kind in found for value in (kind if isinstance(kind, list) else [kind])]
+    return {value for value in values if isinstance(value, str)}
+
+
 def _stated(document: dict[str, Any]) -> set[str]:
     """The keys of [lattice] that a document states, or varies."""
-    lattice, grid, search, ties = (document.get(n) for n in ("lattice", "grid", "search", "zip"))
-    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
+    lattice = document.get("lattice")
     names = {f"lattice.{key}" for key in (lattice if isinstance(lattice, dict) else {})}
-    names |= {key for table in tables if isinstance(table, dict) for key in _flat(table)}
+    names |= {key for table in _varying(document) for key in table}
     return names | {target for name in names for target in ALIASES.get(name, ())}
+
+
+def _varying(document: dict[str, Any]) -> list[dict[str, Any]]:
+    """The tables of a document whose keys vary, with dotted keys."""
+    grid, search, ties = (document.get(name) for name in ("grid", "search", "zip"))
+    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
+    return [_flat(table) for table in tables if isinstance(table, dict)]
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:
@@ -416,12 +445,6 @@ def _material(name: str, folder: Path) -> str:
         raise MisfitError("unknown material") from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
-
-
-def _structure(path: Path) -> str:
-    """The absolute path of a user's own structure."""
-    read_structure(path)
-    return str(path.resolve())
 
 
 def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:

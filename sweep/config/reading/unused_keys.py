@@ -11,8 +11,9 @@ from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
+from sweep.config.kinds.impact import DROP, Impact
+from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import ARCS
-from sweep.config.kinds.table import Table
 from sweep.config.materials.material_file import locate, read_record
 
 STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
@@ -36,7 +37,6 @@ NEEDS = {
 }
 """Why an optional key is left out of the kind that has it."""
 
-CHOICES = ("damping.model", "solver.integrator")  # of a kind, which may come to another
 ONLY_ALONG = ("lattice.layers", "lattice.symmetry", "lattice.imperfection_seed")
 IDLE_ALONG = (
     "loading.base_patch",
@@ -79,7 +79,7 @@ def _unused_part(lattice: CustomStructure, case: Case) -> str:
 def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the given value of a key has no effect in a case; empty if it has an effect."""
     table, name = key.split(".")
-    kind = getattr(case, table)
+    case_value = getattr(getattr(case, table), name, None)
     if key == "material.memory":
         return _why_no_memory(given)
     if key == "material.poisson" and case.material.plane == "stress":
@@ -88,20 +88,28 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return "the lattice repeats"
     if case.shells and key in IDLE_ALONG:
         return _why_shells(case)
-    if _is_held(key, given, kind) or kind.implies(name, given[key]):
+    if case_value == given[key] or _used_otherwise(key, case_value, given, case):
         return ""
-    return _reason(key, given, case)
+    implied = getattr(case, table).implies(name, given[key])
+    return "" if implied else _reason(key, given, case)
 
 
-def _is_held(key: str, given: Mapping[str, Any], kind: Table) -> bool:
-    """Whether a table holds a given value, or what follows from it."""
-    name = key.split(".")[1]
-    if key in CHOICES:
-        return kind.value(name) == given[key]
-    if key == "solver.time_step" and "solver.load_steps" in given:
-        return kind.value("load_steps") is None  # else they set it
-    labels = name == "speed" and name in type(kind).model_fields  # of a quasi-static crush
-    return kind.value(name) is not None or labels
+def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case: Case) -> bool:
+    """True if a value has an effect although the case has another value, or none.
+
+    A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
+    label; contact "auto" becomes the barrier, a "drop" an impact with gravity; the name of a file
+    is that without its folder; the share of a sheet is the nearest that fits.
+    """
+    if key == "lattice.infill" and isinstance(case.lattice, SlicedSheet):
+        return True
+    if key == "contact.model":
+        return bool(given[key] == "auto")
+    if key == "loading.mode":
+        return given[key] == DROP and isinstance(case.loading, Impact)
+    if key == "solver.time_step":
+        return case_value is not None and "solver.load_steps" not in given
+    return key == "material.name" or (key == "loading.speed" and isinstance(case.loading, Crush))
 
 
 def _why_no_memory(given: Mapping[str, Any]) -> str:

@@ -13,6 +13,11 @@ Pair = tuple[float, float]
 Positive = Annotated[float, Field(gt=0)]
 Node = Annotated[int, Field(ge=0)]
 Pieces = Annotated[int, Field(ge=1, le=1000)]
+BESIDE_WALLS = (
+    *("supports", "loads", "prescribed", "pins", "springs", "masses"),
+    *("floor_y_mm", "gravity_mm_s2", "initial_velocity_mm_s", "probes"),
+)
+"""Keys that no structure has which is pressed between platens."""
 
 
 class Part(BaseModel):
@@ -113,6 +118,12 @@ class Structure(Part):
         if isinstance(given[0], tuple):
             return given
         return (given,) * len(self.nodes_mm)
+
+    @property
+    def beside_walls(self) -> list[str]:
+        """The keys of `BESIDE_WALLS` that it gives."""
+        fields = type(self).model_fields
+        return [key for key in BESIDE_WALLS if getattr(self, key) != fields[key].default]
 
     @property
     def restraints(self) -> set[tuple[int, str]]:

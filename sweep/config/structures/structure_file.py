@@ -1,7 +1,7 @@
 """Reads the file of a custom structure and lists its faults, one line each."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -37,8 +37,8 @@ class StructureError(MisfitError):
         return "\n".join(self.lines)
 
 
-def read_structure(path: Path) -> Structure:
-    """Read and check a file; `StructureError` holds all faults."""
+def read_structure(path: Path, check: Callable[..., Iterator[str]] | None = None) -> Structure:
+    """Read and check a file; `StructureError` holds all faults. check: `faults`, or others."""
     try:
         text = text_of(path, "a JSON file")
         _check_object(text)
@@ -47,7 +47,7 @@ def read_structure(path: Path) -> Structure:
         raise StructureError(list(_misfits(error))) from None
     except MisfitError as error:
         raise StructureError([str(error)]) from None
-    lines = list(faults(structure))
+    lines = list((check or faults)(structure))
     if lines:
         raise StructureError(lines)
     return structure
@@ -115,6 +115,12 @@ def faults(structure: Structure) -> Iterator[str]:
     yield from _drives(structure)
     geometry = list(_geometry(structure))
     yield from geometry or _loose(structure)
+
+
+def faults_of_lists(structure: Structure) -> Iterator[str]:
+    """The faults of its lists alone, of a structure whose walls may cross."""
+    unknown = list(_unknown_nodes(structure))
+    yield from unknown or _lists(structure)
 
 
 def _node_references(structure: Structure) -> Iterator[tuple[tuple[str | int, ...], int]]:

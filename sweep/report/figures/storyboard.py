@@ -46,7 +46,7 @@ def headline(row: Mapping[str, Any]) -> str:
 def design_and_scene(row: Mapping[str, Any]) -> tuple[str, str]:
     """Design and scene of a case in words."""
     pattern, cells = row["lattice_kind"], f", {row['cells_x']} x {row['cells_y']} cells"
-    if pattern == "custom" or is_sheet(pattern):
+    if pattern == "custom" or "." in pattern or is_sheet(pattern):  # a drawing is named by its file
         cells = ""
     if row["infill_share"] > 0.0:  # NaN without a slicer
         cells = f", {text_in(row['infill_share'], '%', 3)} infill"

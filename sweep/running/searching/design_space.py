@@ -16,10 +16,10 @@ from scipy.optimize import brentq
 from sweep.config.axis import Interval, Written, rounded_down
 from sweep.config.case import Case
 from sweep.config.grid import Config, Values, chosen_case
-from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.specimen import Laid
 from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
@@ -111,7 +111,7 @@ class DesignSpace:
         def count(thickness: float) -> float:
             return self._panels(_with_walls(least, thickness))
 
-        assert isinstance(least.lattice, Cells)
+        assert isinstance(least.lattice, Laid)
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
         weighs = by_mass or self.budget < inf
@@ -138,7 +138,7 @@ class DesignSpace:
         return float(panel_of(self.panel, *case.footprint, gap).specimens)
 
 
-def _widest(lattice: Cells) -> float:
+def _widest(lattice: Laid) -> float:
     """Wall thickness (m) that leaves no openings, between walls or beside an outline."""
     beside = [lattice.opening - outline for outline in lattice.outline if outline]
     return min([lattice.thickest, *beside])

@@ -10,10 +10,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sweep.config.case import Case
-from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
+from sweep.config.kinds.specimen import Laid
 from sweep.config.kinds.table import RefusedError
 from sweep.ranking.spread import FINE
 from sweep.running.beside.refinement import layers, mesh
@@ -55,7 +55,7 @@ def perturbed(design: Case) -> list[Corner]:
     fine = _with(design, _elements(design.lattice, 2))
     base = fine or _with(design, _elements(design.lattice, 1)) or design
     variants = {FINE: fine}
-    if isinstance(base.lattice, Cells | Sliced):
+    if isinstance(base.lattice, Laid):
         count = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
             height = layers(base.lattice, count, by) if count else {}
@@ -66,11 +66,11 @@ def perturbed(design: Case) -> list[Corner]:
     return [Corner(name, case) for name, case in variants.items() if case]
 
 
-def _walls(lattice: Cells | Sliced, by: float) -> dict[str, Any]:
+def _walls(lattice: Laid, by: float) -> dict[str, Any]:
     """Walls `by` times as thick in the same places, and perimeters if a slicer lays both: it
     extrudes wider lines, at a share of infill that keeps their distance.
     """
-    if isinstance(lattice, Cells):
+    if not isinstance(lattice, Sliced):
         return {"wall_thickness": by * lattice.wall_thickness}
     wider = lattice.line_width + (by - 1.0) * lattice.line
     return {"line_width": wider, "infill": by * lattice.infill}
@@ -81,9 +81,12 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     share.
     """
     change = mesh(lattice, ratio)
-    if not isinstance(lattice, Cells | Sliced):
+    if not isinstance(lattice, Laid):
         return change
-    return change | {"mass": None, "infill": None if isinstance(lattice, Cells) else lattice.infill}
+    return change | {
+        "mass": None,
+        "infill": lattice.infill if isinstance(lattice, Sliced) else None,
+    }
 
 
 def _with(design: Case, change: dict[str, Any]) -> Case | None:

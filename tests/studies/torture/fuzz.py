@@ -30,6 +30,7 @@ TOKENS = (
     *(b"[bold]", b"../../x", b"[grid]\n", b"\xc3\xa9", b"=1+1", b"1e-320", b'"0 mm"', b"#"),
 )
 PART = ("--part", "1000000/1000000")  # reads and expands all of a config, and runs none of it
+LEFT_OUT = ("extreme", "search", "custom", "drawn")  # long, of another verb, of files beside them
 NO_PART = b"the sweep has only"
 STRIP = ("--gauge", "33 mm", "--area", "8 mm^2", "--density", "1210 kg/m^3", "--units", "force=N")
 
@@ -49,15 +50,15 @@ class Input(NamedTuple):
 def inputs(results: Path) -> dict[str, list[Input]]:
     """What is mutated, by kind. results: a results file."""
     configs = ROOT / "configs"
-    tomls = [path for path in sorted(configs.glob("*.toml")) if path.name != "extreme.toml"]
-    structure = '[lattice]\nkind = "custom"\nstructure = "s.json"\n'
+    tomls = [path for path in sorted(configs.glob("*.toml")) if path.stem not in LEFT_OUT]
+    of_files = {path.stem: path.read_text("utf-8") for path in configs.glob("*.toml")}
     material = '[material]\nname = "m.csv"\n'
     of_part = ("run", "c.toml", *PART)
     return {
         "configs": [Input("c.toml", path.read_bytes(), of_part) for path in tomls],
         "structures": [
-            Input("s.json", (configs / name).read_bytes(), of_part, ("c.toml", structure))
-            for name in ("custom.json", "accuracy/vibration.json")
+            Input(file, (configs / file).read_bytes(), of_part, ("c.toml", of_files[name]))
+            for name, file in (("custom", "custom.json"), ("drawn", "drawn.csv"))
         ],
         "materials": [
             Input("m.csv", path.read_bytes(), of_part, ("c.toml", material))

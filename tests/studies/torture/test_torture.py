@@ -42,6 +42,18 @@ def test_few_mutated_inputs_are_used_or_refused(tmp_path):
     assert [row[0] for row in fuzz.sheet(counts).rows] == [*counts]
 
 
+def test_inputs_can_be_used_before_they_are_mutated(tmp_path):
+    write(tmp_path / "armor.h5", cases(4), fold=True)
+    for seeds in fuzz.inputs(tmp_path / "armor.h5").values():
+        given = seeds[0]
+        (tmp_path / given.name).write_bytes(given.content)
+        if given.beside:
+            (tmp_path / given.beside[0]).write_text(given.beside[1], "utf-8")
+        assert fuzz.outcome(tmp_path, given.words) == (
+            fuzz.REFUSED if given.name == "r.h5" else fuzz.USED  # a case of it has failed
+        )
+
+
 def test_what_may_not_be_said_is_found(tmp_path, monkeypatch):
     monkeypatch.setattr(fuzz, "main", lambda words: {}["a traceback"])
     assert fuzz.outcome(tmp_path, ("run",)) == fuzz.RAISED

@@ -2,6 +2,7 @@
 
 from sweep.cli.cell_size import cell_sentences
 from sweep.config.case import Case
+from sweep.design.geometry import Drawing
 
 PANEL = dict(width=0.1, height=15e-3, depth=0.05)
 
@@ -18,3 +19,17 @@ def test_each_lattice_is_told_once():
         "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)",
         "lattice.cell_size 4 mm: 25 x 3 cells of 3.95 x 4.29 mm (hex flat)",
     ]
+
+
+def test_a_drawing_is_told_with_its_loose_ends():
+    joints = ((0.0, 0.0), (0.02, 0.0), (0.0, 0.01), (0.02, 0.01), (0.005, 0.0025))
+    whole = Drawing(joints[:4], ((0, 1), (0, 2), (1, 3), (2, 3)))
+    sentences = ["drawn: 20 x 10 mm, 4 joints, 4 walls"]
+    assert cell_sentences([case_of(whole), case_of(whole)]) == sentences
+    loose = Drawing(joints, (*whole.walls, (0, 4)))
+    (sentence,) = cell_sentences([case_of(loose)])
+    assert sentence == "drawn: 20 x 10 mm, 5 joints, 5 walls; 1 wall ends loose, at 5, 2.5 mm"
+
+
+def case_of(drawing):
+    return Case.of(lattice={"kind": "drawn", "drawing": drawing, "wall_thickness": 0.5e-3})

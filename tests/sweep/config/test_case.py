@@ -45,6 +45,14 @@ def test_id_sees_every_table(other):
     assert other.case_id != Case.of().case_id
 
 
+def test_equal_cases_are_one_in_a_set():
+    other = Case.of(loading=dict(force=20.0))
+    assert len({Case.of(), Case.of(), other, Case.from_json(other.to_json())}) == 2
+    labelled = Case.of(axes={"lattice.cells": 3})
+    assert hash(labelled) == hash(Case.of())
+    assert len({Case.of(), labelled}) == 2
+
+
 def test_a_changed_copy_has_an_id_of_its_own():
     case = Case.of()
     before = case.case_id

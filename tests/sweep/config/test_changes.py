@@ -1,5 +1,7 @@
 """Cases changed to other values: what is replaced, what is computed anew, what stays."""
 
+import json
+
 import pytest
 
 from sweep.config.case import Case
@@ -98,3 +100,16 @@ def test_a_memory_that_a_change_adds_has_its_constants():
     assert (
         case.changed(material={"loss": 0.4}).changed(material={"loss": None}).material.loss is None
     )
+
+
+def test_another_file_brings_another_structure(tmp_path):
+    walls = {"nodes_mm": [[0, 0], [9, 0], [0, 9]], "walls": [[0, 1], [1, 2]]}
+    for name, nodes in (("a", walls["nodes_mm"]), ("b", [[0, 0], [5, 0], [0, 9]])):
+        (tmp_path / f"{name}.json").write_text(json.dumps(walls | {"nodes_mm": nodes}))
+    for kind in ("custom", "drawn"):
+        one, other = (
+            Case.of(lattice={"kind": kind, "file": str(tmp_path / f"{name}.json")}) for name in "ab"
+        )
+        assert one.lattice.width != other.lattice.width
+        changed = one.changed(lattice={"file": str(tmp_path / "b.json")})
+        assert changed.case_id == other.case_id

@@ -36,7 +36,7 @@ CHOICES = {
         'loading.mode = "shake"; "force" ("dead load"), "displacement" ("crush"), '
         '"impact", "drop" or "custom"'
     ),
-    '[lattice]\nkind = "heptagon"': f'lattice.kind = "heptagon"; {KINDS} or "custom"',
+    '[lattice]\nkind = "heptagon"': (f'lattice.kind = "heptagon"; {KINDS}, "custom" or "drawn"'),
     '[material]\nbend = "curve"': (
         'material.bend = "curve"; "linear", "section", "fibres" or "none"'
     ),

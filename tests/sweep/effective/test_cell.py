@@ -5,6 +5,7 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.faults import MisfitError
+from sweep.design.geometry import Drawing
 from sweep.effective.cell import frame_of, infill_of, turned
 from sweep.effective.material import card
 from sweep.effective.stiffness import response
@@ -99,3 +100,10 @@ def test_walls_that_are_springs_are_refused():
     case = Case.of(lattice=BOX, material={"bend": "none"}, solver={"joints": "points"})
     with pytest.raises(MisfitError, match="walls that are springs"):
         infill_of(case)
+
+
+def test_a_drawing_says_what_it_lacks():
+    square = Drawing(((0.0, 0.0), (0.01, 0.0), (0.01, 0.01)), ((0, 1), (1, 2), (2, 0)))
+    drawn = Case.of(lattice={"kind": "drawn", "drawing": square}, loading={"strain": 0.3})
+    with pytest.raises(MisfitError, match="a drawing, of which no period is known"):
+        infill_of(drawn)

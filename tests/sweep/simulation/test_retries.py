@@ -203,3 +203,13 @@ def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones()
     alone, result = simulate(case), simulate_again(case)
     assert (alone.status, result.status) == (Status.UNRESOLVED, Status.CONVERGED)
     assert result.summary["retry"] == 'solver.time_step = 30.94 us, solver.integrator = "bdf2"'
+
+
+def test_an_impact_of_far_too_many_steps_is_followed_until_the_striker_is_back():
+    """A light striker that bounces off one wall, of which the usual duration is a million steps."""
+    loading = dict(mode="impact", striker_mass=3e-6, striker_speed=0.05, duration=40.0)
+    solver = dict(integrator="bdf2", time_step=0.05)
+    result = simulate_again(Case.of(loading=loading, solver=solver))
+    assert result.status is Status.CONVERGED
+    assert result.summary["retry"]
+    assert result.history["time_s"][-1] < 1.0

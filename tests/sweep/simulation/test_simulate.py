@@ -7,6 +7,7 @@ import pytest
 
 from kernels.solve import march
 from sweep.config.case import Case
+from sweep.config.faults import ConfigError
 from sweep.simulation.simulate import simulate, warm_up
 
 PARTS = {"scene": "build_scene", "rows": "history_columns", "measures": "summarise"}
@@ -53,3 +54,10 @@ def test_processor_time_counts_the_march(seconds):
 
 def test_processor_time_counts_no_waiting(seconds):
     assert seconds(march, "march", time.sleep) < 0.2
+
+
+def test_tables_of_a_config_are_a_case_too():
+    tables = {"loading": {"release_time": "0.1 ms", "duration": "0.2 ms"}}
+    assert simulate(tables).case == Case.of(loading=dict(release_time=1e-4, duration=2e-4))
+    with pytest.raises(ConfigError, match=r"lattice\.widht"):
+        simulate({"lattice": {"widht": "9 mm"}})

@@ -42,6 +42,7 @@ CONFIGS = Path(__file__).parents[4] / "configs"
         ("rammed", 102),
         ("thousand", 1000),
         ("custom", 1),
+        ("drawn", 4),
         ("seed", 14),
         ("impact", 24),
         ("drop", 8),
@@ -65,5 +66,5 @@ def test_every_shipped_config_is_pinned():
     studies = {"custom", "seed", "impact", "khatri_egan_square", "extreme", "reuse", "search"}
     names = {"smoke", "armor", "rammed", "drop", "infills", "panel", "slicer", "thousand"}
     names |= {f"khatri_egan_{cells}_out_of_plane" for cells in ("square", "hexagon")}
-    names |= {"which_way", "which_way_lost", "gyroid", "sheets"}
+    names |= {"which_way", "which_way_lost", "gyroid", "sheets", "drawn"}
     assert {path.stem for path in CONFIGS.glob("*.toml")} == names | studies

@@ -68,3 +68,11 @@ def test_what_plates_leave_out_is_told():
     assert "delamination" in usual[0]
     assert beyond[0] == usual[0]
     assert "beyond a strain of 70 %" in beyond[1]
+
+
+def test_drawings_are_named_once_and_custom_structures_by_their_files():
+    drawn = [{"lattice.file": "a.svg", "lattice_kind": "a.svg"}, {"lattice.file": ""}]
+    table = summary(*drawn)
+    assert list(design_text(table, table)) == ["pattern"]
+    custom = summary(*({"lattice.file": f, "lattice_kind": "custom"} for f in ("a.json", "b.json")))
+    assert list(design_text(custom, custom)["file"]) == ["a.json", "b.json"]

@@ -1,0 +1,89 @@
+"""Reads the file of a drawing of any format, and lets its walls meet.
+
+A file comes from anywhere: its size, and the lines that follow from it, are bounded.
+"""
+
+from functools import lru_cache
+from pathlib import Path
+from stat import S_ISREG
+from typing import NamedTuple
+
+import numpy as np
+
+from sweep.config.drawings import dxf, svg, tables
+from sweep.config.drawings.curves import MOST_LINES
+from sweep.config.drawings.lines import Lines
+from sweep.config.faults import MisfitError
+from sweep.config.structures.structure_file import StructureError
+from sweep.design.meeting import Meeting, MeetingError, met
+from sweep.numbers import text_in
+
+READERS = {**tables.READERS, ".dxf": dxf.read_dxf, ".svg": svg.read_svg}
+NEEDED = "the path of a .svg, .dxf, .csv or .json file, or of LAMMPS data (.data, .lmp)"
+MOST_BYTES = 8_000_000
+MOST_BYTES_OF_SVG = 2_000_000  # whose paths are read slowly
+FARTHEST = 1e9  # units of the file
+
+
+class Read(NamedTuple):
+    """A network that is in one piece, and what its file says of it."""
+
+    network: Meeting
+    lines: Lines
+
+
+def read_drawing(path: Path) -> Read:
+    """Read a file once; `StructureError` says why it is no drawing."""
+    try:
+        state = path.stat()
+        if not S_ISREG(state.st_mode):
+            raise MisfitError(f"not a file; needed: {NEEDED}")
+        if path.suffix.lower() not in READERS:
+            raise MisfitError(f"not the name of a drawing; needed: {NEEDED}")
+        most = MOST_BYTES_OF_SVG if path.suffix.lower() == ".svg" else MOST_BYTES
+        if state.st_size > most:
+            raise MisfitError(f"larger than {text_in(most, 'MB')}")
+        return _read(path, state.st_mtime_ns)
+    except OSError as error:
+        raise StructureError([f"cannot be read ({error.strerror}); needed: {NEEDED}"]) from None
+    except ValueError as error:  # of ours, or a null character in the path
+        if isinstance(error, StructureError):
+            raise
+        ours = isinstance(error, MisfitError | MeetingError)
+        raise StructureError([str(error) if ours else f"no path; needed: {NEEDED}"]) from None
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, _: int) -> Read:
+    """As `read_drawing`, of a file of that age."""
+    lines = READERS[path.suffix.lower()](path)
+    ends = lines.ends
+    if not 0 < len(ends) <= MOST_LINES:
+        raise MisfitError(f"has {len(ends):,} lines; needed: 1 to {MOST_LINES:,}")
+    if np.abs(ends).max() > FARTHEST:
+        raise MisfitError(f"reaches farther than {FARTHEST:g} from its origin")
+    if lines.thickness is not None and not lines.thickness.min() > 0.0:
+        raise MisfitError(f"has a wall of thickness {lines.thickness.min():g}; needed: above 0")
+    width, height = np.ptp(ends, axis=(0, 1))
+    if min(width, height) <= 0.0:
+        raise MisfitError(f"is {width:.4g} wide and {height:.4g} high; needed: lines in the plane")
+    network = met(ends - ends.min(axis=(0, 1)))
+    _check_piece(network)
+    return Read(network, lines)
+
+
+def _check_piece(network: Meeting) -> None:
+    """Refuse walls that are not connected with the others."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    walls, joints = network.walls, network.joints
+    graph = coo_array((np.ones(len(walls)), walls.T), shape=(len(joints),) * 2)
+    count, piece = connected_components(graph, directed=False)
+    if count > 1:
+        sizes = np.bincount(piece)
+        x, y = joints[np.argmax(piece == np.argmin(sizes))]
+        raise MisfitError(
+            f"in {count} pieces: nothing holds the walls at {x:.4g}, {y:.4g} from its lower left "
+            "corner, in its unit; needed: walls that all meet"
+        )

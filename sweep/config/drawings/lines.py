@@ -1,0 +1,30 @@
+"""What the file of a drawing holds: lines, and what it says of their walls."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sweep.constants import MM
+
+Floats = NDArray[np.float64]
+
+METRES = {"um": 1e-3 * MM, "mm": MM, "cm": 10.0 * MM, "m": 1.0, "in": 25.4 * MM}
+"""Units of length in the heads of a table."""
+
+
+class Lines(NamedTuple):
+    """Centre lines (s, 2, 2) in the unit of a file.
+
+    unit: its length, m; None if the file does not say. named: whether its own heads or keys name
+    it, so that no other can be meant. thickness: of the wall of each line (s,), in
+    the same unit. depth: of the walls, m. elements: of a wall. notes: what was left out.
+    """
+
+    ends: Floats
+    unit: float | None = None
+    thickness: Floats | None = None
+    depth: float | None = None
+    elements: int | None = None
+    notes: tuple[str, ...] = ()
+    named: bool = False

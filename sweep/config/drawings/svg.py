@@ -1,0 +1,96 @@
+"""Lines and curves of an SVG file; the package svgelements reads them, with their transforms."""
+
+import re
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from sweep.config.drawings.curves import MOST_LINES, Floats, straightened
+from sweep.config.drawings.lines import METRES, Lines
+from sweep.config.faults import MisfitError
+
+PIXEL = METRES["in"] / 96.0  # m, of CSS
+LENGTHS = METRES | {"": PIXEL, "px": PIXEL, "pt": METRES["in"] / 72.0, "pc": METRES["in"] / 6.0}
+PAGE = ("width", "height", "viewBox", "preserveAspectRatio")
+USE = re.compile(r"(?:\{.*\})?use$")
+_SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
+
+
+def read_svg(path: Path) -> Lines:
+    """The centre lines of all shapes that are shown, y upwards; stroke width and fill are ignored.
+
+    The unit is that of the view box: what the width and the height of the page make of it, or a
+    pixel.
+    """
+    try:
+        from svgelements import SVG, Shape
+        from svgelements import Path as Outline
+    except ModuleNotFoundError as missing:
+        needed = 'a .svg file needs the package svgelements: pip install "crumple[drawings]"'
+        raise MisfitError(needed) from missing
+    try:
+        root = Xml.fromstring(path.read_bytes())
+        if _drawn(root) > MOST_LINES:
+            raise MisfitError(f"more than {MOST_LINES:,} shapes, with those that are used again")
+        unit = _unit(root)
+        for key in PAGE:
+            root.attrib.pop(key, None)
+        drawing = SVG.parse(BytesIO(Xml.tostring(root)))
+        shapes = (Outline(shape) for shape in drawing.elements() if isinstance(shape, Shape))
+        ends = straightened(control for shape in shapes for control in _beziers(abs(shape)))
+    except MisfitError:
+        raise
+    except Xml.ParseError as error:
+        raise MisfitError(f"no SVG: not XML at line {error.position[0]}") from None
+    except Exception as error:  # noqa: BLE001  a damaged file fails anywhere in its reader
+        raise MisfitError(f"not SVG that svgelements can read ({type(error).__name__})") from None
+    return Lines(ends * [1.0, -1.0], unit)
+
+
+def _unit(root: Xml.Element) -> float:
+    """Length of a unit of the view box, m."""
+    box = [float(word) for word in re.split(r"[\s,]+", root.get("viewBox", "").strip()) if word]
+    scales = []
+    for size, units in zip((root.get("width", ""), root.get("height", "")), box[2:], strict=False):
+        match = _SIZE.fullmatch(size.strip().lower())
+        if match and match[2] in LENGTHS and units > 0.0:
+            scales.append(float(match[1]) * LENGTHS[match[2]] / units)
+    return min(scales, default=PIXEL)
+
+
+def _drawn(root: Xml.Element) -> int:
+    """Number of elements when all that are used again are drawn; too many if one uses itself."""
+    named = {element.get("id"): element for element in root.iter()}
+    count: dict[int, int] = {}
+
+    def drawn(element: Xml.Element) -> int:
+        if id(element) not in count:
+            count[id(element)] = MOST_LINES + 1  # while it is open, it cannot use itself
+            parts = [*element]
+            if USE.match(str(element.tag)):
+                link = next((v for k, v in element.items() if k.endswith("href")), "")
+                parts += [named[link[1:]]] if link[1:] in named else []
+            count[id(element)] = min(1 + sum(map(drawn, parts)), MOST_LINES + 1)
+        return count[id(element)]
+
+    return drawn(root)
+
+
+def _beziers(path: Any) -> Iterator[Floats]:
+    """Control points (k, 2) of each part of a path."""
+    from svgelements import Arc, CubicBezier, Move, QuadraticBezier
+
+    for part in path:
+        if isinstance(part, Move) or part.start is None or part.end is None:
+            continue
+        for curve in part.as_cubic_curves() if isinstance(part, Arc) else [part]:
+            control = [curve.start, curve.end]
+            if isinstance(curve, CubicBezier):
+                control[1:1] = [curve.control1, curve.control2]
+            elif isinstance(curve, QuadraticBezier):
+                control[1:1] = [curve.control]
+            yield np.array([(float(point.x), float(point.y)) for point in control])

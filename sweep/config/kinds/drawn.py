@@ -1,0 +1,184 @@
+"""A lattice of a user's own drawing, pressed as the built-in infills are."""
+
+from functools import lru_cache
+from math import inf, isclose, sqrt
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from pydantic import AfterValidator
+from pydantic_core import PydanticCustomError
+
+from sweep.config.kinds.cells import DRAWN
+from sweep.config.kinds.mesh import nodes_of
+from sweep.config.kinds.specimen import Laid, check_proportion, check_size, thickness_of
+from sweep.config.kinds.table import Given, Length, Mass, RefusedError, chosen
+from sweep.design.geometry import Drawing, Geometry
+
+if TYPE_CHECKING:
+    from sweep.design.network import Network
+
+DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
+
+SIZED = 1e-6  # relative error of a size of the drawing that a config states
+
+
+def _sound(drawing: Drawing) -> Drawing:
+    """A drawing from its lower left corner, whose walls end at two of its joints; all are used."""
+    used = {joint for wall in drawing.walls for joint in wall}
+    apart = all(a != b for a, b in drawing.walls)
+    even = len(drawing.shares) in (0, len(drawing.walls)) and all(s > 0.0 for s in drawing.shares)
+    if not (apart and even and drawing.joints and used == set(range(len(drawing.joints)))):
+        raise PydanticCustomError("drawing", "walls between two of the joints, all of them used")
+    if any(min(at[axis] for at in drawing.joints) != 0.0 for axis in (0, 1)):
+        raise PydanticCustomError("drawing", "joints whose least x and y are 0")
+    return drawing
+
+
+class Drawn(Laid):
+    """The walls in a `file`, which meet where they cross and are in one piece.
+
+    file_unit: length of one unit of the file, in place of the one that it states. `mass` sets the
+    wall thickness, the mean of all walls weighted by length. Box and joints follow from the file.
+    """
+
+    because: ClassVar[str] = f'lattice.kind is "{DRAWN}"'
+    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "file_unit")
+    constants: ClassVar[dict[str, Any]] = {"kind": DRAWN}
+    derived: ClassVar[tuple[str, ...]] = ("width", "height")
+    kind: ClassVar[str] = DRAWN
+
+    file: str | None = None
+    file_unit: Length | None = None
+    drawing: Annotated[Drawing, AfterValidator(_sound)]
+    mass: Mass | None = None
+
+    def given(self) -> dict[str, Any]:
+        """The values from which this follows."""
+        return super().given() | {"kind": DRAWN}
+
+    @property
+    def name(self) -> str:
+        """The name of its file."""
+        return self.file or DRAWN
+
+    @property
+    def geometry(self) -> Geometry:
+        """The numbers that define the drawing."""
+        box = self.width, self.height
+        return Geometry(DRAWN, None, (1, 1), box, self.wall_thickness, drawing=self.drawing)
+
+    @property
+    def network(self) -> "Network":
+        """Its walls."""
+        from sweep.design.lattice import build_network
+
+        return build_network(self.geometry)
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Numbers of joints and of walls between joints."""
+        return len(self.drawing.joints), len(self.drawing.walls)
+
+    @property
+    def elements(self) -> int:
+        """Number of elements of all walls."""
+        return int(self.network.pieces(self.nodes_per_wall + 1).sum())
+
+    @property
+    def cells_x(self) -> int:
+        """About how many cells there are across: those of a square grid of as many cells."""
+        return max(1, round(self.width / self._cell))
+
+    @property
+    def cells_y(self) -> int:
+        """About how many cells there are from bottom to top."""
+        return max(1, round(self.height / self._cell))
+
+    @property
+    def _cell(self) -> float:
+        joints, walls = self.counts
+        return sqrt(self.width * self.height / max(1, walls - joints + 1))
+
+    @property
+    def opening(self) -> float:
+        """Clear width of the narrowest cell between centre lines, m; infinite if there is none."""
+        return _openings(self.drawing)[0]
+
+    @property
+    def thickest(self) -> float:
+        """Wall thickness (m) at which even the widest opening is as wide as its walls are thick."""
+        return 0.5 * min(_openings(self.drawing)[1], self.width, self.height)
+
+
+def drawn(given: Given, density: float) -> Drawn:
+    """The drawing of these values; density (kg/m^3): of the material."""
+    if "drawing" not in given and "file" not in given:
+        allowed = "the path of a drawing, as the kind is drawn"
+        raise RefusedError("lattice.file", None, allowed)
+    usual: dict[str, Any] = {"nodes_per_wall": nodes_of(DRAWN)}
+    values = {key: v for key, v in chosen(given, Drawn).items() if key not in Drawn.derived}
+    if "drawing" not in given:
+        usual |= _of_file(given)
+        values["file"] = Path(given["file"]).name
+    made = Drawn.model_validate(usual | values)
+    width, height = (max(at[axis] for at in made.drawing.joints) for axis in (0, 1))
+    made = Drawn.model_validate(dict(made) | {"width": width, "height": height})
+    for key in Drawn.derived:
+        size = getattr(made, key)
+        if not isclose(given.get(key, size), size, rel_tol=SIZED):
+            allowed = f"{size:.6g} m, that of the drawing; lattice.file_unit changes it"
+            raise RefusedError(f"lattice.{key}", given[key], allowed)
+    check_proportion(made)
+    check_size(made, ("nodes_per_wall",))
+    if made.mass is not None:
+        thickness = thickness_of(made, made.mass, given, density)
+        return made.model_copy(update={"wall_thickness": thickness})
+    if made.wall_thickness >= made.thickest:
+        allowed = f"below half the width of the widest cell, {made.thickest:.4g} m here"
+        raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
+    return made
+
+
+@lru_cache(maxsize=256)
+def _openings(drawing: Drawing) -> tuple[float, float]:
+    """Clear widths (m) of the narrowest and of the widest cell; infinite if there is none."""
+    import numpy as np
+
+    from sweep.design.box import clear_widths
+
+    widths = clear_widths(np.array(drawing.joints), np.array(drawing.walls))
+    return float(widths.min(initial=inf)), float(widths.max()) if len(widths) else inf
+
+
+def _of_file(given: Given) -> dict[str, Any]:
+    """The values that the file of a drawing states."""
+    import numpy as np
+
+    from sweep.config.drawings.drawing_file import read_drawing
+
+    path = Path(given["file"])
+    network, lines = read_drawing(path)
+    unit = given.get("file_unit") or lines.unit
+    if lines.named and "file_unit" in given:
+        allowed = f"none, as {path.name} itself names the unit of its numbers"
+        raise RefusedError("lattice.file_unit", unit, allowed)
+    if unit is None:
+        allowed = f'the length of one unit of {path.name}, such as "1 mm", as it names none'
+        raise RefusedError("lattice.file_unit", None, allowed)
+    joints = (unit * network.joints).round(DIGITS)
+    walls = network.walls
+    values: dict[str, Any] = {}
+    shares: tuple[float, ...] = ()
+    if lines.thickness is not None:
+        thickness = unit * lines.thickness[network.line]
+        start, end = joints[walls].swapaxes(0, 1)
+        mean = float(np.average(thickness, weights=np.linalg.norm(end - start, axis=1)))
+        values["wall_thickness"] = float(f"{mean:.12g}")
+        if np.ptp(thickness) > 1e-9 * mean:
+            shares = tuple((thickness / mean).round(DIGITS).tolist())
+    if lines.depth is not None:
+        values["depth"] = lines.depth
+    if lines.elements is not None:
+        values["nodes_per_wall"] = lines.elements - 1
+    at, pairs = (tuple(map(tuple, array.tolist())) for array in (joints, walls))
+    return values | {"drawing": Drawing(at, pairs, shares)}
