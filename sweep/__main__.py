@@ -203,6 +203,7 @@ as a job array (run --part K/N). Of two rows of a case, the one in the later fil
 STORED = "results file; of a sweep also NAME or NAME.toml"
 AREA = "area to fill with specimens"
 THREADS = "threads (default: one per core, up to 8)"
+PROCESSES = "processes in place of threads (default, beyond 8 cores: one per core)"
 AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 
 
@@ -340,6 +341,7 @@ def _add_place(verb: Any) -> None:
     """Add where cases run: on threads or on a cluster."""
     where = verb.add_mutually_exclusive_group()
     where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
+    where.add_argument("--processes", type=_count, metavar="N", help=PROCESSES)
     where.add_argument(
         "--scheduler",
         type=_path,

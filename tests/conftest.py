@@ -30,6 +30,7 @@ SLOW = {
     "sweep/running/searching/test_search.py",
     "sweep/running/test_dask_graph.py",
     "sweep/running/test_renew.py",
+    "sweep/running/test_slurm.py",
 }
 """Files that `make test` leaves to `make slow`."""
 

@@ -6,7 +6,7 @@ import shlex
 from functools import partial
 from typing import TYPE_CHECKING
 
-from sweep.cli.cluster import cluster_of
+from sweep.cli.place import place_of
 from sweep.cli.terminal import print_sheets, say, say_all
 from sweep.modes import MODES
 from sweep.numbers import text_in
@@ -27,12 +27,10 @@ def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
     from sweep.running.searching.optimize import check_searchable
     from sweep.running.searching.search import Settings
-    from sweep.running.threads import usual_workers
 
     check_searchable(config)
-    with cluster_of(arguments) as cluster:
-        workers = arguments.workers or usual_workers()
-        how = Settings(arguments.evaluations, arguments.seed, workers, cluster)
+    with place_of(arguments) as place:
+        how = Settings(arguments.evaluations, arguments.seed, *place)
         return _search(config, arguments, how)
 
 

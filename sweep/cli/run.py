@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from sweep.cli.cluster import cluster_of
+from sweep.cli.place import place_asked, place_of
 from sweep.cli.question import question_of
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
@@ -34,7 +34,6 @@ def run(config: Config, arguments: Namespace) -> int:
     With --error-bars, a design without an error bar counts as a failure.
     """
     from sweep.running.run import check_question
-    from sweep.running.threads import usual_workers
     from sweep.store.read import Rerun
 
     check_question(config)
@@ -42,17 +41,17 @@ def run(config: Config, arguments: Namespace) -> int:
     if part:
         config, name = _part(config, arguments), f"{name}.{part[0]}-of-{part[1]}"
     out = arguments.out or f"results/{name}.h5"
-    workers = arguments.workers or usual_workers()
     rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
     if arguments.dry_run:
         from sweep.running.estimate import dry_run
 
+        workers, _ = place_asked(arguments)
         say(dry_run(config, out, workers, rerun, arguments.error_bars))
         say_all([UNKNOWN_BEST] if arguments.spread else [])
         say_all([SCREENED] if arguments.screen else [])
         return 0
-    with cluster_of(arguments) as cluster:
-        return _simulate(config, arguments, out, (workers, cluster, rerun))
+    with place_of(arguments) as place:
+        return _simulate(config, arguments, out, (*place, rerun))
 
 
 def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ...]) -> int:

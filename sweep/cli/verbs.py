@@ -76,12 +76,13 @@ def warm(_: Namespace) -> int:
 
     if not is_lasting():
         raise ArgumentError(UNWRITABLE)
-    cold = cold_kernels(["marches", "arcs", "plates"])
+    plane, space = ["marches", "arcs"], ["plates", "sheets"]
+    cold = cold_kernels(plane + space)
     done = "compiled the kernels" if cold else "found compiled kernels and loaded them"
     started = time.perf_counter()
     with ProcessPoolExecutor(1, get_context("spawn")) as beside:
-        shells = beside.submit(load, ["plates"])
-        load(["marches", "arcs"])
+        shells = beside.submit(load, space)
+        load(plane)
         shells.result()
     say(f"{done} in {time.perf_counter() - started:.1f} s; later runs need not compile")
     return DONE

@@ -1,25 +1,40 @@
 """A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-The process of suspect cases runs this module; function and cases reach it by its standard input.
+A process of cases runs `answer`; function, cases and results pass through a socket. It gets the
+paths of this process when it has started: a module there may have a name of Python's own.
 """
 
 import os
-import pickle
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager, suppress
+from math import inf
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from typing import Any
 
 import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
+from sweep.running.memory import limited_memory
 
 MOMENT = 0.2  # seconds between two checks for a stop
+GRACE = 1.0  # seconds after its time limit in which a case may end by itself
+PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answer({descriptor})"
+BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
+NO_MEMORY = "needs more memory than there is; try fewer cells, nodes or steps"
+KILLED = "solver.time_limit of {:g} s reached, and its process had to be killed; raise it"
 
 Simulate = Callable[[Case, np.ndarray], Result]
+
+
+class _StoppedError(Exception):
+    """The run ends."""
 
 
 def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
@@ -27,60 +42,100 @@ def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
     try:
         return simulate(case, control)
     except MemoryError:
-        message = "needs more memory than there is; try fewer cells, nodes or steps"
-        return failed_result(case, Status.STOPPED, message)
+        return failed_result(case, Status.STOPPED, NO_MEMORY)
     except Exception as error:  # noqa: BLE001 a defect in one case must not end the sweep
         message = f"unexpected {one_line(error)}; please report it"
         return failed_result(case, Status.STOPPED, message)
 
 
 def run_alone(
-    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool] = lambda: False
+    simulate: Simulate, batch: Iterable[Case], is_stopped: Callable[[], bool] = lambda: False
 ) -> list[Result]:
-    """Results of cases in a process of their own; if it dies, of each half of them in another one.
+    """Results of cases, one after the other, in a process of their own; fewer after a stop.
 
-    A case whose process dies with no other case in it has the status `worker_died`. After a stop
-    there are no further results. simulate: a function of a module, by its name.
+    simulate: a function of a module, by its name.
     """
-    results = _run_in_child(simulate, batch, is_stopped)
-    if results is not None:
-        return results
-    if len(batch) == 1:
-        return [failed_result(batch[0], Status.WORKER_DIED, DIED)]
-    half = len(batch) // 2
-    first = run_alone(simulate, batch[:half], is_stopped)
-    return first + run_alone(simulate, batch[half:], is_stopped)
+    with Child() as child:
+        results = [child.run(simulate, case, is_stopped) for case in batch]
+    return [result for result in results if result]
 
 
-def _run_in_child(
-    simulate: Simulate, batch: Sequence[Case], is_stopped: Callable[[], bool]
-) -> list[Result] | None:
-    """Results of cases in a process; None if it dies."""
-    words, pipe = [sys.executable, "-P", "-m", __name__], subprocess.PIPE
-    places = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    task: bytes | None = pickle.dumps((simulate, batch))
-    with subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
-        words, stdin=pipe, stdout=pipe, env=places, start_new_session=True
-    ) as process:
-        while not is_stopped():
-            try:
-                output, _ = process.communicate(task, timeout=MOMENT)
-            except subprocess.TimeoutExpired:
-                task = None
-                continue
-            return pickle.loads(output) if process.returncode == 0 else None
-        process.kill()
-    return []
+class Child(AbstractContextManager["Child"]):
+    """A process of cases, one at a time; it begins with the first of them, and again after it has
+    died or had to be killed.
+    """
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    def run(self, simulate: Simulate, case: Case, is_stopped: Callable[[], bool]) -> Result | None:
+        """The result of a case; None after a stop.
+
+        A case is `worker_died` if it is the first one of a process that dies. It is killed `GRACE`
+        after its time limit.
+        """
+        limit, is_first = case.solver.time_limit, self._process is None
+        if is_first:
+            self._begin()
+        try:
+            self._channel.send((simulate, case))
+            self._receive(inf, is_stopped)
+            result: Result = self._receive(limit + GRACE, is_stopped)
+        except _StoppedError:
+            self.end()
+            return None
+        except TimeoutError:
+            self.end()
+            return failed_result(case, Status.TIMED_OUT, KILLED.format(limit))
+        except (EOFError, OSError):
+            self.end()
+            if is_first:
+                return failed_result(case, Status.WORKER_DIED, DIED)
+            return self.run(simulate, case, is_stopped)
+        return result
+
+    def end(self) -> None:
+        """Kill the process, if there is one."""
+        if self._process:
+            self._channel.close()
+            self._process.kill()
+            self._process.wait()
+            self._process = None
+
+    def _begin(self) -> None:
+        self._channel, there = Pipe()
+        places = [place for place in sys.path if place]
+        program = PROGRAM.format(places=places, module=__name__, descriptor=there.fileno())
+        words = [sys.executable, "-P", "-c", program]
+        with there:
+            self._process = subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
+                words, stdout=2, pass_fds=[there.fileno()], start_new_session=True
+            )
+
+    def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
+        """What comes within some time."""
+        due = time.monotonic() + seconds
+        while not self._channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
+            if is_stopped():
+                raise _StoppedError
+            if time.monotonic() > due:
+                raise TimeoutError
+        return self._channel.recv()
 
 
-def answer() -> None:
-    """Run the cases on standard input; write results to standard output, and nothing else."""
+def answer(descriptor: int) -> None:
+    """Run the cases that come through a socket, and send their results, until it is closed."""
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    simulate, batch = pickle.load(sys.stdin.buffer)
-    channel, sys.stdout = sys.stdout.buffer, sys.stderr
-    results = [attempt(simulate, case, np.zeros(2, np.int64)) for case in batch]
-    channel.write(pickle.dumps(results))
-    channel.flush()
+    channel = Connection(descriptor)
+    with suppress(EOFError):
+        while True:
+            simulate, case = channel.recv()
+            channel.send(BEGUN)
+            with limited_memory():
+                channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
 
 
 def _end_with(parent: int) -> None:
@@ -93,7 +148,3 @@ def _end_with(parent: int) -> None:
 def one_line(error: Exception) -> str:
     """An exception in words."""
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
-
-
-if __name__ == "__main__":
-    answer()

@@ -30,7 +30,7 @@ NO_MAXIMUM = (
 
 Scheduler: TypeAlias = Any
 """Where cases run: text as in `ALLOWED`, a path, a `distributed.Client` or one of Dask's clusters,
-a `Cluster`; None for threads of this process."""
+a `Cluster`; "processes" or open `Processes` of this machine; None for threads of this process."""
 
 
 class ClusterError(Exception):
@@ -51,13 +51,6 @@ class Cluster(NamedTuple):
     client: "Client"
     address: str
     wait: float
-
-
-def usual_scheduler() -> str | None:
-    """The scheduler that Dask's configuration names, usually by DASK_SCHEDULER_ADDRESS."""
-    import dask
-
-    return dask.config.get("scheduler-address", None) or None
 
 
 @contextmanager

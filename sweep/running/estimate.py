@@ -3,21 +3,33 @@
 The time of a case is assumed to be proportional to `batches.cost`, with a factor that is measured
 for each kind of loading and mesh. It depends on what a design does, such as how often walls touch:
 where cases are many or short, each kind is divided by family, wall thickness and load into groups
-with a factor of their own. The estimate may still be wrong by a factor of two.
+with a factor of their own. A long case is stopped: its later steps are taken to be as slow as those
+in the second half of its time. Walls that are pressed along the cells take `FOLDING`, since steps
+are ten times slower after they collapse.
+Other programs share the cores as they do while the pilots run. The estimate may still be wrong by a
+factor of two.
 """
 
+import os
 import time
 from bisect import bisect
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
-from math import isnan
+from math import isnan, nan
+from pathlib import Path
+from statistics import fmean
+from threading import Event, Thread, Timer
+
+import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.grid import Config, expand
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.specimen import Laid
 from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted, text_in
@@ -34,10 +46,21 @@ from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 BYTES = 4  # of a stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
 SPENT = 8.0  # s of processor time for the groups of all kinds
-LONGEST = 10.0  # s for a pilot; one that takes longer is stopped, and its time extrapolated
+LONGEST = 10.0  # s of processor time for a pilot; a longer one is stopped and extrapolated
 GROUPS = 9  # of one kind
 SHARE = 3  # least number of cases in a group
+FOLDING = (
+    (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.45, 0.5, 1.0),
+    (0.0, 0.013, 0.026, 0.064, 0.17, 0.33, 0.6, 0.87, 1.0, 2.3),
+)
+"""Strain, and the time that crushes along the cells take until then, as a share of that to 50 %.
+
+The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as between 45 and 50 %.
+"""
+UNFOLDING = 0.25  # of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
+LOAD = Path("/proc/loadavg")
+MOMENT = 0.1  # seconds between two looks at it
 
 
 @dataclass(frozen=True)
@@ -46,7 +69,8 @@ class Estimate:
 
     The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
     that did not converge. The time is NaN if a pilot has no measured time. `stopped`: pilots whose
-    time is extrapolated from their first steps.
+    time is extrapolated from their first steps. `others`: threads of other programs that ran at the
+    same time, in the mean.
     """
 
     cpu: float
@@ -55,6 +79,11 @@ class Estimate:
     failures: list[str]
     seconds: float
     stopped: int = 0
+    others: float = 0.0
+
+    def wall(self, workers: int, cores: int) -> float:
+        """Time (s) on so many workers, which share the cores with others."""
+        return self.cpu / workers * max((workers + self.others) / cores, 1.0)
 
 
 def dry_run(
@@ -65,6 +94,8 @@ def dry_run(
     error_bars: bool = False,
 ) -> str:
     """Number of cases, time and disk space of a sweep, as text. Writes no file."""
+    from dask.system import cpu_count
+
     cases = expand(config)
     done = finished_ids(out, rerun)
     waiting = [case for case in cases if case.case_id not in done]
@@ -82,7 +113,7 @@ def dry_run(
     if not waiting:
         return f"{counts}\nnothing is left to run"
     forecast = estimate(waiting, real_simulate(waiting))
-    wall = forecast.cpu / min(workers, len(waiting))
+    wall = forecast.wall(min(workers, len(waiting)), cpu_count())
     lines = [
         counts,
         f"estimate for {counted(len(waiting), 'case')}, after running {forecast.pilots} of them "
@@ -93,7 +124,7 @@ def dry_run(
         "nothing was written",
     ]
     if forecast.stopped:
-        first = f"{forecast.stopped} of them stopped after {LONGEST:g} s; later steps may be slower"
+        first = f"{forecast.stopped} of them stopped early; later steps may be slower"
         lines.insert(2, f"  {first}")
     if forecast.failures:
         count = f"{len(forecast.failures)} of the pilot cases did not converge"
@@ -109,53 +140,107 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
     for case in cases:
         kinds.setdefault(_kind(case), []).append(case)
     first = [(_middle(sorted(alike, key=cost)), alike) for alike in kinds.values()]
-    started = time.perf_counter()
-    results = _run_all([pilot for pilot, _ in first], simulate)
-    spent = SPENT / len(first)
-    pilots = [
-        group
-        for pilot, alike in first
-        for group in _groups(pilot, alike, spent, _seconds(pilot, results[pilot.case_id]))
-    ]
-    others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
-    results |= _run_all(others, simulate) if others else {}
+    started, seconds = time.perf_counter(), dict[str, float]()
+    timed = _timed(simulate, seconds)
+    with _other_threads() as counts:
+        results = _run_all([pilot for pilot, _ in first], timed)
+        spent = SPENT / len(first)
+        pilots = [
+            group
+            for pilot, alike in first
+            for group in _groups(pilot, alike, spent, seconds.get(pilot.case_id, nan))
+        ]
+        others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
+        results |= _run_all(others, timed) if others else {}
     cpu = disk = 0.0
     for pilot, alike in pilots:
-        result = results[pilot.case_id]
-        cpu += _seconds(pilot, result) * sum(map(cost, alike)) / cost(pilot)
-        disk += len(alike) * _stored(result)
+        case_id = pilot.case_id
+        cpu += seconds.get(case_id, nan) * sum(map(cost, alike)) / cost(pilot)
+        disk += len(alike) * _stored(results[case_id])
     failures = [
         r.message for r in results.values() if r.status not in (Status.CONVERGED, Status.TIMED_OUT)
     ]
     stopped = sum(r.status is Status.TIMED_OUT for r in results.values())
-    return Estimate(cpu, disk, len(results), failures, time.perf_counter() - started, stopped)
+    spent = time.perf_counter() - started
+    return Estimate(cpu, disk, len(results), failures, spent, stopped, fmean(counts))
 
 
 def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     """Results by case id, computed one at a time in the same way as in a sweep."""
     stop, results = Stop(), list[Result]()
     with interruptible(stop):
-        run_on_threads(Plan(map(_limited, pilots), workers=1), simulate, results.extend, stop)
+        run_on_threads(Plan(pilots, workers=1), simulate, results.extend, stop)
     if stop.flag:
         raise Interrupted("interrupted; nothing was written")
     return {result.case_id: result for result in results}
 
 
-def _limited(pilot: Case) -> Case:
-    """The case with a time limit of at most `LONGEST`, which is no part of its id."""
-    limit = min(LONGEST, pilot.solver.time_limit)
-    return pilot.model_copy(
-        update={"solver": pilot.solver.model_copy(update={"time_limit": limit})}
-    )
+def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
+    """The function `simulate` in about `LONGEST`; it notes the processor time (s) of a case."""
+    from dask.system import cpu_count
+
+    longest = LONGEST * max((1.0 + os.getloadavg()[0]) / cpu_count(), 1.0)
+
+    def run(case: Case, control: np.ndarray) -> Result:
+        limit, middle = min(longest, case.solver.time_limit), [0]
+        timer = Timer(0.5 * limit, lambda: middle.append(int(control[1])))
+        timer.start()
+        try:
+            result = simulate(_limited(case, limit), control)
+        finally:
+            timer.cancel()
+        taken = float(result.summary["cpu_s"])
+        if result.status is Status.TIMED_OUT:
+            taken *= _left(case, middle[-1], int(control[1]))
+        seconds[case.case_id] = min(taken, case.solver.time_limit)
+        return result
+
+    return run
 
 
-def _seconds(pilot: Case, result: Result) -> float:
-    """Processor time of a pilot, s; of one that was stopped, in proportion to its steps."""
-    seconds = float(result.summary["cpu_s"])
-    if result.status is not Status.TIMED_OUT:
-        return seconds
-    done = max(len(next(iter(result.history.values()))) - 1, 1)
-    return seconds * max(count_of(pilot.loading, pilot.solver) / done, 1.0)
+def _left(case: Case, middle: int, done: int) -> float:
+    """How much longer a case takes than it took for `done` steps, `middle` in half of that time."""
+    count, loading = count_of(case.loading, case.solver), case.loading
+    if _folds(case) and isinstance(loading, Crush) and case.solver.load_steps:
+        strain = loading.strain * min(max(done, 1) / case.solver.load_steps, 1.0)
+        until, whole = np.interp([strain, loading.strain], *FOLDING)
+        unloading = UNFOLDING if loading.unload else 0.0
+        return float(whole / until) * loading.cycles * (1.0 + unloading)
+    return 1.0 + 0.5 * max(count - done, 0.0) / max(done - middle, 1)
+
+
+def _folds(case: Case) -> bool:
+    """Whether walls stand upright and are flat at rest: they fold all at once."""
+    return case.shells and not isinstance(case.lattice, Surface)
+
+
+def _limited(pilot: Case, limit: float) -> Case:
+    """The case with another time limit (s), which is no part of its id."""
+    solver = pilot.solver.model_copy(update={"time_limit": limit})
+    return pilot.model_copy(update={"solver": solver})
+
+
+@contextmanager
+def _other_threads() -> Iterator[list[int]]:
+    """The numbers of threads, beside one of this process, that run on this machine now and then."""
+    counts, ended = [_running() - 1], Event()
+
+    def count() -> None:
+        while not ended.wait(MOMENT):
+            counts.append(max(_running() - 2, 0))  # without this thread and that of the pilot
+
+    thread = Thread(target=count, daemon=True)
+    thread.start()
+    try:
+        yield counts
+    finally:
+        ended.set()
+        thread.join()
+
+
+def _running() -> int:
+    """Threads of the machine that run or could run, this one included."""
+    return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
 
 
 def duration(seconds: float) -> str:

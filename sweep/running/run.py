@@ -21,10 +21,10 @@ from sweep.running.applicable import check_required
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.spread import BEST, corners_of, run_corners
-from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.cluster import Scheduler
+from sweep.running.place import chosen_place, open_place
 from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep
-from sweep.running.threads import usual_workers
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 
 
@@ -39,10 +39,11 @@ def run(
     """Run the cases of a config that its results file does not hold; return the results of all.
 
     config : a dict of tables, the path of a TOML file, the name of an example, or a `Config`. out :
-    the results file, by default results/NAME.h5. workers: threads, by default one per core up to 8.
-    scheduler: in place of threads, a `distributed.Client` or one of Dask's clusters, the address or
-    the file of a scheduler, or "slurm"; by default that of DASK_SCHEDULER_ADDRESS, if it is set
-    and `workers` is not given. error_bars: also run each design on a coarser mesh and with longer
+    the results file, by default results/NAME.h5. workers: threads. scheduler: in place of threads,
+    "processes" of this machine, as many as workers; or a `distributed.Client` or one of Dask's
+    clusters, the address or the file of a scheduler, or "slurm". By default that of
+    DASK_SCHEDULER_ADDRESS, if it is set; else one thread per core, or beyond 8 cores one process
+    per core. error_bars: also run each design on a coarser mesh and with longer
     steps, for the columns `error_...`. Progress is shown, in a notebook as one line.
     """
     config = config if isinstance(config, Config) else load_config(config)
@@ -50,8 +51,9 @@ def run(
     for line in config.notes:
         announce(line)
     path = Path(out or f"results/{config.name}.h5")
-    with open_cluster(_where(workers, scheduler)) as cluster:
-        how = How(workers or usual_workers(), cluster, rerun)
+    count, where = chosen_place(workers, scheduler)
+    with open_place(where) as place:
+        how = How(count, place, rerun)
         run_sweep(config, path, *how)
         if error_bars:
             add_error_bars(config, path, *how)
@@ -78,8 +80,9 @@ def spread(
     table of `sweep.ranking.spread.spread_table`, a row per design.
     """
     results = results if isinstance(results, Results) else Results(results)
-    with open_cluster(_where(workers, scheduler)) as cluster:
-        how = How(workers or usual_workers(), cluster)
+    count, where = chosen_place(workers, scheduler)
+    with open_place(where) as place:
+        how = How(count, place)
         found = spreads_of([], results.table, results.question._replace(top=top), results.path, how)
     return spread_table(found)
 
@@ -103,11 +106,6 @@ def spreads_of(
     rows = with_allowed(beside, read_summary(beside), question)
     ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
     return spreads(ranking, rows, ids, question)
-
-
-def _where(workers: int | None, scheduler: Scheduler) -> Scheduler:
-    """The scheduler that is given, else the usual one unless threads are asked for."""
-    return usual_scheduler() if scheduler is None and workers is None else scheduler
 
 
 def check_question(config: Config) -> None:

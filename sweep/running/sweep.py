@@ -3,8 +3,9 @@
 import os
 import signal
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from threading import current_thread, main_thread
 
@@ -12,12 +13,14 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, expand, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
-from sweep.running.alone import Simulate, run_alone
+from sweep.running.alone import DIED, NO_MEMORY, Simulate, run_alone
 from sweep.running.batches import Plan, cost
-from sweep.running.cluster import Cluster, Scheduler, open_cluster
+from sweep.running.cluster import Cluster, Scheduler
 from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal
+from sweep.running.memory import limited_memory
 from sweep.running.period_note import sentences_on_periods
+from sweep.running.place import Place, open_place
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.running.relaxation_warning import sentences_on_lossless
@@ -35,6 +38,7 @@ from sweep.store.read import (
 )
 from sweep.store.write import WriteError, Writer
 
+CROWDED = (NO_MEMORY, DIED)  # messages of cases that run again, with no others beside them
 SUSPECTED = "ran when the last run died: now first, each in a process of its own"
 
 
@@ -53,7 +57,8 @@ def run_sweep(  # noqa: PLR0913  what, where, how
 ) -> int:
     """Run the cases that `out` does not hold; return how many cases of the sweep are not converged.
 
-    scheduler: as of `open_cluster`; without one, `workers` threads of this process.
+    scheduler: as of `open_place`; `workers` are threads of this process, which have a process each
+    with `Processes`.
     rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
     keeps finished cases and raises `Interrupted`. part: as of `Progress`.
     """
@@ -63,7 +68,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     axes = {case_id: case.axes for case_id, case in cases.items()}
     stop = Stop()
     with ExitStack() as stack:
-        cluster = stack.enter_context(open_cluster(scheduler))
+        place = stack.enter_context(open_place(scheduler))
         try:
             about = describe_run(config_text(config))
             writer = stack.enter_context(Writer(out, axes, about))
@@ -85,7 +90,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         to_run = list(waiting.values())
         for line in (*sentences_on_lossless(to_run), *sentences_on_periods(to_run)):
             announce(line)
-        work = _work(simulate, to_run, cluster) if waiting else None
+        work = _work(simulate, to_run, place) if waiting else None
         with interruptible(stop):
             if not work:
                 with writer_thread() as thread:
@@ -104,12 +109,16 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                     result_sink(writer, plan, progress) as sink,
                 ):
                     keep = _ending(suspects, journal, sink)
-                    if cluster:
-                        run_on_cluster(plan, work, keep, stop, cluster, progress.say, suspects)
+                    if isinstance(place, Cluster):
+                        run_on_cluster(plan, work, keep, stop, place, progress.say, suspects)
                     else:
-                        for case in suspects:
-                            keep(run_alone(work.simulate, [case], lambda: stop.flag))
-                        run_on_threads(plan, journal.watched(work.simulate), sink, stop)
+                        _run_alone(work.simulate, suspects, keep, stop)
+                        again: list[Case] = []
+                        first = partial(_sort_out, again, sink)
+                        in_place = place.runs(work.simulate) if place else work.simulate
+                        with nullcontext() if place else limited_memory():
+                            run_on_threads(plan, journal.watched(in_place), first, stop)
+                        _run_alone(work.simulate, again, sink, stop)
     kept = len(cases.keys() & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
@@ -117,11 +126,26 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     return len(cases) - _converged(out, cases)
 
 
-def _work(simulate: Simulate | None, cases: Sequence[Case], cluster: Cluster | None) -> Work:
+def _work(simulate: Simulate | None, cases: Sequence[Case], place: Place) -> Work:
     """What runs the cases; the kernels that they need are loaded only where they run."""
     if simulate:
         return Work(simulate, [])
-    return Work(*simulate_unloaded(cases)) if cluster else Work(real_simulate(cases), [])
+    if isinstance(place, Cluster):
+        return Work(*simulate_unloaded(cases))
+    return Work(real_simulate(cases), [])
+
+
+def _run_alone(simulate: Simulate, cases: Iterable[Case], sink: Sink, stop: Stop) -> None:
+    """Run cases one after the other, each in a process of its own."""
+    for case in cases:
+        sink(run_alone(simulate, [case], lambda: stop.flag))
+
+
+def _sort_out(again: list[Case], sink: Sink, results: list[Result]) -> None:
+    """Pass on results, but not of cases that may have had too little memory beside others."""
+    again += [result.case for result in results if result.message in CROWDED]
+    if ended := [result for result in results if result.message not in CROWDED]:
+        sink(ended)
 
 
 def _ending(suspects: Iterable[Case], journal: Journal, sink: Sink) -> Sink:

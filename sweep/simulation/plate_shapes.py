@@ -116,5 +116,6 @@ def surface_crossings(position: Floats, mesh: ShellMesh) -> int:
         triangles, position = mesh.triangles, mesh.with_images(position)
     edges, _ = surface.edges_of(triangles, position.shape[1])
     unsure = np.empty((0, 2), np.int64)
-    counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in position]
+    shapes = map(np.ascontiguousarray, position)  # one layout: one machine code
+    counts = [sum(crossing.count(shape, triangles, edges, unsure)) for shape in shapes]
     return int(max(counts))

@@ -17,6 +17,7 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
+from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.solver import Arcs
 from sweep.config.kinds.table import Given
 from sweep.config.load import case as made_of
@@ -195,7 +196,7 @@ def _scene(case: Case) -> Scene | PlateScene:
 def kernels_of(case: Case) -> str:
     """Which kernels a case runs on, a key of `SMALLEST`."""
     if case.shells:
-        return "plates"
+        return "sheets" if isinstance(case.lattice, Surface) else "plates"
     return "arcs" if isinstance(case.solver, Arcs) else "marches"
 
 
@@ -217,8 +218,15 @@ SMALLEST: Mapping[str, Given] = {
         "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
         "solver": {"load_steps": 1},
     },
+    "sheets": {
+        "lattice": {"kind": "gyroid", "nodes_per_wall": 1},
+        "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
+        "solver": {"load_steps": 1},
+    },
 }
-"""A case of each kind of kernels: motion and crushes in the plane, arc lengths, shells."""
+"""A case of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are
+flat at rest, and those that are not.
+"""
 
 
 def warm_up(kernels: Iterable[str] = ("marches",)) -> None:

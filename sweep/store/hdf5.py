@@ -5,7 +5,7 @@ fixed length: HDF5 keeps those of variable length in heaps without checksums, an
 send a reader into an endless loop.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -40,11 +40,11 @@ class About:
     last: int = 0
 
 
-def seal_blocks(target: Path, blocks: Sequence[Block], about: About, packed: bool) -> None:
-    """Seal the union of blocks, oldest first, under the name `target`."""
+def seal_blocks(target: Path, blocks: Iterable[Block], about: About, packed: bool) -> None:
+    """Seal the union of blocks, oldest first, under the name `target`; one is used at a time."""
     with closing(Growing(target, packed)) as growing:
-        for block, rows in zip(blocks, newest_rows(blocks), strict=True):
-            growing.add(block, rows)
+        for block in blocks:
+            growing.add(block, *newest_rows([block]))
         growing.seal(about)
 
 

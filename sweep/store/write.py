@@ -159,11 +159,16 @@ class Writer:
 
     def _merged(self, parts: list[Part]) -> Part:
         merged = new_part(self.path, parts[0].first, parts[-1].last)
-        with ExitStack() as stack:
-            blocks = [open_sealed(part.path, stack) for part in parts]
-            seal_blocks(merged.path, blocks, self._about, packed=True)
+        seal_blocks(merged.path, _one_by_one(parts), self._about, packed=True)
         discard(parts)
         return merged
+
+
+def _one_by_one(parts: Iterable[Part]) -> Iterator[Block]:
+    """The blocks of parts, each open until the next one: an open file takes some 5 MB."""
+    for part in parts:
+        with ExitStack() as stack:
+            yield open_sealed(part.path, stack)
 
 
 def _name_of(attributes: Mapping[str, Any]) -> str:

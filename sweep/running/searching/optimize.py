@@ -14,11 +14,11 @@ from sweep.ranking.question import Quantity, Question, check_units, in_si
 from sweep.ranking.requirements import limits
 from sweep.report.results import Results
 from sweep.running.applicable import check_required
-from sweep.running.cluster import Scheduler, open_cluster, usual_scheduler
+from sweep.running.cluster import Scheduler
+from sweep.running.place import chosen_place, open_place
 from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import MOST_TRIED, Search, Settings
-from sweep.running.threads import usual_workers
 
 FORCES = "loading.allowed_forces"
 NEEDED = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
@@ -61,11 +61,10 @@ def optimize(  # noqa: PLR0913  what, the parts of one question, where and how
     for name, number in (("evaluations", evaluations), ("seed", seed)):
         if number < 1:
             raise OptimizeError(f"{name} = {number}; allowed: 1 or more")
-    if scheduler is None and workers is None:
-        scheduler = usual_scheduler()
     path = os.fspath(out or f"results/{config.name}.h5")
-    with open_cluster(scheduler) as cluster:
-        how = Settings(evaluations, seed, workers or usual_workers(), cluster)
+    count, where = chosen_place(workers, scheduler)
+    with open_place(where) as place:
+        how = Settings(evaluations, seed, count, place)
         search = search_of(config, question, path, how)
         search.run()
     check_found(search)

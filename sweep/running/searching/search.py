@@ -50,7 +50,7 @@ RENEW = Rerun(older=True)  # a search does not compare versions of the model
 
 
 class Settings(NamedTuple):
-    """How to search: number of designs, seed, threads or a scheduler as of `open_cluster`."""
+    """How to search: number of designs, seed, threads or a place as of `open_place`."""
 
     evaluations: int = 150
     seed: int = 1

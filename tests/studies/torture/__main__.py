@@ -1,34 +1,56 @@
-"""Run by `make torture`: damaged files, killed runs, workers and schedulers.
+"""Run by `make torture`: damaged files, mutated inputs, killed commands, workers and schedulers.
 
-It fails if anything is silently wrong.
+It fails if anything is silently wrong, and keeps the inputs that it fails on. It also measures how
+long cases hold Python's lock.
+
+python -m tests.studies.torture FOLDER [SHARE of the numbers below]
 """
 
+import shutil
 import sys
+from itertools import count
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from tests.studies.tables import publish
-from tests.studies.torture import clusters, damage, kills
+from tests.studies.torture import clusters, damage, fuzz, kills, lock
 
 DAMAGES = 150  # of each kind
-KILLS = 100
+KILLS = 20  # of each command
+INPUTS = 3000
 WORKERS, SCHEDULERS, CASES = 30, 2, 2000  # killed, killed, of each run
 
 
-def main(folder: Path) -> int:
+def main(folder: Path, share: float = 1.0) -> int:
     """Print the tables, which go to the folder too."""
     folder.mkdir(parents=True, exist_ok=True)
-    run_sweep(load_config("smoke"), folder / "smoke.h5")
-    counts, killed = damage.damage(folder / "smoke.h5", DAMAGES), kills.torture(folder, KILLS)
+    results, number = folder / "smoke.h5", count(1)
+    run_sweep(load_config("smoke"), results)
+
+    def keep(what: str, path: Path) -> None:
+        shutil.copy(path, folder / f"{next(number)} {what} {path.name}")
+
+    counts = damage.damage(results, int(share * DAMAGES))
     with TemporaryDirectory() as place:
-        cluster = clusters.torture(Path(place), WORKERS, SCHEDULERS, CASES)
-    sheets = [damage.sheet(counts), kills.sheet(killed), clusters.sheet(cluster)]
+        inputs = fuzz.fuzz(Path(place), results, int(share * INPUTS), keep)
+    killed = {}
+    for verb in kills.VERBS:
+        with TemporaryDirectory() as place:
+            killed[verb] = kills.torture(Path(place), verb, int(share * KILLS))
+    with TemporaryDirectory() as place:
+        cluster = clusters.torture(Path(place), int(share * WORKERS), SCHEDULERS, CASES)
+    locks = {name: lock.held(name, some) for name, some in lock.CONFIGS.items()}
+    sheets = [
+        damage.sheet(counts), fuzz.sheet(inputs), kills.sheet(killed), clusters.sheet(cluster),
+        lock.sheet(locks),
+    ]  # fmt: skip
     publish(sheets, folder / "torture.md")
-    nothing_lost = killed.lost == killed.twice == cluster.lost == cluster.wrong == 0
-    return 0 if damage.is_sound(counts) and nothing_lost else 1
+    nothing_lost = cluster.lost == cluster.wrong == 0
+    nothing_lost &= all(found.lost == found.twice == 0 for found in killed.values())
+    return 0 if damage.is_sound(counts) and fuzz.is_sound(inputs) and nothing_lost else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), *map(float, sys.argv[2:])))

@@ -4,16 +4,14 @@ Each damaged copy is read as a whole in a process of its own, which is given up 
 """
 
 from collections import Counter
-from contextlib import AbstractContextManager
 from hashlib import sha256
-from multiprocessing import TimeoutError as Late
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
 from sweep.report.tables.sheet import Sheet
 from sweep.store.read import StoreError, read_attributes, read_case, read_runs, read_summary
+from tests.studies.torture.reader import Reader
 
 PATIENCE = 10.0  # seconds
 ZEROS = 16  # bytes
@@ -75,26 +73,6 @@ def outcome(path: Path, whole: str) -> str:
         return RAISED
 
 
-class Reader(AbstractContextManager):
-    """A process that reads one file after another; where one gives no answer, the next begins."""
-
-    def __enter__(self) -> "Reader":
-        self._pool = get_context("spawn").Pool(1)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._pool.terminate()
-
-    def outcome(self, path: Path, whole: str) -> str:
-        """`outcome`, or `SILENCE`."""
-        try:
-            return self._pool.apply_async(outcome, (path, whole)).get(PATIENCE)
-        except Late:
-            self._pool.terminate()
-            self._pool = get_context("spawn").Pool(1)
-            return SILENCE
-
-
 def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
     """How often each kind of damage, `count` times each, had which outcome.
 
@@ -102,7 +80,7 @@ def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
     """
     content, whole, copy = path.read_bytes(), everything(path), path.with_name("damaged.h5")
     rng, counts = np.random.default_rng(seed), {}
-    with Reader() as reader:
+    with Reader(outcome, PATIENCE, SILENCE) as reader:
         for name, hurt in KINDS.items():
             counts[name] = Counter()
             for number in range(count):

@@ -12,44 +12,56 @@ from pandas import DataFrame
 from sweep.report.tables.sheet import Sheet
 from sweep.store.read import exists, read_summary
 
-CASES = 30
-CONFIG = """
+LONGEST = 6.0  # seconds until a kill
+CRUSH = """
 name = "killed"
 [lattice]
-cells = 2
+cells_y = 2
+depth = "20 mm"
+[material]
+name = "ninjaflex"
 [loading]
 strain = 0.3
 [solver]
 load_steps = 40
-[grid]
-"lattice.imperfection" = {imperfections}
 """
+GRID = f'[grid]\n"lattice.imperfection" = {[round(0.01 + 0.001 * n, 4) for n in range(30)]}\n'
+SEARCH = """[search]
+"lattice.cells_x" = {from = 2, to = 5}
+"lattice.wall_thickness" = {from = "0.4 mm", to = "1.2 mm"}
+"""
+VERBS = {
+    "run": (GRID, ("run",)),
+    "run --error-bars": (GRID, ("run", "--error-bars")),
+    "run --spread": (GRID, ("run", "--spread")),
+    "run --processes 2": (GRID, ("run", "--processes", "2")),
+    "optimize": (SEARCH, ("optimize", "--evaluations", "30")),
+}
+"""What is killed: the axes of the config, and the words of the command."""
 
 
 class Killed(NamedTuple):
-    """Of a sweep that was killed again and again: kills, rows that were lost or computed twice."""
+    """Of a command that was killed again and again: kills while it ran, rows that were lost or
+    computed twice, and how often it came to its end.
+    """
 
     kills: int
     lost: int
     twice: int
+    ends: int
 
 
-def write_config(folder: Path) -> Path:
-    """A sweep of many short cases."""
-    path = folder / "killed.toml"
-    values = [round(0.01 + 0.001 * n, 4) for n in range(CASES)]
-    path.write_text(CONFIG.format(imperfections=values))
-    return path
+def rows(folder: Path) -> dict[str, DataFrame]:
+    """The finished cases of each results file of a folder, by id."""
+    parts = {path.with_suffix(".h5") for path in folder.glob("*.parts")}
+    files = parts | set(folder.glob("*.h5"))
+    return {
+        path.name: read_summary(path).set_index("case_id") for path in sorted(files) if exists(path)
+    }
 
 
-def rows(out: Path) -> DataFrame:
-    """The finished cases, by id."""
-    return read_summary(out).set_index("case_id") if exists(out) else DataFrame()
-
-
-def kill(config: Path, out: Path, rng: np.random.Generator, longest: float) -> bool:
-    """Start the run and kill it within `longest` seconds; return whether it was still running."""
-    words = [sys.executable, "-m", "sweep", "run", str(config), "--out", str(out)]
+def kill(words: list[str], longest: float, rng: np.random.Generator) -> bool:
+    """Start a command and kill it within `longest` seconds; return whether it was still running."""
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         time.sleep(rng.uniform(0.0, longest))
         running = process.poll() is None
@@ -57,29 +69,46 @@ def kill(config: Path, out: Path, rng: np.random.Generator, longest: float) -> b
     return running
 
 
-def torture(folder: Path, kills: int, longest: float = 6.0, seed: int = 1) -> Killed:
-    """Kill runs of a sweep, which begins anew whenever it is complete.
+def difference(before: dict[str, DataFrame], after: dict[str, DataFrame]) -> tuple[int, int]:
+    """How many rows are lost, and how many have been computed twice.
 
     The processor time of two runs is never the same: a row that has another one was computed twice.
     """
-    rng, config, out = np.random.default_rng(seed), write_config(folder), folder / "killed.h5"
-    done = lost = twice = 0
-    before = rows(out)
-    while done < kills:
-        done += kill(config, out, rng, longest)
-        after = rows(out)
-        lost += len(before.index.difference(after.index))
-        same = before.index.intersection(after.index)
-        if len(same):
-            twice += int((before.loc[same, "cpu_s"] != after.loc[same, "cpu_s"]).sum())
+    lost = twice = 0
+    for name, old in before.items():
+        new = after.get(name, old.iloc[:0])
+        lost += len(old.index.difference(new.index))
+        same = old.index.intersection(new.index)
+        twice += int((old.loc[same, "cpu_s"] != new.loc[same, "cpu_s"]).sum())
+    return lost, twice
+
+
+def torture(folder: Path, verb: str, kills: int, longest: float = LONGEST) -> Killed:
+    """Kill a command in an empty folder, which begins anew whenever it has come to its end."""
+    axes, words = VERBS[verb]
+    config, out = folder / "killed.toml", folder / "killed.h5"
+    config.write_text(CRUSH + axes, "utf-8")
+    command = [sys.executable, "-m", "sweep", words[0], str(config), "--out", str(out), *words[1:]]
+    rng, count = np.random.default_rng(1), Killed(0, 0, 0, 0)
+    before: dict[str, DataFrame] = {}
+    while count.kills < kills:
+        running = kill(command, longest, rng)
+        after = rows(folder)
+        lost, twice = difference(before, after)
+        ended = not running
+        count = Killed(
+            count.kills + running, count.lost + lost, count.twice + twice, count.ends + ended
+        )
         before = after
-        if len(after) == CASES and out.exists():
-            out.unlink()
-            before = rows(out)
-    return Killed(done, lost, twice)
+        if ended:
+            for path in folder.glob("*.h5"):
+                path.unlink()
+            before = {}
+    return count
 
 
-def sheet(found: Killed) -> Sheet:
-    """The table of `torture`."""
-    heads = ["killed runs", "rows lost", "rows computed twice"]
-    return Sheet("Killed runs", heads, [[str(count) for count in found]])
+def sheet(counts: dict[str, Killed]) -> Sheet:
+    """The table of `torture`, for each command."""
+    heads = ["command", "kills", "rows lost", "rows computed twice", "ends"]
+    lines = [[verb, *(str(number) for number in killed)] for verb, killed in counts.items()]
+    return Sheet("Killed commands", heads, lines)

@@ -1,8 +1,13 @@
 """A fast slice of the study of damaged files, killed runs, workers and schedulers."""
 
+import sys
 from collections import Counter
 
-from tests.studies.torture import clusters, damage, kills
+import pytest
+from pandas import DataFrame
+
+from tests.studies.torture import clusters, damage, fuzz, kills, lock
+from tests.studies.torture.reader import Reader
 from tests.support.results.standin import cases, write
 
 
@@ -23,19 +28,60 @@ def test_what_is_silently_other_is_found(tmp_path):
     assert not damage.is_sound({"a bit flipped": Counter({damage.SILENT: 1})})
 
 
-def test_a_reader_that_gives_no_answer_is_given_up(tmp_path, monkeypatch):
-    monkeypatch.setattr(damage, "PATIENCE", 0.0)
-    with damage.Reader() as reader:
+def test_a_reader_that_gives_no_answer_is_given_up(tmp_path):
+    with Reader(damage.outcome, 0.0, damage.SILENCE) as reader:
         assert reader.outcome(tmp_path / "none.h5", "") == damage.SILENCE
 
 
-def test_two_kills_lose_nothing(tmp_path):
-    found = kills.torture(tmp_path, 2, longest=3.0)
-    assert found == kills.Killed(2, 0, 0)
-    assert kills.sheet(found).rows == [["2", "0", "0"]]
+def test_few_mutated_inputs_are_used_or_refused(tmp_path):
+    write(tmp_path / "armor.h5", cases(4), fold=True)
+    counts = fuzz.fuzz(tmp_path, tmp_path / "armor.h5", 60, pytest.fail)
+    assert fuzz.is_sound(counts)
+    assert sum(each[fuzz.REFUSED] for each in counts.values()) > 20
+    assert sum(each[fuzz.USED] for each in counts.values()) > 5
+    assert [row[0] for row in fuzz.sheet(counts).rows] == [*counts]
+
+
+def test_inputs_can_be_used_before_they_are_mutated(tmp_path):
+    write(tmp_path / "armor.h5", cases(4), fold=True)
+    for seeds in fuzz.inputs(tmp_path / "armor.h5").values():
+        given = seeds[0]
+        (tmp_path / given.name).write_bytes(given.content)
+        if given.beside:
+            (tmp_path / given.beside[0]).write_text(given.beside[1], "utf-8")
+        assert fuzz.outcome(tmp_path, given.words) == fuzz.USED
+
+
+def test_what_may_not_be_said_is_found(tmp_path, monkeypatch):
+    monkeypatch.setattr(fuzz, "main", lambda words: {}["a traceback"])
+    assert fuzz.outcome(tmp_path, ("run",)) == fuzz.RAISED
+    monkeypatch.setattr(fuzz, "main", lambda words: sys.stderr.write("line\n" * 13))
+    assert fuzz.outcome(tmp_path, ("run",)) == fuzz.LONG
+    assert not fuzz.is_sound({"configs": Counter({fuzz.SLOW: 1})})
+
+
+def test_kills_lose_nothing(tmp_path):
+    found = kills.torture(tmp_path, "run --processes 2", 2, longest=4.0)
+    assert found[:3] == (2, 0, 0)
+    assert kills.sheet({"run": found}).rows == [["run", "2", "0", "0", str(found.ends)]]
+
+
+def test_what_is_lost_or_computed_twice_is_counted():
+    before, after = (
+        DataFrame({"cpu_s": t}, [*ids]) for t, ids in (([1, 2, 3], "abc"), ([1, 5], "ab"))
+    )
+    assert kills.difference({"a.h5": before}, {"a.h5": after}) == (1, 1)
+    assert kills.difference({"a.h5": before}, {}) == (3, 0)
 
 
 def test_a_killed_worker_costs_no_row(tmp_path):
     found = clusters.torture(tmp_path, 1, schedulers=0, count=3)
     assert found == clusters.Killed(1, 0, 0, 0, 0)
     assert clusters.sheet(found).rows == [["1", "0", "0", "0", "0"]]
+
+
+def test_the_lock_is_held_for_a_part_of_a_case():
+    found = lock.held("smoke", 2)
+    assert 0.0 < found.lock < found.case
+    (row,) = lock.sheet({"smoke": lock.Held(0.05, 0.005)}).rows
+    assert row == ["smoke", "50", "5", "10", "10"]

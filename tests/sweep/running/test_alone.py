@@ -4,6 +4,9 @@ import os
 import sys
 import threading
 import time
+from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit
+
+import numpy as np
 
 from sweep.result import Status
 from sweep.running.alone import run_alone
@@ -45,6 +48,30 @@ def test_of_several_only_the_one_that_kills_is_such_a_row():
     assert statuses[4] is statuses[6] is Status.CONVERGED
 
 
+def test_a_case_that_does_not_end_by_itself_is_killed_in_time():
+    """Neither those before it nor those after it are lost."""
+    batch = [case.changed(solver={"time_limit": 1.0}) for case in cases(4)]
+    started = time.monotonic()
+    first, late, defect = run_alone(poisonous, [batch[0], *batch[2:]])
+    assert time.monotonic() - started < 30.0
+    assert (first.status, defect.status) == (Status.CONVERGED, Status.STOPPED)
+    assert (late.case, late.status) == (batch[2], Status.TIMED_OUT)
+    assert late.message.startswith("solver.time_limit of 1 s reached")
+
+
+def test_its_memory_is_limited_to_what_is_free():
+    (result,) = run_alone(large, cases(1))
+    assert result.status is Status.STOPPED
+    assert result.message.startswith("needs more memory than there is")
+
+
+def large(case, control):
+    """A case that takes half of its limit twice."""
+    limit = getrlimit(RLIMIT_DATA)[0]
+    assert limit != RLIM_INFINITY
+    return simulate(case), [np.empty(limit // 2, np.uint8) for _ in range(2)]
+
+
 def test_a_stop_ends_it():
     stopped = threading.Event()
     threading.Timer(0.5, stopped.set).start()
@@ -71,10 +98,10 @@ def interrupted(case, control):
     return simulate(case)
 
 
-def test_files_of_the_folder_are_no_modules(tmp_path, monkeypatch):
-    """A user's random.py would end the process, and the case would be blamed."""
-    (tmp_path / "random.py").write_text("raise SystemExit(3)")
-    monkeypatch.setattr(sys, "path", [os.getcwd(), *filter(None, sys.path)])
+def test_files_of_the_folder_are_no_modules_of_python(tmp_path, monkeypatch):
+    """A user's types.py would end the process, and the case would be blamed."""
+    (tmp_path / "types.py").write_text("raise SystemExit(3)")
+    monkeypatch.setattr(sys, "path", [str(tmp_path), os.getcwd(), *filter(None, sys.path)])
     monkeypatch.chdir(tmp_path)
     (result,) = run_alone(interrupted, cases(1))
     assert result.status is Status.CONVERGED

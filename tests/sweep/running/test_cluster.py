@@ -16,7 +16,6 @@ from sweep.running.cluster import (
     address_of,
     check_scheduler,
     open_cluster,
-    usual_scheduler,
 )
 
 # Dask leaves sockets of clusters that never started to the garbage collector.
@@ -127,13 +126,6 @@ def test_an_asynchronous_client_is_refused(dask_cluster):
 def test_something_else_is_refused():
     with pytest.raises(SchedulerError, match="the Dask scheduler 8786: "), open_cluster(8786):
         pass
-
-
-def test_the_environment_names_the_usual_scheduler(monkeypatch):
-    monkeypatch.setenv("DASK_SCHEDULER_ADDRESS", "tcp://10.0.0.1:8786")
-    with dask.config.set(dask.config.collect()):
-        assert usual_scheduler() == "tcp://10.0.0.1:8786"
-    assert usual_scheduler() is None
 
 
 def test_slurm_without_its_package_names_the_extra(monkeypatch):

@@ -3,15 +3,15 @@
 import os
 import signal
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.kinds.steps import count_of
 from sweep.result import Result, Status
 from sweep.running.batches import cost
-from sweep.running.estimate import LONGEST, duration, estimate
+from sweep.running.estimate import duration, estimate
 from sweep.running.sweep import Interrupted
 
 GLUED = dict(mode="displacement", platen="glued")
@@ -83,24 +83,57 @@ def test_long_cases_are_not_run_for_the_estimate():
     assert estimate(many, simulate).pilots == len(asked) == 1
 
 
-def test_long_pilots_are_stopped_and_extrapolated():
-    """A quarter of the steps in the time that a pilot may take."""
+def test_the_steps_of_a_long_pilot_stay_as_slow_as_its_last_ones(monkeypatch):
+    """It does 40 steps in the first half of its time and 10 in the second, of 400."""
+    monkeypatch.setattr("sweep.running.estimate.LONGEST", 0.4)
+    monkeypatch.setattr("os.getloadavg", lambda: (0.0, 0.0, 0.0))
     asked = []
 
     def slow(case, control):
         asked.append(case)
-        done = int(count_of(case.loading, case.solver) / 4)
-        history = {"strain": np.zeros(done + 1)}
-        taken = {"cpu_s": case.solver.time_limit}
-        return Result(case, Status.TIMED_OUT, "raise it", taken, history)
+        control[1] = 40
+        time.sleep(0.4)
+        control[1] = 50
+        return Result(case, Status.TIMED_OUT, "raise it", {"cpu_s": 0.3}, {"strain": np.zeros(9)})
 
     (case,) = cases(GLUED, (3,))
+    case = case.changed(solver={"load_steps": 400}, loading={"unload": False})
     found = estimate([case], slow)
-    assert asked[0].solver.time_limit == LONGEST < case.solver.time_limit
+    assert asked[0].solver.time_limit == 0.4 < case.solver.time_limit
     assert asked[0].case_id == case.case_id
-    assert found.cpu == pytest.approx(4.0 * LONGEST, rel=0.05)
+    assert found.cpu == pytest.approx(0.3 * (1.0 + 0.5 * 350 / 10))
     assert found.stopped == 1
     assert found.failures == []
+    limited = case.changed(solver={"time_limit": 2.0})
+    assert estimate([limited], slow).cpu == 2.0
+
+
+def test_walls_that_fold_are_slower_after_they_collapse(monkeypatch):
+    """A sixth of the time to 50 % strain passes before 20 %; unloading takes a quarter."""
+    monkeypatch.setattr("sweep.running.estimate.LONGEST", 0.1)
+
+    def slow(case, control):
+        control[1] = 40
+        return Result(case, Status.TIMED_OUT, "raise it", {"cpu_s": 0.1}, {})
+
+    lattice = dict(cells_x=1, cells_y=1, layers=2)
+    loading = GLUED | dict(direction="out_of_plane", strain=0.5)
+    for unload, expected in ((False, 0.1 / 0.17), (True, 0.125 / 0.17)):
+        case = Case.of(lattice=lattice, loading=loading | dict(unload=unload))
+        assert case.solver.load_steps == 100
+        assert estimate([case], slow).cpu == pytest.approx(expected)
+
+
+def test_other_programs_take_their_share_of_the_cores(monkeypatch, tmp_path):
+    load = tmp_path / "loadavg"
+    load.write_text("9.99 5.00 1.00 4/134 12065\n")
+    monkeypatch.setattr("sweep.running.estimate.LOAD", load)
+    found = estimate(cases(GLUED), stand_in()[0])
+    assert 2.0 <= found.others <= 3.0
+    alone, crowded = (replace(found, cpu=60.0, others=count) for count in (0.0, 2.0))
+    assert alone.wall(2, 2) == crowded.wall(2, 4) == 30.0
+    assert crowded.wall(2, 2) == 60.0
+    assert crowded.wall(1, 2) == 90.0
 
 
 def test_failed_pilots_are_counted():

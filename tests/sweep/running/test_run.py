@@ -70,7 +70,7 @@ def test_where_cases_run(config, monkeypatch, given, scheduler):
     """In the scheduler that is given, else that of the environment, unless threads are."""
     places = []
     monkeypatch.setattr("sweep.running.run.run_sweep", lambda *how: places.append(how[3]))
-    monkeypatch.setattr("sweep.running.run.open_cluster", nullcontext)
+    monkeypatch.setattr("sweep.running.run.open_place", nullcontext)
     with dask.config.set({"scheduler-address": "tcp://host:8786"}):
         run(config, **given)
     assert places == [scheduler]

@@ -8,6 +8,7 @@ import time
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
+from threading import current_thread, main_thread
 
 import numpy as np
 import pandas as pd
@@ -314,3 +315,16 @@ def test_file_of_something_else_is_refused_before_any_case_runs(tmp_path, execut
     assert out.read_text() == "mine"
     assert exists(out)
     assert len(list(tmp_path.iterdir())) == 2
+
+
+def crowded(case, control):
+    """Case 3 finds too little memory on a thread, beside others."""
+    if number_of(case) == 3 and current_thread() is not main_thread():
+        raise MemoryError
+    return simulate(case)
+
+
+def test_a_case_without_memory_beside_others_runs_again_alone(tmp_path):
+    out = tmp_path / "armor.h5"
+    assert run_sweep(cases(6), out, simulate=crowded) == 0
+    assert list(read_summary(out)["case_id"]) == [case.case_id for case in cases(6)]

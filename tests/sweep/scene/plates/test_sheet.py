@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from numba import typeof
 from scipy.spatial import cKDTree
 
 from kernels.plates.contacts.contact import MOST_THICKENING
@@ -107,6 +108,13 @@ def slope(function, x, move):
 
 
 STATES = {"bent": lambda of: tied(of, shaken(of, of.x_rest, 1, 0.05)), "squeezed": squeezed}
+
+
+def test_a_sheet_runs_on_the_machine_code_of_prisms():
+    """Another layout of a single array would compile all of it again, which takes a minute."""
+    cell = {"cells_x": 1, "cells_y": 1, "nodes_per_wall": 1, "layers": 2}
+    prism = build_scene(pressed(cell, "out_of_plane", "glued"))
+    assert typeof(scene("glued").terms) == typeof(prism.terms)
 
 
 @pytest.mark.parametrize("name", CASES)

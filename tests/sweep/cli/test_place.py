@@ -1,4 +1,4 @@
-"""--scheduler and --wait: where a command runs, and what it says of what cannot be."""
+"""--processes, --scheduler and --wait: where a command runs, and what it says of what cannot be."""
 
 from contextlib import contextmanager
 
@@ -17,11 +17,11 @@ def opened(monkeypatch, tmp_path):
     calls = []
 
     @contextmanager
-    def open_cluster(where, wait):
+    def open_place(where, wait):
         calls.append((where, wait))
         yield
 
-    monkeypatch.setattr("sweep.running.cluster.open_cluster", open_cluster)
+    monkeypatch.setattr("sweep.running.place.open_place", open_place)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trial.toml").write_text(CRUSH)
     return calls
@@ -31,12 +31,13 @@ def opened(monkeypatch, tmp_path):
     ("words", "expected"),
     [
         ([], (None, 60.0)),
+        (["--processes", "2"], ("processes", 60.0)),
         (["--scheduler", "tcp://host:8786"], ("tcp://host:8786", 60.0)),
         (["--scheduler", "slurm", "--wait", "2 h"], ("slurm", 7200.0)),
         (["--scheduler", "s.json", "--wait", "0 s"], ("s.json", 0.0)),
     ],
 )
-def test_a_command_opens_one_cluster(capsys, opened, words, expected):
+def test_a_command_opens_one_place(capsys, opened, words, expected):
     assert crumple(capsys, "run", "trial.toml", *words)[0] == 0
     assert opened == [expected]
 

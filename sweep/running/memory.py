@@ -1,0 +1,54 @@
+"""The memory that cases may have: as much as is free.
+
+A case that needs more gets a `MemoryError`, which is its row. Without a limit, Linux would promise
+it the memory, and kill a process when it is used: this one, or another one of the machine.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit, setrlimit
+
+PROC, GROUPS = Path("/proc"), Path("/sys/fs/cgroup")
+GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of the second and the first version
+USED, KB = 0.95, 1024  # the share of a control group that is data; the unit of /proc
+
+
+@contextmanager
+def limited_memory() -> Iterator[None]:
+    """Limit the data of this process to what it has and what is free."""
+    soft, hard = getrlimit(RLIMIT_DATA)
+    limits = [limit for limit in (soft, hard) if limit != RLIM_INFINITY]
+    setrlimit(RLIMIT_DATA, (min([most_data(), *limits]), hard))
+    try:
+        yield
+    finally:
+        setrlimit(RLIMIT_DATA, (soft, hard))
+
+
+def most_data() -> int:
+    """Bytes of data that this process may have: in the machine, and in its control groups, which
+    are limits of containers and of jobs.
+    """
+    free = _kilobytes("meminfo", "MemAvailable") + _kilobytes("self/status", "VmData")
+    return min([free * KB, *(int(USED * limit) for limit in _group_limits())])
+
+
+def _kilobytes(file: str, name: str) -> int:
+    """A number of a file of /proc, in kB."""
+    lines = (PROC / file).read_text("utf-8").splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
+
+
+def _group_limits() -> Iterator[int]:
+    """Memory limits (bytes) of the control groups of this process, and of the groups above them."""
+    for line in (PROC / "self/cgroup").read_text("utf-8").splitlines():
+        _, controllers, path = line.split(":", 2)
+        root = GROUPS / controllers
+        group = root / path.lstrip("/")
+        for folder in (group, *group.parents):
+            for name in GROUP_FILES:
+                with suppress(OSError, ValueError):  # no such file; "max"
+                    yield int((folder / name).read_text("ascii"))
+            if folder == root:
+                break

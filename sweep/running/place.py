@@ -1,0 +1,45 @@
+"""Where the cases of a run go: threads or processes of this machine, or a Dask cluster."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+from sweep.running.cluster import WAIT, Cluster, Scheduler, open_cluster
+from sweep.running.processes import PROCESSES, Processes
+from sweep.running.threads import MOST_THREADS
+
+Place: TypeAlias = Cluster | Processes | None
+"""An open place; None for threads of this process."""
+
+
+def chosen_place(workers: int | None, where: Scheduler) -> tuple[int, Scheduler]:
+    """How many cases run at a time on this machine, and where, if none or only one is given.
+
+    Where nothing is given, the scheduler of Dask's configuration counts, which is usually that of
+    DASK_SCHEDULER_ADDRESS. Without it all cores are used: threads as far as they pay, beyond that
+    processes.
+    """
+    import dask
+    from dask.system import cpu_count
+
+    cores = cpu_count()
+    if where is None and workers is None:
+        beyond = PROCESSES if cores > MOST_THREADS else None
+        where = dask.config.get("scheduler-address", None) or beyond
+    return workers or cores, where
+
+
+@contextmanager
+def open_place(where: Scheduler, wait: float = WAIT) -> Iterator[Place]:
+    """Where cases run; what is open already, and a `Client` of the user, stays open.
+
+    wait: as of `Cluster`.
+    """
+    if isinstance(where, Processes):
+        yield where
+    elif where == PROCESSES:
+        with Processes() as processes:
+            yield processes
+    else:
+        with open_cluster(where, wait) as cluster:
+            yield cluster
