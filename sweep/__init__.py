@@ -2,8 +2,7 @@
 
 The public functions raise `MisfitError`, whose kinds are `ConfigError` and `CouponError`,
 `StoreError`, `RankError`, `ExportError`, `OptimizeError` and `ClusterError`, which are public too.
-Each name is loaded when it is first used,
-so that `import sweep` takes almost no time.
+Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
 Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
 case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of

@@ -36,10 +36,8 @@ GRACE = 10.0  # s beyond its limit that a case may take
 SAME = 1e-9  # of the largest force: two sums of the same forces
 EARNED = 1e-6  # of the work done: what an energy may be off
 MADE = 5e-3  # of the work done: what backward Euler may make
-STALE = (
-    2.0  # residual over the allowed one, which goes with the stiffness of the last factor: where
-)
-# walls part since then, it is less at the end of the step
+STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
+# where walls part since then, it is less at the end of the step
 BORNE = 1e-3  # of a load: what is left of it where nothing moves
 SAID = "the time integration gained energy", "work and energies do not balance"
 
