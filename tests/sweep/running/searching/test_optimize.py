@@ -61,7 +61,7 @@ def test_what_is_asked_is_what_the_ranking_answers(tables):
         ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
         ({}, {"by": "cells_x"}, RankError, '"cells_x" is no column'),
         ({}, {"budget": "0.01 g"}, OptimizeError, "1,024 points .* at most 0.01 g"),
-        ({"lattice": {"kind": "gyroid"}}, {}, OptimizeError, "gyroid in .* that are parts"),
+        ({"lattice": {"kind": "gyroid"}}, {}, OptimizeError, "gyroid in .* drawn with lines"),
     ],
 )
 def test_what_cannot_be_sought_is_refused(tables, changed, asked, error, told):
