@@ -35,6 +35,7 @@ from tests.studies.stability.structures import COUNT, structure_scene
 from tests.studies.tables import head, line, tell
 
 WORKERS = 2
+KERNELS = "marches", "arcs"  # loaded before a scene is timed
 MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 WIDE = 64  # panels of up to 48 cells side by side
@@ -145,7 +146,7 @@ def main(folder, every=1):
     cases, audits = scenes()[::every], []
     folder.mkdir(parents=True, exist_ok=True)
     with (
-        ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up) as pool,
+        ProcessPoolExecutor(WORKERS, get_context("spawn"), warm_up, (KERNELS,)) as pool,
         (folder / "scenes.csv").open("w", newline="", encoding="utf-8", buffering=1) as file,
     ):
         rows = csv.writer(file)

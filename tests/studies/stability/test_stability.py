@@ -128,6 +128,7 @@ SECOND_ORDER = (6, 12, 15, 25, 29)
 
 def test_custom_structures_violate_nothing():
     """Under all loadings and integrators; two of them stood still under their load before."""
+    warm_up(["marches", "arcs"])  # none waits for a compiler
     cases = [structures.structure_scene(number) for number in STRUCTURES]
     assert {case.solver.integrator for case in cases} == {*IN_TIME, "static", "arc_length"}
     audits = [audit.audit(case) for case in cases]
