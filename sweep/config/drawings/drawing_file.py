@@ -16,7 +16,7 @@ from sweep.config.drawings.lines import Lines
 from sweep.config.faults import MisfitError
 from sweep.config.structures.structure_file import StructureError
 from sweep.design.meeting import Meeting, MeetingError, met
-from sweep.numbers import text_in
+from sweep.numbers import in_unit, text_in
 
 READERS = {**tables.READERS, ".dxf": dxf.read_dxf, ".svg": svg.read_svg}
 NEEDED = "the path of a .svg, .dxf, .csv or .json file, or of LAMMPS data (.data, .lmp)"
@@ -66,13 +66,14 @@ def _read(path: Path, _: int) -> Read:
         raise MisfitError(f"has a wall of thickness {lines.thickness.min():g}; needed: above 0")
     width, height = np.ptp(ends, axis=(0, 1))
     if min(width, height) <= 0.0:
-        raise MisfitError(f"is {width:.4g} wide and {height:.4g} high; needed: lines in the plane")
+        size = _pair(lines, width, height, " x ")
+        raise MisfitError(f"its lines span {size}; needed: lines in the plane")
     network = met(ends - ends.min(axis=(0, 1)))
-    _check_piece(network)
+    _check_piece(network, lines)
     return Read(network, lines)
 
 
-def _check_piece(network: Meeting) -> None:
+def _check_piece(network: Meeting, lines: Lines) -> None:
     """Refuse walls that are not connected with the others."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -83,7 +84,15 @@ def _check_piece(network: Meeting) -> None:
     if count > 1:
         sizes = np.bincount(piece)
         x, y = joints[np.argmax(piece == np.argmin(sizes))]
+        place = _pair(lines, x, y, ", ")
         raise MisfitError(
-            f"in {count} pieces: nothing holds the walls at {x:.4g}, {y:.4g} from its lower left "
-            "corner, in its unit; needed: walls that all meet"
+            f"in {count} pieces: nothing holds the walls at {place} from its lower left corner; "
+            "needed: walls that all meet"
         )
+
+
+def _pair(lines: Lines, x: float, y: float, between: str) -> str:
+    """Two lengths of a file, in mm if it names its unit."""
+    if lines.named and lines.unit:
+        return f"{in_unit(lines.unit * x, 'mm'):.4g}{between}{text_in(lines.unit * y, 'mm', 4)}"
+    return f"{x:.4g}{between}{y:.4g} of its units"

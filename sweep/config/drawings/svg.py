@@ -23,8 +23,8 @@ _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 def read_svg(path: Path) -> Lines:
     """The centre lines of all shapes that are shown, y upwards; stroke width and fill are ignored.
 
-    The unit is that of the view box: what the width and the height of the page make of it, or a
-    pixel.
+    The unit is that of the view box: what the width and the height of the page make of it; a pixel
+    where there is no view box. Without a size of the page it is not known.
     """
     try:
         from svgelements import SVG, Shape
@@ -51,15 +51,19 @@ def read_svg(path: Path) -> Lines:
     return Lines(ends * [1.0, -1.0], unit)
 
 
-def _unit(root: Xml.Element) -> float:
-    """Length of a unit of the view box, m."""
+def _unit(root: Xml.Element) -> float | None:
+    """Length of a unit of the view box, m; None if the page has no size."""
     box = [float(word) for word in re.split(r"[\s,]+", root.get("viewBox", "").strip()) if word]
     scales = []
-    for size, units in zip((root.get("width", ""), root.get("height", "")), box[2:], strict=False):
-        match = _SIZE.fullmatch(size.strip().lower())
-        if match and match[2] in LENGTHS and units > 0.0:
+    for size, units in zip(("width", "height"), box[2:] or (None, None), strict=False):
+        match = _SIZE.fullmatch(root.get(size, "").strip().lower())
+        if not match or match[2] not in LENGTHS:
+            continue
+        if units is None:
+            return PIXEL
+        if units > 0.0:
             scales.append(float(match[1]) * LENGTHS[match[2]] / units)
-    return min(scales, default=PIXEL)
+    return min(scales, default=None)
 
 
 def _drawn(root: Xml.Element) -> int:

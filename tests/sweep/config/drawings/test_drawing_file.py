@@ -27,9 +27,13 @@ def test_a_file_is_read_again_when_it_changes(tmp_path):
     [
         (
             HEADS + "0,0,9,0\n0,0,0,9\n3,3,4,4\n",
-            "in 2 pieces: nothing holds the walls at 3, 3 from",
+            "in 2 pieces: nothing holds the walls at 3, 3 of its units from",
         ),
-        (HEADS + "0,0,9,0\n", "is 9 wide and 0 high"),
+        (
+            "x1_in,y1_in,x2_in,y2_in\n0,0,9,0\n0,0,0,9\n3,3,4,4\n",
+            "nothing holds the walls at 76.2, 76.2 mm from",
+        ),
+        (HEADS + "0,0,9,0\n", "its lines span 9 x 0 of its units"),
         (HEADS, "has 0 lines"),
         (HEADS + "0,0,1e300,1\n", "reaches farther than 1e"),
         (HEADS.strip() + ",thickness\n0,0,9,9,0\n0,0,0,9,1\n", "a wall of thickness 0"),

@@ -43,8 +43,10 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
 @pytest.mark.parametrize(
     ("page", "unit"),
     [
-        ("", PIXEL),
-        ('viewBox="0 0 50 50"', PIXEL),
+        ("", None),
+        ('width="50mm"', PIXEL),
+        ('viewBox="0 0 50 50"', None),
+        ('width="100%" viewBox="0 0 50 50"', None),
         ('width="100" height="50" viewBox="0 0 50 25"', 2 * PIXEL),
         ('width="100mm" height="50mm" viewBox="0 0 50 25"', 2e-3),
         ('width="100mm" height="10mm" viewBox="0 0 50 25"', 0.4e-3),
