@@ -10,6 +10,8 @@ class of `Neighbours.lagged_contacts` has the verbs
 from kernels.arrays import add
 from kernels.compile.jit import jit_exact
 
+SLIDING = 0.01  # least slip speed / mean speed of the structure
+
 
 @jit_exact
 def lag(problem, y):
@@ -25,8 +27,14 @@ def lag(problem, y):
 
 @jit_exact
 def slip_of(problem, step):
-    """Return eps of the step, the slip up to which friction is smoothed, m."""
-    return problem.scene.friction.slip * (step.h if step.dynamic else step.rows)
+    """Return eps of the step, the slip up to which friction is smoothed, m.
+
+    In a motion it is at least `SLIDING` of the way that the structure goes: in steps of which most
+    contacts slide a million times as far as a fixed slip, Newton's method would change their signs
+    one by one.
+    """
+    slip = problem.scene.friction.slip
+    return max(slip, SLIDING * step.speed) * step.h if step.dynamic else slip * step.rows
 
 
 @jit_exact

@@ -126,9 +126,8 @@ def _step(workspace, stage, progress, factor):
     Its duration is the share of the stage's; the start of the path takes no time.
     """
     duration = stage.duration * progress.share if progress.row >= 0 else 0.0
-    return Step(
-        workspace.x0, workspace.y, workspace.x_pred, duration, duration, False, factor, 0.5, 1.0
-    )
+    x0, y, x_pred = workspace.x0, workspace.y, workspace.x_pred
+    return Step(x0, y, x_pred, duration, duration, False, factor, 0.5, 1.0, 0.0)
 
 
 @jit_exact

@@ -11,6 +11,8 @@ The dissipation of the material in a step is part of the work against elastic fo
 returns it at commit; it is booked under material, and subtracted from the integrator's loss.
 """
 
+import numpy as np
+
 from kernels.arrays import copy, dot, zero
 from kernels.compile.jit import jit_exact
 from kernels.solve import integrators
@@ -26,6 +28,15 @@ def kinetic(v, mass):
     for i in range(mass.size):
         total += mass[i] * v[i] * v[i]
     return 0.5 * total
+
+
+@jit_exact
+def mean_speed(v, mass):
+    """Return the root mean square of the velocity over all mass, m/s; 0 without mass."""
+    total = 0.0
+    for i in range(mass.size):
+        total += mass[i]
+    return np.sqrt(2.0 * kinetic(v, mass) / total) if total > 0.0 else 0.0
 
 
 @jit_exact

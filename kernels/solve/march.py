@@ -16,7 +16,14 @@ from kernels.arrays import add, copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
 from kernels.solve import energy_book, integrators, load_step_error, resolution
-from kernels.solve.energy_book import energy_gain, enter_step, impose_speed, kinetic, unbalanced
+from kernels.solve.energy_book import (
+    energy_gain,
+    enter_step,
+    impose_speed,
+    kinetic,
+    mean_speed,
+    unbalanced,
+)
 from kernels.solve.integrators import BACKWARD_EULER, BDF2, Ahead
 from kernels.solve.newton import DESCENT, minimise
 from kernels.solve.outcomes import (
@@ -106,7 +113,7 @@ def _target(stage, progress):
 
 
 @jit_exact
-def _step(stage, workspace, progress):
+def _step(stage, state, mass, workspace, progress):
     """Return the `Step` of the attempted share."""
     duration = stage.duration * progress.share
     factor = stage.factor0 + (stage.factor1 - stage.factor0) * _stage_fraction(stage, progress)
@@ -121,6 +128,7 @@ def _step(stage, workspace, progress):
         factor,
         theta,
         max(progress.share, 1.0),
+        mean_speed(state.v, mass) if stage.dynamic else 0.0,
     )
 
 
@@ -200,7 +208,9 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
     ahead = duration - h if h < duration else 0.0
     last = last if stage.scheme == BDF2 else 0.0
     rates = Ahead(ahead, last, state.rates.position, work.dx)
-    problem.begin(_step(stage, workspace, progress), rates, work.trial)
+    problem.begin(
+        _step(stage, state, problem.scene.coordinates.mass, workspace, progress), rates, work.trial
+    )
     descent.travel_bound = _foresee(problem, stage, state.x, work)
     if descent.travel_bound > 0.0:
         return False
@@ -402,7 +412,8 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
                 return OUTGROWN, progress.row
             if not _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
                 return OUTGROWN, progress.row
-        step, descent.target = _step(stage, workspace, progress), _target(stage, progress)
+        step = _step(stage, state, problem.scene.coordinates.mass, workspace, progress)
+        descent.target = _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, workspace.work)
         fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
         if not step.dynamic or step.h > stage.fall:

@@ -48,7 +48,7 @@ class Step(NamedTuple):
     lead to (`integrators`). duration: of the step, s, static steps included. dynamic: whether the
     step has inertia. factor: load factor at the end of the step. theta: weight of the forces at the
     end of the step in the energy book. rows: of the history that the step spans, 1 for a part of
-    a row.
+    a row. speed: the root mean square, over all mass, of the velocity at x0, m/s.
     """
 
     x0: np.ndarray
@@ -60,6 +60,7 @@ class Step(NamedTuple):
     factor: float
     theta: float
     rows: float
+    speed: float
 
 
 SUMS = np.dtype(

@@ -244,7 +244,7 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     buffers.diagonal[:] = 1e20
     neighbours = chain.find_neighbours(x0)
     problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
-    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5, 1.0)
+    step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5, 1.0, 0.0)
     workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
     x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
     outcome = newton.minimise(

@@ -65,3 +65,31 @@ def test_walls_of_acute_corners_are_kept_from_crossing(friction):
     found = simulate(case)
     assert found.status == "converged"
     assert found.summary["max_crossings"] == 0
+
+
+def test_a_violent_motion_slides_smoothly():
+    """A light lattice under 54 N moves at hundreds of metres a second until it has given way.
+
+    Over a fixed slip speed of 1 mm/s, contacts would change their signs one by one: a hundred
+    thousand iterations were not enough for the first step.
+    """
+    case = Case.of(
+        lattice=dict(
+            kind="circle",
+            cells_x=1,
+            cells_y=5,
+            width=4.69e-3,
+            height=23.4e-3,
+            depth=1.23e-3,
+            wall_thickness=1.08e-3,
+            nodes_per_wall=3,
+            imperfection=0.0,
+        ),
+        material=dict(modulus=83.6e6, density=198.0, poisson=0.0),
+        loading=dict(mode="force", force=54.2, release_time=0.163, duration=0.652),
+        contact=dict(friction=2.0),
+        solver=dict(time_step=0.163, time_limit=60.0, retry=False),
+    )
+    result = simulate(case)
+    assert result.status == "converged", result.message
+    assert result.summary["newton_iterations"] < 3000

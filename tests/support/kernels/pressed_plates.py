@@ -153,7 +153,7 @@ def whole(of, x, seed=0, past=True):
         by_reference(terms.make_buffers(of.at_rest().memory)),
     )  # fmt: skip
     h = DT if dynamic else 1.0
-    step = Step(x0, x0, 2.0 * x0 - x if dynamic else x0, h, h, dynamic, 0.7, 0.5, 1.0)
+    step = Step(x0, x0, 2.0 * x0 - x if dynamic else x0, h, h, dynamic, 0.7, 0.5, 1.0, 0.0)
     if past and of.terms.law.shares.size > 0:
         _remember(problem, step, of, seed)
     problem.begin(step, nowhere(x.size), np.zeros(x.size))

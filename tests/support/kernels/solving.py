@@ -138,7 +138,7 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
     problem = problem_of(
         terms, neighbours_of(x, terms, reach), terms.make_buffers(np.empty((0, 0)))
     )
-    one = Step(x0, x0, x_pred, h, h, dynamic, factor, 1.0, 1.0)
+    one = Step(x0, x0, x_pred, h, h, dynamic, factor, 1.0, 1.0, 0.0)
     problem.begin(one, nowhere(x.size), np.zeros(x.size))
     return Whole(problem, one)
 
