@@ -22,19 +22,12 @@ from sweep.config.kinds import damping as dampings
 from sweep.config.kinds import loading as loadings
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
-from sweep.config.kinds.cells import cells
 from sweep.config.kinds.contact import Contact
-from sweep.config.kinds.custom_structure import CustomStructure, custom_structure
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
-from sweep.config.kinds.drawn import Drawn, drawn
-from sweep.config.kinds.lattice import Lattice, kind_of
+from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.printable import check_printable
-from sweep.config.kinds.sheet import Sheet, Surface, sheet
-from sweep.config.kinds.sliced import Sliced, sliced
-from sweep.config.kinds.sliced_sheet import sliced_sheet
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
@@ -46,8 +39,6 @@ from sweep.config.kinds.table import (
     canonical,
     keys_of,
 )
-from sweep.config.kinds.upright import across, upright
-from sweep.config.structures.structure_file import faults
 
 T = TypeVar("T")
 
@@ -57,7 +48,7 @@ class Case(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    lattice: Lattice
+    lattice: AnyLattice
     material: Material
     loading: Loading
     contact: Contact
@@ -189,11 +180,8 @@ class Case(BaseModel):
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
-            place = ".".join(map(str, first["loc"])) or "the text"
+            place = ".".join(str(part) for part in first["loc"] if part not in TAGS) or "the text"
             raise MisfitError(f"{place}: {first['msg']}") from None
-        custom = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
-        for line in faults(custom) if custom else ():
-            raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
             raise MisfitError("its numbers do not follow from one another")
         return case
@@ -242,7 +230,7 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    shells = along or issubclass(kind_of(dict(pairs["lattice"])), Surface)
+    shells = along or kind_of(dict(pairs["lattice"])).shells
     material = draft.add("material", materials.material, pairs["material"], shells)
     density = material.density if material else None
     lattice = None
@@ -283,9 +271,8 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     if lattice is None:
         usual = Specimen.model_fields[key].default
         return Pressed(given.get(key, usual), along, width=given.get("width", inf))
-    structure = lattice.structure if isinstance(lattice, CustomStructure) else None
     return Pressed(
-        getattr(lattice, key), along, structure, lattice.endless, lattice.tied, lattice.width,
+        getattr(lattice, key), along, lattice.loaded, lattice.endless, lattice.tied, lattice.width,
         lattice.sheet,
     )  # fmt: skip
 
@@ -353,22 +340,3 @@ def _check_keys(table: Table, name: str, values: Given) -> None:
 
 def _frozen(values: Given) -> Pairs:
     return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
-
-
-def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
-    """The lattice of these values; density (kg/m^3): of its material."""
-    given = dict(values)
-    made: Lattice
-    kind = kind_of(given)
-    if issubclass(kind, Surface):
-        made = sheet(given, density, along) if kind is Sheet else sliced_sheet(given, along)
-        check_printable(made)
-        return made
-    if kind is CustomStructure:
-        made = custom_structure(given)
-    elif kind is Drawn:
-        made = drawn(given, density)
-    else:
-        made = sliced(given, density) if kind is Sliced else cells(given, density, along)
-    check_printable(made)
-    return upright(made, given) if along else across(made)

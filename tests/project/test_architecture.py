@@ -89,7 +89,6 @@ TESTED_ELSEWHERE = {
     "sweep.__main__": "sweep/cli/test_verbs.py",
     "sweep.config.kinds.contact": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.crush": "sweep/config/kinds/test_completion.py",
-    "sweep.config.kinds.custom_structure": "sweep/config/structures/test_structure_file.py",
     "sweep.config.kinds.damping": "sweep/config/kinds/test_relaxation.py",
     "sweep.config.kinds.dead_load": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.direction": "sweep/config/kinds/test_upright.py",

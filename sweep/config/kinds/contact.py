@@ -2,11 +2,11 @@
 
 from typing import ClassVar, Literal
 
-from sweep.config.kinds.cells import TIED
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading, Pressed
 from sweep.config.kinds.solver import ARCS
+from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.table import (
     Given,
     NonNegative,

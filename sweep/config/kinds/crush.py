@@ -34,6 +34,7 @@ class Crush(Struck):
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
     neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1}
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {"strain": ("stroke",), "strain_rate": ("speed",)}
 
     mode: Literal["displacement"] = "displacement"
     stroke: Length

@@ -41,6 +41,15 @@ class Impact(Struck):
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
     neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"filter_class": 1000, "gravity": False}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {
+        "striker_mass": ("energy", "preset", "specimens"),
+        "striker_speed": ("energy", "drop_height", "preset", "specimens"),
+        "energy": ("striker_speed", "drop_height", "preset", "specimens"),
+        "drop_height": ("striker_speed", "energy", "preset", "specimens", "gravity"),
+        "preset": ("striker_mass", "striker_speed", "energy", "drop_height", "gravity"),
+        "specimens": ("striker_mass", "energy"),
+        "target_mass": ("gravity",),
+    }
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 

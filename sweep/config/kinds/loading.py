@@ -5,13 +5,13 @@ from typing import Annotated, NamedTuple
 
 from pydantic import Field
 
-from sweep.config.kinds.cells import ENDLESS, TIED
 from sweep.config.kinds.crush import Crush, crush, mean_crush
 from sweep.config.kinds.dead_load import DeadLoad, dead_load
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.impact import DROP, Impact, impact
 from sweep.config.kinds.of_file import OfFile, of_file
 from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.specimen import ENDLESS, TIED
 from sweep.config.kinds.striker import struck
 from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
 from sweep.config.structures.structure import Structure

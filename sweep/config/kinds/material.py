@@ -6,6 +6,7 @@ from pydantic import Field
 
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.table import (
+    COMPUTED,
     Density,
     Duration,
     Given,
@@ -98,9 +99,9 @@ class Material(Table):
     yield_stress: Stress | None = None
     hardening: Annotated[float, Field(ge=0, json_schema_extra={"unit": "Pa"})] | None = None
     fracture_strain: Stretched | None = None
-    curve_strain: Curve = ()
-    curve_stress: Curve = ()
-    uncertain: Annotated[tuple[Range, ...], Field(strict=False)] = ()
+    curve_strain: Annotated[Curve, COMPUTED] = ()
+    curve_stress: Annotated[Curve, COMPUTED] = ()
+    uncertain: Annotated[tuple[Range, ...], Field(strict=False), COMPUTED] = ()
 
     @property
     def relaxes(self) -> bool:

@@ -42,6 +42,7 @@ Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
 NonNegative = Annotated[float, Field(ge=0)]
+COMPUTED = "computed"  # marks a field that is no key of a config
 Positive = Annotated[float, Field(gt=0)]
 
 
@@ -49,7 +50,10 @@ class Table(BaseModel):
     """One table of a case, complete and in SI; its attributes are keys of the config.
 
     labels: keys that never enter an id. neutral: keys that enter it only with other values.
-    constants: what enters it beside the attributes. derived: attributes that no config sets.
+    constants: what enters it beside the attributes. derived: attributes that follow from others.
+
+    sets: key -> the keys whose values follow from it, if it is given. replaces: key -> other keys
+    whose values a new one takes away.
     """
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
@@ -57,6 +61,17 @@ class Table(BaseModel):
     neutral: ClassVar[dict[str, Any]] = {}
     constants: ClassVar[dict[str, Any]] = {}
     derived: ClassVar[tuple[str, ...]] = ()
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {}
+
+    @classmethod
+    def replaced(cls, key: str) -> set[str]:
+        """The keys whose values a new one of a key takes away: that set it, that it sets, or of
+        which both set one.
+        """
+        own = {key, *cls.sets.get(key, ())}
+        causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}
+        return {*own, *causes, *cls.replaces.get(key, ())} - {key}
 
     def given(self) -> dict[str, Any]:
         """The values from which this table follows, by key."""
