@@ -26,8 +26,9 @@ from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
-from sweep.config.kinds.loading import Loading, Pressed
+from sweep.config.kinds.loading import AnyLoading, Loading
 from sweep.config.kinds.material import Material
+from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
@@ -50,7 +51,7 @@ class Case(BaseModel):
 
     lattice: AnyLattice
     material: Material
-    loading: Loading
+    loading: AnyLoading
     contact: Contact
     damping: Damping
     solver: Solver
@@ -104,9 +105,9 @@ class Case(BaseModel):
         return self.lattice.depth if self.along else self.lattice.height
 
     @property
-    def extent(self) -> steps.Extent:
+    def pressed(self) -> Pressed:
         """What is pressed."""
-        return _extent(dict(self), self.height, self.shells)
+        return _pressed_of(self.lattice, self.along)
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -253,9 +254,8 @@ def _numerics(
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
     model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
-    extent = _extent(draft.tables, pressed.height, pressed.shells)
     by_position = model == "position_based"
-    given = pairs["solver"], material.remembers, loading, extent, by_position
+    given = pairs["solver"], material, loading, pressed, by_position
     solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
@@ -267,24 +267,26 @@ def _numerics(
 
 def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     """What is pressed; of a lattice that is refused, by its own values."""
+    if lattice is not None:
+        return _pressed_of(lattice, along)
     key = "depth" if along else "height"
-    if lattice is None:
-        usual = Specimen.model_fields[key].default
-        return Pressed(given.get(key, usual), along, width=given.get("width", inf))
+    usual = Specimen.model_fields[key].default
+    return Pressed(given.get(key, usual), along, width=given.get("width", inf))
+
+
+def _pressed_of(lattice: Lattice, along: bool) -> Pressed:
+    width, height, depth = lattice.width, lattice.height, lattice.depth
     return Pressed(
-        getattr(lattice, key), along, lattice.loaded, lattice.endless, lattice.tied, lattice.width,
+        depth if along else height,
+        along,
+        lattice.loaded,
+        lattice.endless,
+        lattice.tied,
+        width,
         lattice.sheet,
-    )  # fmt: skip
-
-
-def _extent(tables: Mapping[str, Any], height: float, shells: bool) -> steps.Extent:
-    """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
-    lattice, material = tables.get("lattice"), tables["material"]
-    if not isinstance(lattice, Specimen):
-        return steps.Extent(height, 1.0, inf, shells)
-    volume = lattice.width * lattice.height * lattice.depth
-    compliance = height**2 / (material.modulus * volume) if volume else inf
-    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance, shells)
+        hypot(width, height),
+        width * height * depth,
+    )
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:

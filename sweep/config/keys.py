@@ -16,10 +16,10 @@ from sweep.config.defaults import drop_tests
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.direction import Direction
-from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.lattice import KINDS as LATTICES
 from sweep.config.kinds.lattice import WORDS
-from sweep.config.kinds.loading import BY_MODE, mode_word
+from sweep.config.kinds.loading import BY_MODE
+from sweep.config.kinds.loading import KINDS as LOADINGS
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import COMPUTED, TABLES, Table
@@ -40,7 +40,7 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 CHOICES: dict[str, Any] = {
     "lattice.pattern": str,
     "lattice.kind": Literal[*WORDS],
-    "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
+    "loading.mode": Literal[*(word for kind in LOADINGS for word in kind.words)],
     "loading.direction": Direction,
     "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
     "contact.model": Literal["auto", "none", "barrier", "position_based"],

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.direction import WHERE, Directed, is_along
+from sweep.config.kinds.directed import Directed
+from sweep.config.kinds.direction import WHERE, is_along
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Table, chosen, given_or
 from sweep.numbers import text_in
 

@@ -8,10 +8,8 @@ from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.contact import Barrier
-from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
-from sweep.config.kinds.impact import DROP, Impact
 from sweep.config.kinds.sheet import SIDES
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import ARCS
@@ -109,12 +107,12 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":
-        return given[key] == DROP and isinstance(case.loading, Impact)
+        return given[key] in case.loading.words
     if key == "solver.time_step":
         return case_value is not None and "solver.load_steps" not in given
     if key in ("material.name", "lattice.file"):
         return case_value is not None
-    return key == "loading.speed" and isinstance(case.loading, Crush)
+    return key == "loading.speed" and case.loading.driven
 
 
 def _why_no_memory(given: Mapping[str, Any]) -> str:
@@ -140,7 +138,7 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
         return _reason_in_lattice(key, case)
     if ARCS in (name, case.solver.integrator) and table in ("contact", "solver", "loading"):
         return f'solver.integrator is "{case.solver.integrator}"'
-    if key == "solver.load_steps" or (key == "solver.accuracy" and not _is_crush(case)):
+    if key == "solver.load_steps" or (key == "solver.accuracy" and not case.loading.driven):
         return case.loading.because
     if key == "solver.accuracy":
         return f'solver.integrator is "{case.solver.integrator}"'
@@ -150,10 +148,6 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     if rubs and key == "contact.slip_speed" and kind.friction == 0.0:
         return "contact.friction is 0"
     return str(kind.because)
-
-
-def _is_crush(case: Case) -> bool:
-    return isinstance(case.loading, Crush)
 
 
 def _why_shells(case: Case) -> str:
