@@ -33,6 +33,10 @@ class Cells(Laid):
 
     because: ClassVar[str] = "lattice.slicer is not given"
     labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "cell_size")
+    needs: ClassVar[dict[str, str]] = {
+        "line_width": "there are neither lattice.perimeters nor a lattice.infill",
+        "layer_height": "lattice.solid_layers is 0",
+    }
     words: ClassVar[tuple[str, ...]] = families()
     sets: ClassVar[dict[str, tuple[str, ...]]] = {
         "mass": ("wall_thickness",),

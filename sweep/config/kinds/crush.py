@@ -10,6 +10,7 @@ from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, So
 from sweep.config.kinds.specimen import ENDLESS
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
+    STEADY,
     Cycles,
     Duration,
     Forces,
@@ -37,6 +38,7 @@ class Crush(Struck):
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
     neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1}
+    needs: ClassVar[dict[str, str]] = Struck.needs | {"strain_rate": STEADY, "hold_time": STEADY}
     words: ClassVar[tuple[str, ...]] = ("displacement",)
     driven: ClassVar[bool] = True
     sets: ClassVar[dict[str, tuple[str, ...]]] = {"strain": ("stroke",), "strain_rate": ("speed",)}

@@ -109,13 +109,6 @@ class CustomStructure(Specimen):
         """What changes with other numbers of `pieces`."""
         return {"structure": self.structure.model_copy(update={"subdivide": pieces})}
 
-    @property
-    def wall_quads(self) -> Any:
-        """Number of quads along each wall that stands (w,)."""
-        import numpy as np
-
-        return np.array(self.pieces)
-
     def check_standing(self, where: str) -> None:
         """Refuse what stands beside walls; where: why they stand, in words."""
         if unfit := self.structure.beside_walls:

@@ -7,6 +7,7 @@ from pydantic import Field
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.table import (
     COMPUTED,
+    STEADY,
     Density,
     Duration,
     Given,
@@ -78,6 +79,13 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
+    needs: ClassVar[dict[str, str]] = {
+        "reference_time": STEADY,
+        "hardening": "material.yield_stress is not given",
+        "fracture_strain": "material.yield_stress is not given",
+        "softening_m": "material.softening_r is not given",
+        "softening_beta": "material.softening_r is not given",
+    }
     not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused along cells
 
     name: str = "ninjaflex"

@@ -37,6 +37,7 @@ class SlicedSheet(Surface):
         "lattice.slicer prints a sheet, one period of which is computed without perimeters"
     )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
+    fits: ClassVar[tuple[str, ...]] = ("infill", *SIDES)
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {"wall_thickness": ("infill",)}
 
     slicer: Literal["prusa", "orca", "cura"]

@@ -118,8 +118,8 @@ class Specimen(Table):
 
     @property
     def wall_quads(self) -> Any:
-        """Number of quads along a whole wall that stands: one for all walls, or (w,)."""
-        return self.pieces[0]
+        """Number of quads along a whole wall that stands: (1,) for all walls, or (w,)."""
+        return self.pieces
 
     def check_standing(self, where: str) -> None:
         """Refuse walls that cannot be pressed along the cells; where: why they are, in words."""

@@ -44,6 +44,16 @@ class Struck(Directed):
 
     neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"striker": "flat", "base": "flat"}
 
+    needs: ClassVar[dict[str, str]] = {
+        "striker_at": 'loading.striker is "flat"',
+        "striker_radius": 'loading.striker is not "round"',
+        "striker_angle": 'loading.striker is not "edge"',
+        "striker_tip": 'loading.striker is neither "edge" nor "punch"',
+        "striker_width": 'loading.striker is not "punch"',
+        "base_span": 'loading.base is not "ribs"',
+        "base_radius": 'loading.base is not "ribs"',
+    }
+
     striker: Literal["flat", "round", "edge", "punch"] = "flat"
     striker_at: Place | None = None
     striker_radius: Radius | None = None

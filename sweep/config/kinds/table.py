@@ -42,6 +42,7 @@ Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
 NonNegative = Annotated[float, Field(ge=0)]
+STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
 COMPUTED = "computed"  # marks a field that is no key of a config
 Positive = Annotated[float, Field(gt=0)]
 
@@ -53,7 +54,8 @@ class Table(BaseModel):
     constants: what enters it beside the attributes. derived: attributes that follow from others.
 
     sets: key -> the keys whose values follow from it, if it is given. replaces: key -> other keys
-    whose values a new one takes away.
+    whose values a new one takes away. needs: key that may be left out -> why it is. fits: keys
+    whose values are the nearest that fit. because: why other keys have no effect.
     """
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
@@ -63,6 +65,8 @@ class Table(BaseModel):
     derived: ClassVar[tuple[str, ...]] = ()
     sets: ClassVar[dict[str, tuple[str, ...]]] = {}
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {}
+    needs: ClassVar[dict[str, str]] = {}
+    fits: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def replaced(cls, key: str) -> set[str]:
