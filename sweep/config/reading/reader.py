@@ -87,9 +87,10 @@ class Reader:
     def _recipe(self, document: dict[str, Any]) -> Recipe:
         """The values that a document writes, and those of profiles that it does not write."""
         document, one, several = _without_profiles(document)
-        words = _kinds(document)
-        self.of_file = next((kind for kind in FILED if words & {*kind.words}), FILED[0])
-        stated = _stated(document)
+        keys = _mentioned(document)
+        words = keys.get("lattice.kind", ())
+        self.of_file = next((k for k in FILED if any(w in words for w in k.words)), FILED[0])
+        stated = {target for name in keys for target in (name, *ALIASES.get(name, ()))}
         base = self._base(document)
         if one is not None:
             base |= self._profile(one, stated)
@@ -399,28 +400,15 @@ def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, An
     return kept, taken[0], taken[1]
 
 
-def _kinds(document: dict[str, Any]) -> set[str]:
-    """The kinds of lattice that a document names, or varies."""
-    lattice = document.get("lattice")
-    found = [lattice.get("kind")] if isinstance(lattice, dict) else []
-    found += [table.get("lattice.kind") for table in _varying(document)]
-    values = [value for kind in found for value in (kind if isinstance(kind, list) else [kind])]
-    return {value for value in values if isinstance(value, str)}
-
-
-def _stated(document: dict[str, Any]) -> set[str]:
-    """The keys of [lattice] that a document states, or varies."""
-    lattice = document.get("lattice")
-    names = {f"lattice.{key}" for key in (lattice if isinstance(lattice, dict) else {})}
-    names |= {key for table in _varying(document) for key in table}
-    return names | {target for name in names for target in ALIASES.get(name, ())}
-
-
-def _varying(document: dict[str, Any]) -> list[dict[str, Any]]:
-    """The tables of a document whose keys vary, with dotted keys."""
-    grid, search, ties = (document.get(name) for name in ("grid", "search", "zip"))
-    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
-    return [_flat(table) for table in tables if isinstance(table, dict)]
+def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
+    """The keys of [lattice], and those that vary, with all values of a document; dotted."""
+    ties = document.get("zip")
+    tables = [{"lattice": document.get("lattice")}, document.get("grid"), document.get("search")]
+    keys: dict[str, list[Any]] = {}
+    for table in [*tables, *(ties if isinstance(ties, list) else [])]:
+        for name, value in _flat(table).items() if isinstance(table, dict) else ():
+            keys.setdefault(name, []).extend(value if isinstance(value, list) else [value])
+    return keys
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:
