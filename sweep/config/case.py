@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import blake2b
 from math import hypot, inf
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Unpack
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
@@ -37,6 +37,7 @@ from sweep.config.kinds.table import (
     Pairs,
     RefusedError,
     Table,
+    Tables,
     canonical,
     keys_of,
 )
@@ -58,26 +59,13 @@ class Case(BaseModel):
     axes: dict[str, float | int | str | None] = {}
 
     @staticmethod
-    def of(  # noqa: PLR0913  the tables of a case, spelt out for completion
-        axes: Mapping[str, Any] | None = None,
-        *,
-        lattice: Given | Table | None = None,
-        material: Given | Table | None = None,
-        loading: Given | Table | None = None,
-        contact: Given | Table | None = None,
-        damping: Given | Table | None = None,
-        solver: Given | Table | None = None,
-        **others: Given | Table,
-    ) -> "Case":
+    def of(axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
         """The case of these values by table and key, in SI; a key that is None has its default.
 
         `RefusedError` says what contradicts what, which keys a table of its kind has, or that there
-        is no such table (`others`).
+        is no such table.
         """
-        tables: dict[str, Given | Table] = dict(others)
-        tables |= _given(lattice, material, loading, contact, damping, solver)
-        _check_tables(tables)
-        contents = {name: _values(values) for name, values in tables.items()}
+        contents = {name: _values(values) for name, values in _checked(tables).items()}
         case = complete(contents).sound(axes)
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
@@ -142,27 +130,13 @@ class Case(BaseModel):
             copied.__dict__.pop("case_id", None)
         return copied
 
-    def changed(  # noqa: PLR0913  as `of`
-        self,
-        axes: Mapping[str, Any] | None = None,
-        *,
-        lattice: Given | None = None,
-        material: Given | None = None,
-        loading: Given | None = None,
-        contact: Given | None = None,
-        damping: Given | None = None,
-        solver: Given | None = None,
-        **others: Given,
-    ) -> "Case":
+    def changed(self, axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
 
         axes: labels beside those it has. `changes` says which of its own values a new one replaces;
-        the others stay, such as a duration or a time step that followed from old ones. `others`:
-        tables that no case has, which are refused.
+        the others stay, such as a duration or a time step that followed from old ones.
         """
-        tables = others | _given(lattice, material, loading, contact, damping, solver)
-        _check_tables(tables)
-        changes = {name: dict(change) for name, change in tables.items()}
+        changes = {name: dict(change) for name, change in _checked(tables).items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
         labels = self.axes | dict(axes or {})
         case = complete({name: _values(table) for name, table in values.items()}).sound(labels)
@@ -295,27 +269,23 @@ def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
     return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
 
 
-def _given(*tables: T | None) -> dict[str, T]:
-    """The tables of a case that are given, by name."""
-    named = zip(TABLES, tables, strict=True)
-    return {name: table for name, table in named if table is not None}
-
-
 def _values(table: Given | Table) -> dict[str, Any]:
     """The values of a table that are not None."""
     values = table.given() if isinstance(table, Table) else table
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _check_tables(tables: Mapping[str, Given | Table]) -> None:
-    """Refuse a table that no case has, and what is no table."""
-    for name, values in tables.items():
+def _checked(tables: Mapping[str, Any]) -> dict[str, Given | Table]:
+    """The tables that are given; refused are those that no case has, and what is no table."""
+    given = {name: values for name, values in tables.items() if values is not None}
+    for name, values in given.items():
         if name not in TABLES:
             raise RefusedError(name, values, f"the tables {', '.join(TABLES)}")
         if isinstance(values, Mapping):
             _check_types(name, values)
         elif not isinstance(values, Table):
             raise RefusedError(name, values, "values by key")
+    return given
 
 
 def _check_types(table: str, values: Given) -> None:

@@ -3,11 +3,10 @@ block.
 """
 
 from abc import abstractmethod
-from math import isclose
 from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from sweep.config.kinds.direction import ACROSS, ALONG, Direction
-from sweep.config.kinds.specimen import Nodes, Specimen
+from sweep.config.kinds.specimen import Nodes, Specimen, check_imperfection, check_thickness
 from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
 from sweep.constants import TO_MM
 from sweep.design.surfaces.names import BLOCK, SHEETS
@@ -19,7 +18,6 @@ S = TypeVar("S", bound="Surface")
 LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 MOST_QUADS = 20_000  # with six unknowns for each
-MOST_IMPERFECTION = 1.0  # in wall thicknesses
 SIDES = ("width", "height", "depth")
 FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
 
@@ -161,7 +159,8 @@ class Sheet(Surface):
         sides = fitted(given["kind"], given, along, wanted, "cell_size")
         made = cls.model_validate(chosen(given, cls) | sides)
         if made.mass is not None:
-            thickness = _thickness_of(made, made.mass, given, density)
+            thickness = made.mass / (density * made.area)
+            check_thickness(thickness, given)
             made = made.model_copy(update={"wall_thickness": thickness})
         return checked(made)
 
@@ -238,9 +237,7 @@ def checked(made: S) -> S:
     if made.elements > MOST_QUADS:
         allowed = f"at most {MOST_QUADS:,} quads, {made.elements:,} here: a larger period, or fewer"
         raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
-    if made.imperfection > MOST_IMPERFECTION:
-        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, of a sheet"
-        raise RefusedError("lattice.imperfection", made.imperfection, allowed)
+    check_imperfection(made, "of a sheet")
     if made.wall_thickness >= THICKEST * made.period:
         key = next((key for key in ("infill", "mass") if made.value(key)), "wall_thickness")
         most = made.value(key) * THICKEST * made.period / made.wall_thickness
@@ -250,12 +247,3 @@ def checked(made: S) -> S:
     seed = (made.imperfection_seed or 0) if made.imperfection else None
     unused = {"layers": None, "symmetry": "none"}
     return made.model_copy(update=unused | {"imperfection_seed": seed})
-
-
-def _thickness_of(made: Sheet, mass: float, given: Given, density: float) -> float:
-    """The wall thickness (m) that gives a sheet a mass, kg."""
-    thickness = mass / (density * made.area)
-    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
-        allowed = f"{thickness:.6g} m at the mass given; give one of them"
-        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
-    return thickness

@@ -9,6 +9,7 @@ from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import (
     LAYER_HEIGHT,
     MAX_NODES,
+    NOZZLE,
     Laid,
     Lines,
     check_proportion,
@@ -92,9 +93,8 @@ class Sliced(Laid):
     @classmethod
     def of(cls, given: Given, density: float, along: bool) -> Self:
         """The infill of these values."""
-        slicer, pattern = given["slicer"], _checked_pattern(given)
-        width = given.get("nozzle", cls.model_fields["nozzle"].default)
-        width = given.get("line_width", width * PROGRAMS[slicer].nozzles)
+        pattern = _checked_pattern(given)
+        width = line_width_of(given)
         usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
         made = cls.model_validate(usual | chosen(given, cls) | UNKNOWN | {"line_width": width})
         check_proportion(made)
@@ -197,6 +197,18 @@ class Sliced(Laid):
         return self.printed_as.opening * self.fill_distance
 
 
+def line_width_of(given: Given) -> float:
+    """The width of a line (m): as given, or that of the slicer for the nozzle."""
+    usual = PROGRAMS[given["slicer"]].nozzles * given.get("nozzle", NOZZLE)
+    return float(given.get("line_width", usual))
+
+
+def check_layer(layer: float, width: float) -> None:
+    """Refuse a line that is higher than wide, m."""
+    if layer > width:
+        raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
+
+
 def _share(made: Sliced, given: Given, per_area: float) -> float:
     """The share of infill, or that of the distance of lines, or of the mass; per_area: kg/m^2."""
     ways = [key for key in SIZES if given.get(key) is not None]
@@ -257,16 +269,14 @@ def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedErro
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = laid.model_copy(update=_spacing(laid, other))
         if other < _most_of(laid) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
-            if laid.line_distance is not None:
-                allowed = (
-                    f"{nearest.fill_distance:.4g} m, for example, or another fill_angle; {why}"
-                )
-                return RefusedError("lattice.line_distance", laid.line_distance, allowed)
-            if laid.mass is None:
-                allowed = f"{100.0 * other:.0f} %, for example, or another fill_angle; {why}"
-                return RefusedError("lattice.infill", share, allowed)
-            allowed = f"{per_area * counted_area(nearest.geometry):.4g} kg, for example; {why}"
-            return RefusedError("lattice.mass", laid.mass, allowed)
+            mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
+            examples = {
+                "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",
+                "mass": f"{mass:.4g} kg, for example",
+                "infill": f"{100.0 * other:.0f} %, for example{turn}",
+            }
+            key = next(key for key in examples if getattr(laid, key) is not None)
+            return RefusedError(f"lattice.{key}", getattr(laid, key), f"{examples[key]}; {why}")
     allowed = (
         f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
     )
@@ -341,9 +351,7 @@ def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
 
 def _check_lines(made: Sliced) -> None:
     """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
-    width, height = made.line_width, made.layer_height
-    if height > width:
-        raise RefusedError("lattice.layer_height", height, f"at most the line width, {width:g} m")
+    check_layer(made.layer_height, made.line_width)
     most = int(0.5 * min(made.width, made.height) / made.line)
     if not 1 <= made.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"

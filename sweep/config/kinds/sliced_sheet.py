@@ -8,13 +8,12 @@ from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
-from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
+from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
 from sweep.design.slicer.patterns import (
     PROGRAMS,
     SHEET_PATTERNS,
-    Program,
     SheetPattern,
     line_of,
     spread_lines,
@@ -57,9 +56,8 @@ class SlicedSheet(Surface):
     @classmethod
     def of(cls, given: Given, density: float, along: bool) -> Self:
         """The sheet of these values."""
-        program, pattern = _program(given)
-        width = given.get("nozzle", cls.model_fields["nozzle"].default)
-        width = given.get("line_width", width * program.nozzles)
+        pattern = _pattern(given)
+        width = line_width_of(given)
         layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
         _check(given, width, layer, lines)
         angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
@@ -120,8 +118,8 @@ class SlicedSheet(Surface):
         return sheet * self.inside + self.framed
 
 
-def _program(given: Given) -> tuple[Program, SheetPattern]:
-    """The slicer and its pattern; refused is what it does not print."""
+def _pattern(given: Given) -> SheetPattern:
+    """The pattern of the slicer; refused is what it does not print."""
     slicer, name = given["slicer"], given["pattern"]
     if slicer not in PROGRAMS:
         raise RefusedError("lattice.slicer", slicer, ", ".join(PROGRAMS))
@@ -130,7 +128,7 @@ def _program(given: Given) -> tuple[Program, SheetPattern]:
         other = next(other for other, program in PROGRAMS.items() if name in program.sheets)
         allowed = f'{names_in(slicer)}; "{name}" with lattice.slicer "{other}"'
         raise RefusedError("lattice.pattern", name, allowed)
-    return program, program.sheets[name]
+    return program.sheets[name]
 
 
 def _parallel(angle: float, other: float) -> bool:
@@ -171,8 +169,7 @@ def _check(given: Given, width: float, layer: float, lines: int) -> None:
         raise RefusedError("lattice.infill", None, 'a share such as "15 %"')
     if given["infill"] < LEAST_SHARE:
         raise RefusedError("lattice.infill", given["infill"], f"at least {100 * LEAST_SHARE:g} %")
-    if layer > width:
-        raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
+    check_layer(layer, width)
     if lines > PROGRAMS[given["slicer"]].lines:
         raise RefusedError(
             "lattice.fill_multiline", lines, '1; more with lattice.slicer "orca" or "cura"'

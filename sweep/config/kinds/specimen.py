@@ -19,6 +19,7 @@ NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
 MAX_NODES = 50_000
 ENDLESS = 'if lattice.boundary is "periodic"'
 TIED = 'if lattice.sides is "periodic"'
+MOST_IMPERFECTION = 1.0  # of shells, in wall thicknesses
 MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
 
 Lines = Annotated[int, Field(ge=0, le=100)]
@@ -253,7 +254,19 @@ def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float
     if isnan(thickness):
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
         raise RefusedError("lattice.mass", mass, allowed)
+    check_thickness(thickness, given)
+    return thickness
+
+
+def check_thickness(thickness: float, given: Given) -> None:
+    """Refuse a wall thickness that is not the one (m) at the mass given."""
     if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
-    return thickness
+
+
+def check_imperfection(specimen: Specimen, where: str) -> None:
+    """Refuse a bow of shells that is no start of a buckle, but one itself."""
+    if specimen.imperfection > MOST_IMPERFECTION:
+        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {where}"
+        raise RefusedError("lattice.imperfection", specimen.imperfection, allowed)

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from functools import cache, lru_cache
-from typing import Annotated, Any, ClassVar, TypeVar
+from typing import Annotated, Any, ClassVar, TypedDict, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -16,7 +16,19 @@ Given = Mapping[str, Any]
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
 
-TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
+
+class Tables(TypedDict, total=False):
+    """The values of the tables of a case; None: its defaults."""
+
+    lattice: "Given | Table | None"
+    material: "Given | Table | None"
+    loading: "Given | Table | None"
+    contact: "Given | Table | None"
+    damping: "Given | Table | None"
+    solver: "Given | Table | None"
+
+
+TABLES = tuple(Tables.__annotations__)
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]

@@ -3,13 +3,12 @@
 from typing import Any, TypeVar
 
 from sweep.config.kinds.direction import WHERE
-from sweep.config.kinds.specimen import TIED, Specimen
+from sweep.config.kinds.specimen import TIED, Specimen, check_imperfection
 from sweep.config.kinds.table import Given, RefusedError
 from sweep.constants import TO_MM
 
 NODES = 5  # inside a wall: six quads across
 MOST_NODES = 20_000  # with six unknowns each
-MOST_IMPERFECTION = 1.0  # in wall thicknesses: a bow should start a buckle, not be one
 S = TypeVar("S", bound=Specimen)
 
 
@@ -47,9 +46,7 @@ def _check(made: Specimen) -> None:
         raise RefusedError("lattice.boundary", "periodic", f'"free" {WHERE}')
     if made.tied and made.symmetry == "quarter":
         raise RefusedError("lattice.symmetry", "quarter", f'"none" {TIED}')
-    if made.imperfection > MOST_IMPERFECTION:
-        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {WHERE}"
-        raise RefusedError("lattice.imperfection", made.imperfection, allowed)
+    check_imperfection(made, WHERE)
     made.check_standing(WHERE)
 
 
