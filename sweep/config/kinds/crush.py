@@ -1,6 +1,6 @@
 """A crush: a platen moves down by `stroke`, rests for `hold_time`, and moves back up."""
 
-from math import ceil, isclose
+from math import ceil, inf, isclose
 from typing import Any, ClassVar, Literal
 
 from sweep.config.kinds.directed import Ramp
@@ -85,6 +85,10 @@ class Crush(Struck):
         if self.unload:
             ramps.append(Ramp("unloading", "unloading", way=(1.0, 0.0), steps=steps))
         return ramps
+
+    def loaded_for(self, height: float) -> float:
+        """The time of a stroke down and back up, with the pause between, s."""
+        return 2.0 * self.stroke / (self.speed or inf) + (self.hold_time or 0.0)
 
     @property
     def approach(self) -> float | None:

@@ -64,6 +64,10 @@ class Directed(Table):
     def ramps(self, solver: Solver) -> list[Ramp]:
         """The parts of one cycle."""
 
+    @abstractmethod
+    def loaded_for(self, height: float) -> float:
+        """About how long walls of a height (m) are loaded, s."""
+
     def usual_step(self, pressed: Pressed, modulus: float) -> float:
         """Time step (s) of a motion, if none is given; modulus: of the material, Pa."""
         return TIME_STEP

@@ -95,6 +95,10 @@ class Impact(Struck):
         """The motion of the striker, which may end before its duration."""
         return [Ramp("struck", load=(1.0, 1.0), time=self.duration, watched=True)]
 
+    def loaded_for(self, height: float) -> float:
+        """The time of a striker's passage, and back, s."""
+        return 2.0 * height / self.striker_speed
+
     def usual_step(self, pressed: Pressed, modulus: float) -> float:
         """Time step (s) of a motion, if none is given, of no more than `MAX_STEPS`."""
         return max(self.contact_step(pressed, modulus), self.duration / MAX_STEPS)

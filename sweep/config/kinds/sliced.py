@@ -69,7 +69,9 @@ class Sliced(Laid):
         "mass": ("infill", "fill_distance"),
         "line_distance": ("infill", "fill_distance"),
     }
-    replaces: ClassVar[dict[str, tuple[str, ...]]] = {"wall_thickness": SIZES}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = dict.fromkeys(
+        ("wall_thickness", "cells_x", "cells_y"), SIZES
+    )
 
     slicer: Literal["prusa", "orca", "cura"]
     pattern: str
