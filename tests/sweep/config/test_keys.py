@@ -37,13 +37,6 @@ CHOICES = {
         '"impact", "drop" or "custom"'
     ),
     '[lattice]\nkind = "heptagon"': (f'lattice.kind = "heptagon"; {KINDS}, "custom" or "drawn"'),
-    '[material]\nbend = "curve"': (
-        'material.bend = "curve"; "linear", "section", "fibres" or "none"'
-    ),
-    '[contact]\nmodel = "by_position"': (
-        'contact.model = "by_position"; "auto", "none", "barrier" or "position_based"'
-    ),
-    '[solver]\nhessian = "tangent"': 'solver.hessian = "tangent"; "exact" or "tangent_modulus"',
     '[solver]\nintegrator = "bdf3"': (
         'solver.integrator = "bdf3"; "backward_euler", "bdf2", "newmark", "static" or "arc_length"'
     ),
