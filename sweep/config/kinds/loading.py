@@ -57,10 +57,11 @@ def _mode_of(given: Given, shells: bool) -> str:
 
 
 def _implied(given: Given) -> dict[str, str]:
-    """The modes that keys imply, each with the first of its keys."""
+    """The modes that keys imply, each with the first of its keys; a subclass implies its own."""
     implied: dict[str, str] = {}
     for kind in BY_MODE:
-        others = {key for other in BY_MODE if other is not kind for key in other.model_fields}
+        kinds = [other for other in BY_MODE if not issubclass(other, kind)]
+        others = {key for other in kinds for key in other.model_fields}
         own = [key for key in kind.model_fields if key not in others and key in given]
         if own:
             implied[kind.words[0]] = own[0]

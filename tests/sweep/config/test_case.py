@@ -63,7 +63,7 @@ def test_a_case_cannot_be_changed():
     [
         (dict(latice={}), "latice"),
         (dict(lattice="square"), "lattice = square"),
-        (dict(loading=dict(mode="shear")), 'loading.mode = shear; allowed: "force", "disp'),
+        (dict(loading=dict(mode="shear")), 'loading.mode = shear; allowed: "force", '),
         (dict(contact=dict(model="x")), "contact.model = x; allowed: 'barrier' or 'none'"),
     ],
 )
