@@ -10,6 +10,8 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
+from sweep.modes import MODES
+
 
 @dataclass(frozen=True)
 class Column:
@@ -78,7 +80,7 @@ COLUMNS: dict[str, Column] = {
     "material_memory": Column(
         "", "what walls do that springs do not: relaxes, softens, yields; none if they are elastic"
     ),
-    "loading_mode": Column("", "force, displacement, impact or custom"),
+    "loading_mode": Column("", ", ".join(MODES)),
     "platen": Column("", "none, contact, glued, sliding or clamped"),
     "striker": Column(
         "", "flat, or the shape that hits the whole depth of the lattice as a line, and where"

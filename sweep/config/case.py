@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import blake2b
 from math import hypot, inf
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Unpack
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
@@ -22,19 +22,13 @@ from sweep.config.kinds import damping as dampings
 from sweep.config.kinds import loading as loadings
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
-from sweep.config.kinds.cells import cells
 from sweep.config.kinds.contact import Contact
-from sweep.config.kinds.custom_structure import CustomStructure, custom_structure
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
-from sweep.config.kinds.drawn import Drawn, drawn
-from sweep.config.kinds.lattice import Lattice, kind_of
-from sweep.config.kinds.loading import Loading, Pressed
+from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
+from sweep.config.kinds.loading import AnyLoading, Loading
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.printable import check_printable
-from sweep.config.kinds.sheet import Sheet, Surface, sheet
-from sweep.config.kinds.sliced import Sliced, sliced
-from sweep.config.kinds.sliced_sheet import sliced_sheet
+from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
@@ -43,11 +37,10 @@ from sweep.config.kinds.table import (
     Pairs,
     RefusedError,
     Table,
+    Tables,
     canonical,
     keys_of,
 )
-from sweep.config.kinds.upright import across, upright
-from sweep.config.structures.structure_file import faults
 
 T = TypeVar("T")
 
@@ -57,35 +50,22 @@ class Case(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    lattice: Lattice
+    lattice: AnyLattice
     material: Material
-    loading: Loading
+    loading: AnyLoading
     contact: Contact
     damping: Damping
     solver: Solver
     axes: dict[str, float | int | str | None] = {}
 
     @staticmethod
-    def of(  # noqa: PLR0913  the tables of a case, spelt out for completion
-        axes: Mapping[str, Any] | None = None,
-        *,
-        lattice: Given | Table | None = None,
-        material: Given | Table | None = None,
-        loading: Given | Table | None = None,
-        contact: Given | Table | None = None,
-        damping: Given | Table | None = None,
-        solver: Given | Table | None = None,
-        **others: Given | Table,
-    ) -> "Case":
+    def of(axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
         """The case of these values by table and key, in SI; a key that is None has its default.
 
         `RefusedError` says what contradicts what, which keys a table of its kind has, or that there
-        is no such table (`others`).
+        is no such table.
         """
-        tables: dict[str, Given | Table] = dict(others)
-        tables |= _given(lattice, material, loading, contact, damping, solver)
-        _check_tables(tables)
-        contents = {name: _values(values) for name, values in tables.items()}
+        contents = {name: _values(values) for name, values in _checked(tables).items()}
         case = complete(contents).sound(axes)
         for name, values in contents.items():
             _check_keys(getattr(case, name), name, values)
@@ -113,9 +93,9 @@ class Case(BaseModel):
         return self.lattice.depth if self.along else self.lattice.height
 
     @property
-    def extent(self) -> steps.Extent:
+    def pressed(self) -> Pressed:
         """What is pressed."""
-        return _extent(dict(self), self.height, self.shells)
+        return _pressed_of(self.lattice, self.along)
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -150,27 +130,13 @@ class Case(BaseModel):
             copied.__dict__.pop("case_id", None)
         return copied
 
-    def changed(  # noqa: PLR0913  as `of`
-        self,
-        axes: Mapping[str, Any] | None = None,
-        *,
-        lattice: Given | None = None,
-        material: Given | None = None,
-        loading: Given | None = None,
-        contact: Given | None = None,
-        damping: Given | None = None,
-        solver: Given | None = None,
-        **others: Given,
-    ) -> "Case":
+    def changed(self, axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
         """The case with other values, by table and key, completed anew; None takes a value away.
 
         axes: labels beside those it has. `changes` says which of its own values a new one replaces;
-        the others stay, such as a duration or a time step that followed from old ones. `others`:
-        tables that no case has, which are refused.
+        the others stay, such as a duration or a time step that followed from old ones.
         """
-        tables = others | _given(lattice, material, loading, contact, damping, solver)
-        _check_tables(tables)
-        changes = {name: dict(change) for name, change in tables.items()}
+        changes = {name: dict(change) for name, change in _checked(tables).items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
         labels = self.axes | dict(axes or {})
         case = complete({name: _values(table) for name, table in values.items()}).sound(labels)
@@ -189,11 +155,8 @@ class Case(BaseModel):
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
-            place = ".".join(map(str, first["loc"])) or "the text"
+            place = ".".join(str(part) for part in first["loc"] if part not in TAGS) or "the text"
             raise MisfitError(f"{place}: {first['msg']}") from None
-        custom = case.lattice.structure if isinstance(case.lattice, CustomStructure) else None
-        for line in faults(custom) if custom else ():
-            raise MisfitError(f"lattice.structure: {line}")
         if case.changed().case_id != case.case_id:
             raise MisfitError("its numbers do not follow from one another")
         return case
@@ -242,7 +205,7 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    shells = along or issubclass(kind_of(dict(pairs["lattice"])), Surface)
+    shells = along or kind_of(dict(pairs["lattice"])).shells
     material = draft.add("material", materials.material, pairs["material"], shells)
     density = material.density if material else None
     lattice = None
@@ -265,9 +228,8 @@ def _numerics(
 ) -> None:
     """Complete the tables that say how a case is computed; the first refusal ends it."""
     model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
-    extent = _extent(draft.tables, pressed.height, pressed.shells)
     by_position = model == "position_based"
-    given = pairs["solver"], material.remembers, loading, extent, by_position
+    given = pairs["solver"], material, loading, pressed, by_position
     solver = draft.add("solver", steps.solver, *given)
     if solver is None:
         return
@@ -279,25 +241,26 @@ def _numerics(
 
 def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     """What is pressed; of a lattice that is refused, by its own values."""
+    if lattice is not None:
+        return _pressed_of(lattice, along)
     key = "depth" if along else "height"
-    if lattice is None:
-        usual = Specimen.model_fields[key].default
-        return Pressed(given.get(key, usual), along, width=given.get("width", inf))
-    structure = lattice.structure if isinstance(lattice, CustomStructure) else None
+    usual = Specimen.model_fields[key].default
+    return Pressed(given.get(key, usual), along, width=given.get("width", inf))
+
+
+def _pressed_of(lattice: Lattice, along: bool) -> Pressed:
+    width, height, depth = lattice.width, lattice.height, lattice.depth
     return Pressed(
-        getattr(lattice, key), along, structure, lattice.endless, lattice.tied, lattice.width,
+        depth if along else height,
+        along,
+        lattice.loaded,
+        lattice.endless,
+        lattice.tied,
+        width,
         lattice.sheet,
-    )  # fmt: skip
-
-
-def _extent(tables: Mapping[str, Any], height: float, shells: bool) -> steps.Extent:
-    """The extent of a lattice whose ``height`` (m) is pressed, c = h^2 / (Y V)."""
-    lattice, material = tables.get("lattice"), tables["material"]
-    if not isinstance(lattice, Specimen):
-        return steps.Extent(height, 1.0, inf, shells)
-    volume = lattice.width * lattice.height * lattice.depth
-    compliance = height**2 / (material.modulus * volume) if volume else inf
-    return steps.Extent(height, hypot(lattice.width, lattice.height), compliance, shells)
+        hypot(width, height),
+        width * height * depth,
+    )
 
 
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
@@ -306,27 +269,23 @@ def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
     return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
 
 
-def _given(*tables: T | None) -> dict[str, T]:
-    """The tables of a case that are given, by name."""
-    named = zip(TABLES, tables, strict=True)
-    return {name: table for name, table in named if table is not None}
-
-
 def _values(table: Given | Table) -> dict[str, Any]:
     """The values of a table that are not None."""
     values = table.given() if isinstance(table, Table) else table
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _check_tables(tables: Mapping[str, Given | Table]) -> None:
-    """Refuse a table that no case has, and what is no table."""
-    for name, values in tables.items():
+def _checked(tables: Mapping[str, Any]) -> dict[str, Given | Table]:
+    """The tables that are given; refused are those that no case has, and what is no table."""
+    given = {name: values for name, values in tables.items() if values is not None}
+    for name, values in given.items():
         if name not in TABLES:
             raise RefusedError(name, values, f"the tables {', '.join(TABLES)}")
         if isinstance(values, Mapping):
             _check_types(name, values)
         elif not isinstance(values, Table):
             raise RefusedError(name, values, "values by key")
+    return given
 
 
 def _check_types(table: str, values: Given) -> None:
@@ -353,22 +312,3 @@ def _check_keys(table: Table, name: str, values: Given) -> None:
 
 def _frozen(values: Given) -> Pairs:
     return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
-
-
-def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
-    """The lattice of these values; density (kg/m^3): of its material."""
-    given = dict(values)
-    made: Lattice
-    kind = kind_of(given)
-    if issubclass(kind, Surface):
-        made = sheet(given, density, along) if kind is Sheet else sliced_sheet(given, along)
-        check_printable(made)
-        return made
-    if kind is CustomStructure:
-        made = custom_structure(given)
-    elif kind is Drawn:
-        made = drawn(given, density)
-    else:
-        made = sliced(given, density) if kind is Sliced else cells(given, density, along)
-    check_printable(made)
-    return upright(made, given) if along else across(made)

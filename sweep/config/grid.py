@@ -13,7 +13,6 @@ from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case, Draft, complete
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
-from sweep.config.kinds.impact import DROP
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import UNITS
@@ -179,10 +178,9 @@ class _Combination:
     def _value(self, target: str) -> Any:
         """The value of a key; where its table is refused, the given one or the default."""
         table, name = target.split(".")
-        if target == "loading.mode" and self.given.get(target) == DROP:
-            return DROP  # an impact by its mode
-        if table in self.draft.tables:
-            return self.draft.tables[table].value(name)
+        if made := self.draft.tables.get(table):
+            words = getattr(made, "words", ()) if name == "mode" else ()
+            return self.given[target] if self.given.get(target) in words else made.value(name)
         kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]
         return self.given.get(target, kinds[0].get_default() if kinds else None)
 

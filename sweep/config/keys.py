@@ -13,28 +13,22 @@ from typing import Any, Literal
 from pydantic import ConfigDict, TypeAdapter
 
 from sweep.config.defaults import drop_tests
-from sweep.config.kinds.cells import CUSTOM, DRAWN, Cells
 from sweep.config.kinds.contact import Barrier
-from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.direction import Direction
-from sweep.config.kinds.drawn import Drawn
-from sweep.config.kinds.impact import DROP
-from sweep.config.kinds.loading import BY_MODE, mode_word
+from sweep.config.kinds.lattice import KINDS as LATTICES
+from sweep.config.kinds.lattice import WORDS
+from sweep.config.kinds.loading import BY_MODE
+from sweep.config.kinds.loading import KINDS as LOADINGS
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.sheet import Sheet
-from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
-from sweep.config.kinds.table import TABLES, Table
+from sweep.config.kinds.table import COMPUTED, TABLES, Table
 from sweep.config.materials.material_file import available
 from sweep.config.question import QUESTION
-from sweep.design.infill import families
-from sweep.design.surfaces.names import SHEETS
 from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
-    "lattice": (Cells, Sliced, Sheet, SlicedSheet, CustomStructure, Drawn),
+    "lattice": LATTICES,
     "material": (Material,),
     "loading": BY_MODE,
     "contact": (Barrier,),
@@ -45,8 +39,8 @@ KINDS: dict[str, tuple[type[Table], ...]] = {
 
 CHOICES: dict[str, Any] = {
     "lattice.pattern": str,
-    "lattice.kind": Literal[*families(), *SHEETS, CUSTOM, DRAWN],
-    "loading.mode": Literal[*(mode_word(kind) for kind in BY_MODE), DROP, "custom"],
+    "lattice.kind": Literal[*WORDS],
+    "loading.mode": Literal[*(word for kind in LOADINGS for word in kind.words)],
     "loading.direction": Direction,
     "loading.platen": Literal["none", "contact", "glued", "sliding", "clamped"],
     "contact.model": Literal["auto", "none", "barrier", "position_based"],
@@ -60,16 +54,6 @@ ALIASES = {
     "lattice.extrusion_width": ("lattice.line_width",),
     "loading.load_steps": ("solver.load_steps",),
 }
-DERIVED = {
-    "lattice.structure",
-    "lattice.drawing",
-    "lattice.fill_distance",
-    "lattice.period",
-    "lattice.pressed",
-    "material.curve_strain",
-    "material.curve_stress",
-    "material.uncertain",
-}  # parts of a case that a config cannot set
 QUANTITIES = {
     "m": 'a length with a unit, such as "0.8 mm"',
     "m^2": 'an area with a unit, such as "8 mm^2"',
@@ -129,7 +113,7 @@ def table_keys(table: str) -> dict[str, Key]:
         schemas = kind.model_json_schema()["properties"]
         for field, info in kind.model_fields.items():
             name = f"{table}.{field}"
-            if name not in keys and name not in DERIVED and name not in CHOICES:
+            if name not in keys and name not in CHOICES and COMPUTED not in info.metadata:
                 keys[name] = _key(name, info.rebuild_annotation(), schemas[field])
     chosen = {name: choices for name, choices in CHOICES.items() if name.startswith(f"{table}.")}
     return keys | {name: _key(name, choices) for name, choices in chosen.items()}

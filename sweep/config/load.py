@@ -7,12 +7,12 @@ from dataclasses import replace
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, Unpack
 
 from sweep.config.case import Case
 from sweep.config.faults import ConfigError, Fault, MisfitError
 from sweep.config.grid import Config, expanded
-from sweep.config.kinds.table import TABLES
+from sweep.config.kinds.table import TABLES, Tables
 from sweep.config.reading.examples import examples, find_config
 from sweep.config.reading.mapping import document_of
 from sweep.config.reading.reader import Reader, in_words, one_line
@@ -44,25 +44,14 @@ def load_config(path: Source) -> Config:
     return _config(_document(path), path)
 
 
-def case(
-    *,
-    lattice: Mapping[str, Any] | None = None,
-    material: Mapping[str, Any] | None = None,
-    loading: Mapping[str, Any] | None = None,
-    contact: Mapping[str, Any] | None = None,
-    damping: Mapping[str, Any] | None = None,
-    solver: Mapping[str, Any] | None = None,
-    **keys: Any,
-) -> Case:
+def case(**tables: Unpack[Tables]) -> Case:
     """One case of the keys of a config, which other keys complete; `ConfigError` holds all faults.
 
     case(lattice={"kind": "hex", "width": "50 mm"}, loading={"mode": "displacement"}), or by dotted
     keys: case(**{"lattice.kind": "hex"}). Quantities are text with a unit; `Case.of` takes numbers
     in SI. Without any key it is the default case.
     """
-    given = (lattice, material, loading, contact, damping, solver)
-    tables = {name: values for name, values in zip(TABLES, given, strict=True) if values}
-    document = document_of({**tables, **keys})
+    document = document_of({name: values for name, values in tables.items() if values is not None})
     if other := [name for name in document if name not in TABLES]:
         allowed = f"the tables {', '.join(TABLES)}, or keys such as lattice.kind"
         line = f"{other[0]} = {in_words(document[other[0]])}: of no case; allowed: {allowed}"

@@ -9,7 +9,6 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.faults import MisfitError
 from sweep.config.kinds.cells import Cells
-from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.sliced import Sliced
 from sweep.design.drawing import extent, pitch
 from sweep.design.infill import trait
@@ -86,10 +85,7 @@ def infill_of(case: Case) -> Infill:
         size = unit * (lattice.width, lattice.height) / whole
         period = _period(case, lattice.kind, lattice.orientation, size)
         return Infill(period, 0.0, lattice.name)
-    why = " has no effective material here"
-    if isinstance(lattice, Drawn):
-        why = " is a drawing, of which no period is known that could be repeated without end"
-    raise MisfitError(f"{lattice.name}{why}; allowed: {ALLOWED}")
+    raise MisfitError(f"{lattice.name}{lattice.aperiodic}; allowed: {ALLOWED}")
 
 
 def _period(case: Case, kind: str, orientation: str | None, size: Floats) -> Case:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from sweep.columns import ALONG
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.network import network_of
 from sweep.export.errors import ExportError
 from sweep.numbers import in_unit
 
@@ -74,7 +73,7 @@ def design_of(case: Case) -> Design:
             f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
             'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
-    network = network_of(case.lattice)
+    network = case.lattice.network
     kilograms = mass(network, case.lattice.depth, case.material.density)
     along = case.loading.direction == ALONG
     return Design(case.case_id, case.lattice, network, in_unit(kilograms, "g"), along)

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from sweep.config.case import Case
-from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.striker import Struck
 from sweep.ranking.question import RankError
 from sweep.ranking.requirements import check_modes
@@ -25,12 +24,8 @@ def _has_patch(case: Case) -> bool:
     return flat and not (case.along or lattice.endless or lattice.tied)
 
 
-def _has_target(case: Case) -> bool:
-    return isinstance(case.loading, Impact) and case.loading.target_mass is not None
-
-
 MEASURED: dict[str, tuple[str, Callable[[Case], bool]]] = {
     "max_base_pressure": ("a flat base below walls across it, whose sides are free", _has_patch),
-    "max_target_acceleration": ("loading.target_mass", _has_target),
+    "max_target_acceleration": ("loading.target_mass", lambda case: case.loading.base_moves),
 }
 """Requirements of which some cases have no value: what they need, and whether a case has it."""

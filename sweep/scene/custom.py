@@ -13,7 +13,6 @@ from kernels.linear.condensed import analysis
 from kernels.terms import contact, spring
 from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
-from sweep.config.network import network_of
 from sweep.config.structures.structure import Structure
 from sweep.constants import MM
 from sweep.design.network import Network, mass
@@ -90,7 +89,7 @@ def build_structure(case: Case) -> Scene:
     """Build the arrays of a ``case`` with a custom structure."""
     assert isinstance(case.lattice, CustomStructure)
     structure = case.lattice.structure
-    network = network_of(case.lattice)
+    network = case.lattice.network
     arms = _arms(network, structure, case)
     mesh = split_walls(network, np.array(structure.pieces), 0.0, arms.length)
     none = np.empty(0, np.int64)

@@ -1,7 +1,7 @@
 """The stages of a loading, and the tolerances of the solver."""
 
-from math import ceil, sqrt
-from typing import Literal, NamedTuple, get_args
+from math import ceil, inf, sqrt
+from typing import NamedTuple, get_args
 
 import numpy as np
 
@@ -10,10 +10,9 @@ from kernels.solve.residual import Tolerance
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
-from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.directed import Ramp, Role
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import InTime, Solver, Static
-from sweep.config.kinds.steps import hold_steps
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.terms import Scene, time_step
 
@@ -29,7 +28,6 @@ SCHEMES = {
 }
 
 
-Role = Literal["loading", "hold", "unloading"]  # in the order of a cycle
 ROLES: tuple[Role, ...] = get_args(Role)
 
 
@@ -88,55 +86,38 @@ def _controlled(phase: Phase, solver: Solver) -> march.Stage:
 
 
 def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
-    pace = time_step(case)
-    match case.loading:
-        case OfFile() as loading:
-            return _stages_of_file(loading, case.solver, pace, scene.travel)
-        case Crush() as loading:
-            return _stages_of_crush(loading, case.solver, pace, float(scene.x_rest[-1]))
-        case Impact(duration=duration):
-            rest = float(scene.x_rest[-1])
-            return _flight(_lasting(duration, pace, (1.0, 1.0), (rest, rest)))
-        case DeadLoad() as loading:
-            phases = _stages_of_load(loading, pace, float(scene.x_rest[-1]))
-            if case.solver.integrator != "backward_euler":
-                return phases
-            fall = _time_of_fall(case, scene)
-            return [phase._replace(stage=phase.stage._replace(fall=fall)) for phase in phases]
-
-
-def _stages_of_file(loading: OfFile, solver: Solver, pace: float, travel: float) -> list[Phase]:
-    """Loads and moves that act from the start, or that grow together in statics."""
-    dynamic = not loading.quasi_static
-    start = 1.0 if dynamic else 0.0
-    if isinstance(solver, InTime):
-        return [Phase("loading", _lasting(loading.duration, pace, (start, 1.0), (0.0, travel)))]
-    stage = march.Stage(solver.load_steps, pace, dynamic, start, 1.0, 0.0, travel)
-    return [Phase("loading", stage)]
-
-
-def _stages_of_crush(loading: Crush, solver: Solver, pace: float, rest: float) -> list[Phase]:
-    """Down from ``rest`` (m), a pause, and back up, for each cycle."""
-    low, steps, dynamic = rest - loading.stroke, solver.load_steps or 1, not loading.quasi_static
-    down = march.Stage(steps, pace, dynamic, 0.0, 0.0, rest, low)
-    up = march.Stage(steps, pace, dynamic, 0.0, 0.0, low, rest)
-    cycle, pause = [Phase("loading", down)], hold_steps(loading, solver)
-    if loading.hold_time is not None:
-        still = down._replace(steps=pause, duration=loading.hold_time / pause, driven0=low)
-        cycle.append(Phase("holding", still, "hold"))
-    if loading.unload:
-        cycle.append(Phase("unloading", up, "unloading"))
+    loading, solver, pace = case.loading, case.solver, time_step(case)
+    fall = inf
+    if isinstance(loading, DeadLoad) and solver.integrator == "backward_euler":
+        fall = _time_of_fall(case, scene)
+    start, way = _course(case, scene)
+    cycle = list[Phase]()
+    for ramp in loading.ramps(solver):
+        stage = _stage(ramp, pace, not loading.quasi_static, start, way)._replace(fall=fall)
+        parts = _parts(stage) if ramp.watched else [stage]
+        cycle += [Phase(ramp.name, part, ramp.role) for part in parts]
     return _repeated(cycle, loading.cycles)
 
 
-def _stages_of_load(loading: DeadLoad, pace: float, rest: float) -> list[Phase]:
-    """A load that is on until its release."""
-    still, release = (rest, rest), loading.release_time
-    phases = [Phase("loading", _lasting(release, pace, (1.0, 1.0), still))]
-    if release < loading.duration:
-        released = _lasting(loading.duration - release, pace, (0.0, 0.0), still)
-        phases.append(Phase("released", released, "unloading"))
-    return phases
+def _course(case: Case, scene: Scene | PlateScene) -> tuple[float, float]:
+    """Where what is driven starts, and how far it goes, m."""
+    match case.loading:
+        case OfFile():
+            return 0.0, scene.travel
+        case Crush(stroke=stroke):
+            return float(scene.x_rest[-1]), -stroke
+    return float(scene.x_rest[-1]), 0.0
+
+
+def _stage(ramp: Ramp, pace: float, dynamic: bool, start: float, way: float) -> march.Stage:
+    """The stage of a ramp, in equal steps, at most as long as ``pace`` (s); start, way: m."""
+    steps, duration = ramp.steps, pace
+    if ramp.time is not None:
+        steps = steps or max(ceil(ramp.time / pace - WHOLE), 1)
+        if ramp.steps or abs(steps * pace / ramp.time - 1.0) >= WHOLE:
+            duration = ramp.time / steps
+    driven = (start + share * way for share in ramp.way)
+    return march.Stage(steps or 1, duration, dynamic, *ramp.load, *driven)
 
 
 def _time_of_fall(case: Case, scene: Scene | PlateScene) -> float:
@@ -155,20 +136,10 @@ def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:
     ]
 
 
-def _lasting(
-    time: float, pace: float, factor: tuple[float, float], driven: tuple[float, float]
-) -> march.Stage:
-    """A stage of duration ``time`` (s) in equal steps, at most as long as ``pace`` (s)."""
-    steps = max(ceil(time / pace - WHOLE), 1)
-    duration = pace if abs(steps * pace / time - 1.0) < WHOLE else time / steps
-    return march.Stage(steps, duration, True, *factor, *driven)
-
-
-def _flight(flight: march.Stage) -> list[Phase]:
-    """The motion of a striker, cut into stages after which the run may end."""
-    starts = range(0, flight.steps, IMPACT_STEPS)
-    parts = [min(IMPACT_STEPS, flight.steps - done) for done in starts]
-    return [Phase("struck", flight._replace(steps=n)) for n in parts]
+def _parts(stage: march.Stage) -> list[march.Stage]:
+    """A stage, cut into stages after which the run may end."""
+    starts = range(0, stage.steps, IMPACT_STEPS)
+    return [stage._replace(steps=min(IMPACT_STEPS, stage.steps - done)) for done in starts]
 
 
 def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tolerance:

@@ -18,8 +18,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.solver import Arcs, InTime
-from sweep.config.kinds.steps import MAX_STEPS, TIME_STEP
+from sweep.config.kinds.solver import MAX_STEPS, TIME_STEP, Arcs, InTime
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status

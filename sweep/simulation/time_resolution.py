@@ -26,7 +26,6 @@ from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime
-from sweep.config.kinds.steps import impact_step
 from sweep.scene.mesh import Floats
 from sweep.simulation.striker import closing_speed, kinetic
 
@@ -71,4 +70,5 @@ def resolving_step(case: Case) -> float:
     loading, solver = case.loading, case.solver
     assert isinstance(loading, Impact)
     assert isinstance(solver, InTime)
-    return min(impact_step(loading, case.extent), 0.25 * solver.time_step)
+    usual = loading.contact_step(case.pressed, case.material.modulus)
+    return min(usual, 0.25 * solver.time_step)

@@ -89,13 +89,12 @@ def test_grid_key_has_the_unit_of_its_parameter():
 @pytest.mark.parametrize(
     ("column", "key"),
     [
-        ("loading_mode", "loading.mode"),
         ("platen", "loading.platen"),
         ("contact_model", "contact.model"),
     ],
 )
 def test_choices_are_those_that_a_config_has(column, key):
-    choices = [word for word in get_args(CHOICES[key]) if word not in ("auto", "drop")]  # not kept
+    choices = [word for word in get_args(CHOICES[key]) if word != "auto"]  # not kept
     said = COLUMNS[column].description.split(": ")[-1]
     assert said == f"{', '.join(choices[:-1])} or {choices[-1]}"
 

@@ -1,19 +1,17 @@
 """The table of modes: complete, and its words of columns and requirements are those in use."""
 
-from typing import get_args
-
 import pytest
 from pandas import DataFrame
 
 from sweep.columns import COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case
-from sweep.config.kinds.loading import Loading, mode_word
+from sweep.config.kinds.loading import KINDS as LOADINGS
 from sweep.modes import MODES, asked_of, compared, greatest_share, has, mode_of
 from sweep.numbers import FACTORS
 from sweep.ranking.requirement_table import MEASURES
 from sweep.result import LOADED
 
-KINDS = {mode_word(kind): kind for kind in get_args(get_args(Loading)[0])}
+KINDS = {kind.words[0]: kind for kind in LOADINGS}
 ROWS = DataFrame({"loading_mode": ["displacement", "impact", "force", "custom"]})
 
 

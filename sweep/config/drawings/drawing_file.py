@@ -14,6 +14,7 @@ from sweep.config.drawings import dxf, svg, tables
 from sweep.config.drawings.curves import MOST_LINES
 from sweep.config.drawings.lines import Lines
 from sweep.config.faults import MisfitError
+from sweep.config.structures.structure import pieces_of
 from sweep.config.structures.structure_file import StructureError
 from sweep.design.meeting import Meeting, MeetingError, met
 from sweep.numbers import in_unit, text_in
@@ -75,12 +76,9 @@ def _read(path: Path, _: int) -> Read:
 
 def _check_piece(network: Meeting, lines: Lines) -> None:
     """Refuse walls that are not connected with the others."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    walls, joints = network.walls, network.joints
-    graph = coo_array((np.ones(len(walls)), walls.T), shape=(len(joints),) * 2)
-    count, piece = connected_components(graph, directed=False)
+    joints = network.joints
+    piece = np.array(pieces_of(len(joints), network.walls))
+    count = piece.max() + 1
     if count > 1:
         sizes = np.bincount(piece)
         x, y = joints[np.argmax(piece == np.argmin(sizes))]

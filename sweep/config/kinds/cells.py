@@ -1,14 +1,13 @@
 """A lattice of cells of one family, drawn in a box."""
 
-from typing import Annotated, Any, ClassVar, Literal
-
-from pydantic import AfterValidator, Field
-from pydantic_core import PydanticCustomError
+from typing import Any, ClassVar, Literal, Self
 
 from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import (
+    ENDLESS,
     LAYER_HEIGHT,
     MAX_NODES,
+    TIED,
     Laid,
     Lines,
     check_proportion,
@@ -18,23 +17,6 @@ from sweep.config.kinds.specimen import (
 from sweep.config.kinds.table import Few, Given, Length, Mass, Positive, RefusedError, Share, chosen
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
-
-CUSTOM, DRAWN = "custom", "drawn"  # the walls of a file, with its own loads or between platens
-ENDLESS = 'if lattice.boundary is "periodic"'
-TIED = 'if lattice.sides is "periodic"'
-
-
-KINDS = (*families(), CUSTOM, DRAWN)
-
-
-def _known(kind: str) -> str:
-    if kind not in KINDS:
-        names = ", ".join(KINDS)
-        raise PydanticCustomError("literal_error", "{names}", {"names": names})
-    return kind
-
-
-Kind = Annotated[str, AfterValidator(_known), Field(json_schema_extra={"enum": list[Any](KINDS)})]
 
 
 class Cells(Laid):
@@ -51,8 +33,18 @@ class Cells(Laid):
 
     because: ClassVar[str] = "lattice.slicer is not given"
     labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "cell_size")
+    needs: ClassVar[dict[str, str]] = {
+        "line_width": "there are neither lattice.perimeters nor a lattice.infill",
+        "layer_height": "lattice.solid_layers is 0",
+    }
+    words: ClassVar[tuple[str, ...]] = families()
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {
+        "mass": ("wall_thickness",),
+        "infill": ("wall_thickness", "cells_x", "cells_y"),
+        "cell_size": ("cells_x", "cells_y"),
+    }
 
-    kind: Kind = "square"
+    kind: str = "square"
     orientation: Literal["pointy", "flat"] | None = None
     boundary: Literal["free", "periodic"] = "free"
     sides: Literal["free", "periodic"] = "free"
@@ -66,6 +58,36 @@ class Cells(Laid):
     line_width: Length | None = None
     solid_layers: Lines = 0
     layer_height: Length | None = None
+
+    @classmethod
+    def means(cls, given: Given) -> bool:
+        """Whether values mean this kind of lattice: if they mean no other."""
+        return True
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The cells of these values. along: periodic sides are those of both directions."""
+        usual = {"nodes_per_wall": nodes_of(given.get("kind", "square"))}
+        made = cls.model_validate(usual | chosen(given, cls))
+        check_proportion(made)
+        if along and made.tied:
+            made = made.model_copy(update={"layers": made.layers or 1})
+        made = made.model_copy(update=_lines(made))
+        if made.cell_size is not None:
+            made = made.model_copy(update=_divided(made, made.cell_size, given))
+        if made.endless or made.tied:
+            _check_period(made)
+        if made.infill is not None:
+            made = made.model_copy(update=_filled(made, made.infill, given))
+        check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
+        if made.mass is None or "wall_thickness" in given:
+            _check_openings(made)
+        if made.mass is None:
+            return made
+        thickness = thickness_of(made, made.mass, given, density)
+        made = made.model_copy(update={"wall_thickness": thickness})
+        _check_openings(made)
+        return made
 
     @property
     def name(self) -> str:
@@ -100,6 +122,20 @@ class Cells(Laid):
     def line(self) -> float:
         """Width of a line, m."""
         return self.line_width or self.nozzle
+
+    @property
+    def line_printed(self) -> float:
+        """Width of a line, m."""
+        return self.line
+
+    @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """Thicknesses of all rows of walls, m."""
+        if self.grading == 1.0:
+            return super().walls_printed
+        from sweep.design.box import gradient
+
+        return tuple((self.wall_thickness * gradient(self.geometry)).tolist())
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -139,34 +175,6 @@ class Cells(Laid):
         return super().thickest / float(gradient(self.geometry).max())
 
 
-def cells(given: Given, density: float, along: bool) -> Cells:
-    """The cells of these values; density (kg/m^3): of the material. along: whether they are pressed
-    along themselves, so that periodic sides are those of both directions.
-    """
-    made = Cells.model_validate(
-        {"nodes_per_wall": nodes_of(given.get("kind", "square"))} | chosen(given, Cells)
-    )
-    check_proportion(made)
-    if along and made.tied:
-        made = made.model_copy(update={"layers": made.layers or 1})
-    made = made.model_copy(update=_lines(made))
-    if made.cell_size is not None:
-        made = _divided(made, made.cell_size, given)
-    if made.endless or made.tied:
-        _check_period(made)
-    if made.infill is not None:
-        made = _filled(made, made.infill, given)
-    check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
-    if made.mass is None or "wall_thickness" in given:
-        check_openings(made)
-    if made.mass is None:
-        return made
-    thickness = thickness_of(made, made.mass, given, density)
-    sized = made.model_copy(update={"wall_thickness": thickness})
-    check_openings(sized)
-    return sized
-
-
 def _lines(made: Cells) -> dict[str, Any]:
     """The keys that only an outline, a share of infill or some families use."""
     lines = made.perimeters > 0 or made.infill is not None
@@ -178,8 +186,8 @@ def _lines(made: Cells) -> dict[str, Any]:
     }
 
 
-def _filled(made: Cells, share: float, given: Given) -> Cells:
-    """The lattice with the cells and the wall thickness of a share of infill."""
+def _filled(made: Cells, share: float, given: Given) -> dict[str, Any]:
+    """The numbers of cells and the wall thickness of a share of infill."""
     if made.mass is not None:
         raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
     from sweep.design.sizing import cells_for
@@ -193,11 +201,11 @@ def _filled(made: Cells, share: float, given: Given) -> Cells:
         lines = f"lines of {width:g} m in this box"
         allowed = f"a share that 1 to {MAX_NODES:,} cells fill with {lines}"
         raise RefusedError("lattice.infill", share, allowed)
-    return thin.model_copy(update=_following(count, reason, given))
+    return {"wall_thickness": width} | _following(count, reason, given)
 
 
-def _divided(made: Cells, size: float, given: Given) -> Cells:
-    """The lattice with the numbers of cells whose cells come nearest to a size."""
+def _divided(made: Cells, size: float, given: Given) -> dict[str, int]:
+    """The numbers of cells that come nearest to a size."""
     if made.infill is not None:
         raise RefusedError("lattice.cell_size", size, "none where lattice.infill is given")
     from sweep.design.sizing import cell_of, cells_of_size
@@ -211,7 +219,7 @@ def _divided(made: Cells, size: float, given: Given) -> Cells:
         )
         raise RefusedError("lattice.cell_size", size, allowed)
     reason = f"as lattice.cell_size is {size:g} m; give one of them"
-    return made.model_copy(update=_following(count, reason, given))
+    return _following(count, reason, given)
 
 
 def _following(count: tuple[int, int], reason: str, given: Given) -> dict[str, int]:
@@ -228,7 +236,7 @@ def _check_follows(key: str, value: object, allowed: str, given: Given) -> None:
         raise RefusedError(f"lattice.{key}", given[key], allowed)
 
 
-def check_openings(made: Cells) -> None:
+def _check_openings(made: Cells) -> None:
     """Refuse walls as thick as the openings between them, and an outline that fills cells."""
     limit, thickness = made.thickest, made.wall_thickness
     if thickness >= limit * (1.0 - 1e-12):

@@ -2,11 +2,10 @@
 
 from typing import ClassVar, Literal
 
-from sweep.config.kinds.cells import TIED
-from sweep.config.kinds.crush import Crush
-from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.loading import Loading, Pressed
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import ARCS
+from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.table import (
     Given,
     NonNegative,
@@ -83,15 +82,8 @@ def contact(values: Given | Pairs, loading: Loading, pressed: Pressed, integrato
         return Barrier.model_validate(acts | {"friction": 0.0, "slip_speed": None})
     if loading.quasi_static or not acts.get("friction", 0.3):
         return Barrier.model_validate(acts | {"slip_speed": None})
-    return Barrier.model_validate({"slip_speed": SLIP * _reference_speed(loading)} | acts)
-
-
-def _reference_speed(loading: Loading) -> float:
-    """The speed of what presses, m/s."""
-    match loading:
-        case Crush(speed=float() as speed) | Impact(striker_speed=speed):
-            return speed
-    return REFERENCE_SPEED
+    slip_speed = SLIP * (loading.approach or REFERENCE_SPEED)
+    return Barrier.model_validate({"slip_speed": slip_speed} | acts)
 
 
 def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosition:
@@ -101,7 +93,7 @@ def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosit
         raise RefusedError(key, model, f'"barrier" or "none" {pressed.where}')
     if loading.quasi_static:
         raise RefusedError(key, model, f"{allowed}loading.quasi_static")
-    if isinstance(loading, Impact) and loading.target_mass is not None:
+    if loading.base_moves:
         raise RefusedError(key, model, f"{allowed}loading.target_mass is given")
     if loading.platen == "contact":
         raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')

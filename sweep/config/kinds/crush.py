@@ -1,12 +1,16 @@
 """A crush: a platen moves down by `stroke`, rests for `hold_time`, and moves back up."""
 
-from math import isclose
+from math import ceil, inf, isclose
 from typing import Any, ClassVar, Literal
 
+from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import is_along
-from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.pressed import Pressed
+from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, Solver
+from sweep.config.kinds.specimen import ENDLESS
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
+    STEADY,
     Cycles,
     Duration,
     Forces,
@@ -34,6 +38,10 @@ class Crush(Struck):
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
     neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1}
+    needs: ClassVar[dict[str, str]] = Struck.needs | {"strain_rate": STEADY, "hold_time": STEADY}
+    words: ClassVar[tuple[str, ...]] = ("displacement",)
+    driven: ClassVar[bool] = True
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {"strain": ("stroke",), "strain_rate": ("speed",)}
 
     mode: Literal["displacement"] = "displacement"
     stroke: Length
@@ -47,40 +55,71 @@ class Crush(Struck):
     platen: Literal["none", "contact", "glued", "sliding", "clamped"] = "glued"
     allowed_forces: Forces = ()
 
+    @classmethod
+    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> "Crush":
+        """The crush of these values; of an endless lattice under a mean strain."""
+        if pressed.endless:
+            return _mean_crush(given, pressed, integrator, relaxes)
+        if given.get("platen") == "none":
+            allowed = f'{PLATENS} if loading.mode is "displacement"'
+            raise RefusedError("loading.platen", "none", allowed)
+        speed = _speed(given, pressed.height)
+        quasi_static = _is_quasi_static(given, speed, integrator)
+        stroke, strain = _stroke_and_strain(given, pressed.height)
+        if given.get("cycles", 1) > 1 and not given.get("unload", True):
+            raise RefusedError("loading.cycles", given["cycles"], "1 if loading.unload is false")
+        motion = {"stroke": stroke, "strain": strain, "speed": speed, "quasi_static": quasi_static}
+        if quasi_static:
+            motion |= _pace(given, speed, pressed.height, relaxes)
+        return cls.model_validate(chosen(given, cls) | motion)
+
+    def ramps(self, solver: Solver) -> list[Ramp]:
+        """Down, a pause, and back up; the pause takes as many steps as a motion of its time."""
+        steps = solver.load_steps or 0
+        ramps = [Ramp("loading", way=(0.0, 1.0), steps=steps)]
+        if self.hold_time is not None:
+            still = steps
+            if isinstance(solver, InTime):
+                still = steps_in(self.hold_time, solver.time_step)
+            ramps.append(Ramp("holding", "hold", way=(1.0, 1.0), time=self.hold_time, steps=still))
+        if self.unload:
+            ramps.append(Ramp("unloading", "unloading", way=(1.0, 0.0), steps=steps))
+        return ramps
+
+    def loaded_for(self, height: float) -> float:
+        """The time of a stroke down and back up, with the pause between, s."""
+        return 2.0 * self.stroke / (self.speed or inf) + (self.hold_time or 0.0)
+
+    @property
+    def approach(self) -> float | None:
+        """Speed with which walls are pressed, m/s; None if the crush takes no time."""
+        return self.speed
+
     @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""
         return {"stroke_m": self.stroke}
 
 
-def crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
-    """The crush of these values; height (m): of the lattice, in the direction of the crush."""
-    if given.get("platen") == "none":
-        raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "displacement"')
-    speed = _speed(given, height)
-    quasi_static = _is_quasi_static(given, speed, integrator)
-    stroke, strain = _stroke_and_strain(given, height)
-    if given.get("cycles", 1) > 1 and not given.get("unload", True):
-        raise RefusedError("loading.cycles", given["cycles"], "1 if loading.unload is false")
-    motion = {"stroke": stroke, "strain": strain, "speed": speed, "quasi_static": quasi_static}
-    if quasi_static:
-        motion |= _pace(given, speed, height, relaxes)
-    return Crush.model_validate(chosen(given, Crush) | motion)
+def steps_in(time: float, time_step: float | None) -> int:
+    """Number of steps of at most ``time_step`` (s) in ``time`` (s); 200 if no step is given."""
+    if time_step is None:
+        return LOAD_STEPS
+    return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
 
 
-def mean_crush(given: Given, height: float, integrator: str | None, relaxes: bool) -> Crush:
+def _mean_crush(given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Crush:
     """The crush of an endless lattice: a prescribed mean strain, quasi-static, without platens.
 
     The inertia of a mean motion depends on the point of reference, so that motion is refused.
     """
-    endless = 'if lattice.boundary is "periodic"'
     if given.get("platen", "none") != "none":
-        raise RefusedError("loading.platen", given["platen"], f'"none" {endless}')
+        raise RefusedError("loading.platen", given["platen"], f'"none" {ENDLESS}')
     others = {key: value for key, value in given.items() if key != "platen"}
-    pressed = crush(others, height, integrator, relaxes)
-    if not pressed.quasi_static:
-        raise RefusedError("loading.quasi_static", False, f"true {endless}", "loading.speed")
-    return pressed.model_copy(update={"platen": "none"})
+    made = Crush.of(others, pressed._replace(endless=False), integrator, relaxes)
+    if not made.quasi_static:
+        raise RefusedError("loading.quasi_static", False, f"true {ENDLESS}", "loading.speed")
+    return made.model_copy(update={"platen": "none"})
 
 
 def _speed(given: Given, height: float) -> float | None:

@@ -1,14 +1,28 @@
 """A custom structure: nodes and walls of a file."""
 
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Self
 
-from sweep.config.kinds.cells import CUSTOM
+from pydantic import AfterValidator
+from pydantic_core import PydanticCustomError
+
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import Given, NonNegative, RefusedError, chosen
+from sweep.config.kinds.table import COMPUTED, Given, NonNegative, RefusedError, chosen
 from sweep.config.structures.structure import Structure
 from sweep.config.structures.structure_file import faults, read_structure
 from sweep.constants import MM, TO_MM
+
+if TYPE_CHECKING:
+    from sweep.design.network import Network
+
+CUSTOM: Final = "custom"
+
+
+def _sound(structure: Structure) -> Structure:
+    """A structure without a fault."""
+    for line in faults(structure):
+        raise PydanticCustomError("structure", "{line}", {"line": line})
+    return structure
 
 
 class CustomStructure(Specimen):
@@ -25,6 +39,9 @@ class CustomStructure(Specimen):
         "nodes_per_wall": 0.0,
     }
     derived: ClassVar[tuple[str, ...]] = ("width", "height", "depth", "wall_thickness")
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {"file": ("structure",)}
+    words: ClassVar[tuple[str, ...]] = (CUSTOM,)
+    across: ClassVar[dict[str, Any]] = Specimen.across | {"imperfection": 0.0}
     kind: ClassVar[str] = CUSTOM
     name: ClassVar[str] = CUSTOM
     cells_x: ClassVar[int] = 1
@@ -33,7 +50,75 @@ class CustomStructure(Specimen):
     width: NonNegative
     height: NonNegative
     file: str | None = None
-    structure: Structure
+    structure: Annotated[Structure, AfterValidator(_sound), COMPUTED]
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The structure of these values."""
+        if "structure" not in given and "file" not in given:
+            allowed = "the path of a .json file, as the kind is custom"
+            raise RefusedError("lattice.file", None, allowed)
+        structure = given.get("structure") or read_structure(Path(given["file"]))
+        if (thickness := given.get("wall_thickness")) is not None:
+            structure = _scaled(structure, thickness)
+        width, height = structure.size_mm
+        each = structure.thickness_mm
+        measured = {
+            "file": Path(given["file"]).name if given.get("file") else None,
+            "structure": structure,
+            "width": MM * width,
+            "height": MM * height,
+            "depth": MM * structure.depth_mm,
+            "wall_thickness": MM * sum(each) / len(each),
+        }
+        return cls.model_validate(chosen(given, cls) | measured)
+
+    @classmethod
+    def check_file(cls, path: Path) -> list[str]:
+        """Refuse a file that is no structure."""
+        read_structure(path)
+        return []
+
+    @property
+    def loaded(self) -> Structure:
+        """The structure."""
+        return self.structure
+
+    @property
+    def network(self) -> "Network":
+        """Centre lines and thickness of the walls, m; there are no bottom and top rows."""
+        import numpy as np
+
+        from sweep.design.network import Network
+
+        points, none = MM * np.array(self.structure.nodes_mm), np.empty(0, np.int64)
+        thickness = MM * np.array(self.structure.thickness_mm)
+        return Network(points, np.array(self.structure.walls), thickness, none, none)
+
+    @property
+    def counted_volume(self) -> float:
+        """Volume of the walls as budgets count it, m^3."""
+        return self.depth * self.network.printed_area
+
+    @property
+    def pieces(self) -> tuple[int, ...]:
+        """Number of elements of each wall."""
+        return self.structure.pieces
+
+    def remeshed(self, pieces: tuple[int, ...]) -> dict[str, Any]:
+        """What changes with other numbers of `pieces`."""
+        return {"structure": self.structure.model_copy(update={"subdivide": pieces})}
+
+    def check_standing(self, where: str) -> None:
+        """Refuse what stands beside walls; where: why they stand, in words."""
+        if unfit := self.structure.beside_walls:
+            allowed = f"a file without {', '.join(unfit)} {where}: its walls stand on platens"
+            raise RefusedError("lattice.file", self.file, allowed)
+
+    @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """Thicknesses of all walls, m."""
+        return tuple(MM * thickness for thickness in self.structure.thickness_mm)
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: `kind` is "custom"."""
@@ -43,28 +128,6 @@ class CustomStructure(Specimen):
     def elements(self) -> int:
         """Number of elements of all walls."""
         return sum(self.structure.pieces)
-
-
-def custom_structure(given: Given) -> CustomStructure:
-    """The structure of these values."""
-    if "structure" not in given and "file" not in given:
-        allowed = "the path of a .json file, as the kind is custom"
-        raise RefusedError("lattice.file", None, allowed)
-    file = given.get("file")
-    structure = given["structure"] if "structure" in given else read_structure(Path(given["file"]))
-    if (thickness := given.get("wall_thickness")) is not None:
-        structure = _scaled(structure, thickness)
-    width, height = structure.size_mm
-    each = structure.thickness_mm
-    measured = {
-        "file": Path(file).name if file else None,
-        "structure": structure,
-        "width": MM * width,
-        "height": MM * height,
-        "depth": MM * structure.depth_mm,
-        "wall_thickness": MM * sum(each) / len(each),
-    }
-    return CustomStructure.model_validate(chosen(given, CustomStructure) | measured)
 
 
 def _scaled(structure: Structure, thickness: float) -> Structure:

@@ -2,8 +2,8 @@
 
 from typing import Any, ClassVar, Literal
 
-from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.loading import Loading, Pressed
+from sweep.config.kinds.loading import Loading
+from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.table import Given, Lag, Pairs, Rate, RefusedError, Table, chosen
 
 
@@ -55,7 +55,7 @@ def _usual(given: Given, loading: Loading) -> dict[str, Any]:
 
     It would hold the lattice back in space, and take momentum from striker and base.
     """
-    if not isinstance(loading, Impact) or loading.target_mass is None:
+    if not loading.base_moves:
         return chosen(given, Rayleigh)
     if given.get("mass"):
         raise RefusedError("damping.mass", given["mass"], "0 if loading.target_mass is given")

@@ -1,9 +1,11 @@
 """A dead load: applied at once, removed at `release_time`; the run ends at `duration`."""
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
+from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS
-from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.pressed import Pressed
+from sweep.config.kinds.solver import IN_TIME, Solver
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import Duration, Force, Forces, Given, RefusedError, chosen
 
@@ -12,6 +14,7 @@ class DeadLoad(Struck):
     """A dead load on the top nodes, in equal parts (platen "none"), or on a rigid plate."""
 
     because: ClassVar[str] = 'loading.mode is "force"'
+    words: ClassVar[tuple[str, ...]] = ("force",)
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 
@@ -23,19 +26,30 @@ class DeadLoad(Struck):
     platen: Literal["none", "contact", "glued", "sliding"] = "none"
     allowed_forces: Forces = ()
 
+    @classmethod
+    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+        """The dead load of these values."""
+        if integrator == "static":
+            allowed = f'{IN_TIME} if loading.mode is "force"'
+            raise RefusedError("solver.integrator", "static", allowed)
+        duration = given.get("duration", 0.2)
+        release_time = given.get("release_time", min(0.138, duration))
+        if release_time > duration:
+            allowed = f"up to the duration, {duration:g} s"
+            raise RefusedError("loading.release_time", release_time, allowed)
+        return cls.model_validate(chosen(given, cls) | {"release_time": release_time})
+
+    def ramps(self, solver: Solver) -> list[Ramp]:
+        """The load until its release, and the time after it."""
+        loaded = Ramp("loading", load=(1.0, 1.0), time=self.release_time)
+        after = self.duration - self.release_time
+        return [loaded, Ramp("released", "unloading", time=after)] if after > 0.0 else [loaded]
+
+    def loaded_for(self, height: float) -> float:
+        """The duration, s."""
+        return self.duration
+
     @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""
         return {"force_N": self.force}
-
-
-def dead_load(given: Given, integrator: str | None) -> DeadLoad:
-    """The dead load of these values."""
-    if integrator == "static":
-        raise RefusedError("solver.integrator", "static", f'{IN_TIME} if loading.mode is "force"')
-    duration = given.get("duration", 0.2)
-    release_time = given.get("release_time", min(0.138, duration))
-    if release_time > duration:
-        allowed = f"up to the duration, {duration:g} s"
-        raise RefusedError("loading.release_time", release_time, allowed)
-    return DeadLoad.model_validate(chosen(given, DeadLoad) | {"release_time": release_time})

@@ -3,20 +3,17 @@
 from functools import lru_cache
 from math import inf, isclose, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Final, Self
 
 from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
-from sweep.config.kinds.cells import DRAWN
 from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import Laid, check_proportion, check_size, thickness_of
-from sweep.config.kinds.table import Given, Length, Mass, RefusedError, chosen
+from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
 from sweep.design.geometry import Drawing, Geometry
 
-if TYPE_CHECKING:
-    from sweep.design.network import Network
-
+DRAWN: Final = "drawn"
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
 
 SIZED = 1e-6  # relative error of a size of the drawing that a config states
@@ -45,12 +42,53 @@ class Drawn(Laid):
     labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "file_unit")
     constants: ClassVar[dict[str, Any]] = {"kind": DRAWN}
     derived: ClassVar[tuple[str, ...]] = ("width", "height")
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {"mass": ("wall_thickness",)}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {
+        "file": ("drawing",),
+        "file_unit": ("drawing",),
+    }
+    words: ClassVar[tuple[str, ...]] = (DRAWN,)
+    aperiodic: ClassVar[str] = (
+        " is a drawing, of which no period is known that could be repeated without end"
+    )
     kind: ClassVar[str] = DRAWN
 
     file: str | None = None
     file_unit: Length | None = None
-    drawing: Annotated[Drawing, AfterValidator(_sound)]
+    drawing: Annotated[Drawing, AfterValidator(_sound), COMPUTED]
     mass: Mass | None = None
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The drawing of these values."""
+        if "drawing" not in given and "file" not in given:
+            allowed = "the path of a drawing, as the kind is drawn"
+            raise RefusedError("lattice.file", None, allowed)
+        usual: dict[str, Any] = {"nodes_per_wall": nodes_of(DRAWN)}
+        values = {key: v for key, v in chosen(given, cls).items() if key not in cls.derived}
+        if "drawing" not in given:
+            usual |= _of_file(given)
+            values["file"] = Path(given["file"]).name
+        made = cls.model_validate(usual | values)
+        width, height = (max(at[axis] for at in made.drawing.joints) for axis in (0, 1))
+        made = cls.model_validate(dict(made) | {"width": width, "height": height})
+        _check_sides(made, given)
+        check_proportion(made)
+        check_size(made, ("nodes_per_wall",))
+        if made.mass is not None:
+            thickness = thickness_of(made, made.mass, given, density)
+            return made.model_copy(update={"wall_thickness": thickness})
+        if made.wall_thickness >= made.thickest:
+            allowed = f"below half the width of the widest cell, {made.thickest:.4g} m here"
+            raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
+        return made
+
+    @classmethod
+    def check_file(cls, path: Path) -> list[str]:
+        """Refuse a file that is no drawing; else what a reader leaves out of it."""
+        from sweep.config.drawings.drawing_file import read_drawing
+
+        return list(read_drawing(path).lines.notes)
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows."""
@@ -68,13 +106,6 @@ class Drawn(Laid):
         return Geometry(DRAWN, None, (1, 1), box, self.wall_thickness, drawing=self.drawing)
 
     @property
-    def network(self) -> "Network":
-        """Its walls."""
-        from sweep.design.lattice import build_network
-
-        return build_network(self.geometry)
-
-    @property
     def counts(self) -> tuple[int, int]:
         """Numbers of joints and of walls between joints."""
         return len(self.drawing.joints), len(self.drawing.walls)
@@ -82,7 +113,17 @@ class Drawn(Laid):
     @property
     def elements(self) -> int:
         """Number of elements of all walls."""
-        return int(self.network.pieces(self.nodes_per_wall + 1).sum())
+        return int(self.wall_quads.sum())
+
+    @property
+    def wall_quads(self) -> Any:
+        """Number of elements along each wall, and of quads where it stands (w,)."""
+        return self.network.pieces(self.nodes_per_wall + 1)
+
+    @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """Thicknesses of all walls, m."""
+        return tuple(sorted(set(self.network.wall_thickness.tolist())))
 
     @property
     def cells_x(self) -> int:
@@ -110,33 +151,13 @@ class Drawn(Laid):
         return 0.5 * min(_openings(self.drawing)[1], self.width, self.height)
 
 
-def drawn(given: Given, density: float) -> Drawn:
-    """The drawing of these values; density (kg/m^3): of the material."""
-    if "drawing" not in given and "file" not in given:
-        allowed = "the path of a drawing, as the kind is drawn"
-        raise RefusedError("lattice.file", None, allowed)
-    usual: dict[str, Any] = {"nodes_per_wall": nodes_of(DRAWN)}
-    values = {key: v for key, v in chosen(given, Drawn).items() if key not in Drawn.derived}
-    if "drawing" not in given:
-        usual |= _of_file(given)
-        values["file"] = Path(given["file"]).name
-    made = Drawn.model_validate(usual | values)
-    width, height = (max(at[axis] for at in made.drawing.joints) for axis in (0, 1))
-    made = Drawn.model_validate(dict(made) | {"width": width, "height": height})
+def _check_sides(made: Drawn, given: Given) -> None:
+    """Refuse a size that is not that of the drawing."""
     for key in Drawn.derived:
         size = getattr(made, key)
         if not isclose(given.get(key, size), size, rel_tol=SIZED):
             allowed = f"{size:.6g} m, that of the drawing; lattice.file_unit changes it"
             raise RefusedError(f"lattice.{key}", given[key], allowed)
-    check_proportion(made)
-    check_size(made, ("nodes_per_wall",))
-    if made.mass is not None:
-        thickness = thickness_of(made, made.mass, given, density)
-        return made.model_copy(update={"wall_thickness": thickness})
-    if made.wall_thickness >= made.thickest:
-        allowed = f"below half the width of the widest cell, {made.thickest:.4g} m here"
-        raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
-    return made
 
 
 @lru_cache(maxsize=256)

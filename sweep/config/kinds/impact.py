@@ -1,12 +1,14 @@
 """An impact: a striker hits the lattice; the run ends when it is back, or at `duration`."""
 
-from math import isclose, nan, sqrt
-from typing import Any, ClassVar, Final, Literal
+from math import isclose, nan, pi, sqrt
+from typing import Any, ClassVar, Final, Literal, Self
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
 from sweep.config.kinds.crush import PLATENS
+from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS, is_along
-from sweep.config.kinds.solver import IN_TIME
+from sweep.config.kinds.pressed import Pressed
+from sweep.config.kinds.solver import IN_TIME, MAX_STEPS, Solver
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     Count,
@@ -24,6 +26,8 @@ from sweep.config.kinds.table import (
 from sweep.constants import STANDARD_GRAVITY
 
 DROP: Final = "drop"  # `mode` of an impact with gravity
+STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
+STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
@@ -41,6 +45,17 @@ class Impact(Struck):
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
     neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"filter_class": 1000, "gravity": False}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {
+        "striker_mass": ("energy", "preset", "specimens"),
+        "striker_speed": ("energy", "drop_height", "preset", "specimens"),
+        "energy": ("striker_speed", "drop_height", "preset", "specimens"),
+        "drop_height": ("striker_speed", "energy", "preset", "specimens", "gravity"),
+        "preset": ("striker_mass", "striker_speed", "energy", "drop_height", "gravity"),
+        "specimens": ("striker_mass", "energy"),
+        "target_mass": ("gravity",),
+    }
+    words: ClassVar[tuple[str, ...]] = ("impact", DROP)
+    usual_integrator: ClassVar[str] = "bdf2"
     quasi_static: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
 
@@ -57,6 +72,57 @@ class Impact(Struck):
     duration: Duration
     platen: Literal["contact", "glued", "sliding", "clamped"] = "glued"
     allowed_forces: Forces = ()
+
+    @classmethod
+    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+        """The impact of these values."""
+        only = 'if loading.mode is "impact"'
+        if integrator == "static":
+            raise RefusedError("solver.integrator", "static", f"{IN_TIME} {only}")
+        if given.get("platen") == "none":
+            raise RefusedError("loading.platen", "none", f"{PLATENS} {only}")
+        if "target_mass" in given:
+            _check_target(given)
+        mass, drop_height = _dropped(given)
+        speed, energy, fall = _at_touch(given, mass, drop_height)
+        motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy}
+        fixed = {"drop_height": fall, "mode": "impact"}
+        falls = is_drop(given) and "target_mass" not in given
+        usual = {"duration": PASSAGES * pressed.height / speed, "gravity": falls}
+        return cls.model_validate(usual | chosen(given, cls) | motion | fixed)
+
+    def ramps(self, solver: Solver) -> list[Ramp]:
+        """The motion of the striker, which may end before its duration."""
+        return [Ramp("struck", load=(1.0, 1.0), time=self.duration, watched=True)]
+
+    def loaded_for(self, height: float) -> float:
+        """The time of a striker's passage, and back, s."""
+        return 2.0 * height / self.striker_speed
+
+    def usual_step(self, pressed: Pressed, modulus: float) -> float:
+        """Time step (s) of a motion, if none is given, of no more than `MAX_STEPS`."""
+        return max(self.contact_step(pressed, modulus), self.duration / MAX_STEPS)
+
+    def contact_step(self, pressed: Pressed, modulus: float) -> float:
+        """A share of the contact, s; modulus: of the material, Pa.
+
+        A fast striker is stopped within the height of the lattice, in which its weight speeds it
+        up. A slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever
+        its speed, with the reduced mass m; for a solid block, this time is a lower bound.
+        """
+        passage = pressed.height / self.greatest_speed(pressed.height) / STEPS_OF_PASSAGE
+        contact = pi * sqrt(self.reduced_mass * pressed.compliance(modulus)) / STEPS_OF_CONTACT
+        return min(passage, contact)
+
+    @property
+    def approach(self) -> float:
+        """Speed with which walls are pressed, m/s."""
+        return self.striker_speed
+
+    @property
+    def base_moves(self) -> bool:
+        """Whether the base is a body that moves freely."""
+        return self.target_mass is not None
 
     @property
     def weight(self) -> float:
@@ -92,22 +158,6 @@ class Impact(Struck):
             "gravity": float(self.gravity),
             "target_mass_g": 1e3 * given_or(self.target_mass, nan),
         }
-
-
-def impact(given: Given, height: float, integrator: str | None) -> Impact:
-    """The impact of these values; height (m): of the lattice, in the direction of the impact."""
-    if integrator == "static":
-        raise RefusedError("solver.integrator", "static", f'{IN_TIME} if loading.mode is "impact"')
-    if given.get("platen") == "none":
-        raise RefusedError("loading.platen", "none", f'{PLATENS} if loading.mode is "impact"')
-    if "target_mass" in given:
-        _check_target(given)
-    mass, drop_height = _dropped(given)
-    speed, energy, fall = _at_touch(given, mass, drop_height)
-    motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy, "drop_height": fall}
-    falls = is_drop(given) and "target_mass" not in given
-    usual = {"duration": PASSAGES * height / speed, "gravity": falls}
-    return Impact.model_validate(usual | chosen(given, Impact) | motion | {"mode": "impact"})
 
 
 def is_drop(given: Given) -> bool:

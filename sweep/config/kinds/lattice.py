@@ -1,46 +1,63 @@
-"""The kinds of lattice."""
+"""The kinds of lattice, and which of them values mean."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias, get_args
 
-from pydantic import Discriminator, Tag
+from pydantic import GetPydanticSchema
+from pydantic_core import core_schema
 
-from sweep.config.kinds.cells import CUSTOM, DRAWN, Cells
+from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.drawn import Drawn
+from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.config.kinds.table import Given
-from sweep.design.slicer.patterns import SHEET_PATTERNS
-from sweep.design.surfaces.names import SHEETS
+from sweep.config.kinds.table import Given, Pairs, RefusedError, keys_of
+from sweep.config.kinds.upright import upright
+
+Lattice: TypeAlias = Cells | Sliced | Sheet | SlicedSheet | CustomStructure | Drawn
+KINDS: tuple[type[Lattice], ...] = get_args(Lattice)
+TAGS = {kind.__name__: kind for kind in KINDS}
+WORDS = tuple(word for kind in KINDS for word in kind.words)
 
 
-def _kind(value: Any) -> str:
-    """The kind of a lattice, or of its values."""
-    fields = value if isinstance(value, dict) else getattr(value, "__dict__", {})
-    if "period" in fields:
-        return "sliced_sheet" if "slicer" in fields else "sheet"
-    kinds = {"structure": "custom", "drawing": "drawn", "slicer": "sliced"}
-    return next((kind for key, kind in kinds.items() if key in fields), "cells")
+def _tag(value: Any) -> str:
+    """The kind of a lattice or of all of its values, by their keys."""
+    keys = {*value} if isinstance(value, dict) else {*getattr(value, "__dict__", {})}
+    return min(KINDS, key=lambda kind: len(kind.model_fields.keys() ^ keys)).__name__
 
 
-Lattice = Annotated[
-    Annotated[Cells, Tag("cells")]
-    | Annotated[Sliced, Tag("sliced")]
-    | Annotated[Sheet, Tag("sheet")]
-    | Annotated[SlicedSheet, Tag("sliced_sheet")]
-    | Annotated[CustomStructure, Tag("custom")]
-    | Annotated[Drawn, Tag("drawn")],
-    Discriminator(_kind),
+AnyLattice = Annotated[
+    Lattice,
+    GetPydanticSchema(
+        lambda _, schema_of: core_schema.tagged_union_schema(
+            {tag: schema_of(kind) for tag, kind in TAGS.items()}, discriminator=_tag
+        )
+    ),
 ]
+"""A lattice in a case, which JSON text holds without the name of its kind."""
 
 
-def kind_of(given: Given) -> type[Cells | Sliced | Sheet | SlicedSheet | CustomStructure | Drawn]:
+def kind_of(given: Given) -> type[Lattice]:
     """The kind of lattice that values mean."""
-    if given.get("kind") == CUSTOM:
-        return CustomStructure
-    if given.get("kind") == DRAWN:
-        return Drawn
-    if given.get("slicer") is None:
-        return Sheet if given.get("kind") in SHEETS else Cells
-    return SlicedSheet if given.get("pattern") in SHEET_PATTERNS else Sliced
+    return next(kind for kind in reversed(KINDS) if kind.means(given))
+
+
+def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
+    """The lattice of these values; density (kg/m^3): of its material."""
+    given = dict(values)
+    if given.get("kind", WORDS[0]) not in WORDS:
+        raise RefusedError("lattice.kind", given["kind"], ", ".join(WORDS))
+    made = kind_of(given).of(given, density, along)
+    check_printable(made)
+    if made.sheet:
+        return made
+    return upright(made, given) if along else _across(made)
+
+
+def _across(made: Lattice) -> Lattice:
+    """The lattice without what only a crush along the cells uses.
+
+    It is one of perhaps very many: all share the set of their keys.
+    """
+    return type(made).model_construct(keys_of(type(made)), **(dict(made) | made.across))

@@ -1,57 +1,26 @@
 """The kinds of loading, and which of them a config means."""
 
-from math import inf
-from typing import Annotated, NamedTuple
+from typing import Annotated, TypeAlias, get_args
 
 from pydantic import Field
 
-from sweep.config.kinds.cells import ENDLESS, TIED
-from sweep.config.kinds.crush import Crush, crush, mean_crush
-from sweep.config.kinds.dead_load import DeadLoad, dead_load
-from sweep.config.kinds.direction import WHERE
-from sweep.config.kinds.impact import DROP, Impact, impact
-from sweep.config.kinds.of_file import OfFile, of_file
+from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
+from sweep.config.kinds.of_file import OfFile
+from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.striker import struck
-from sweep.config.kinds.table import Given, Pairs, RefusedError, Table
-from sweep.config.structures.structure import Structure
+from sweep.config.kinds.table import Given, Pairs, RefusedError
 
-Loading = Annotated[DeadLoad | Crush | Impact | OfFile, Field(discriminator="mode")]
-BY_MODE = (DeadLoad, Crush, Impact)  # chosen by `loading.mode`, or by keys that only one has
+Loading: TypeAlias = DeadLoad | Crush | Impact | OfFile
+KINDS: tuple[type[Loading], ...] = get_args(Loading)
+BY_MODE = KINDS[:-1]  # chosen by `loading.mode`, or by keys that only one has
+AnyLoading = Annotated[Loading, Field(discriminator="mode")]
 MODES = '"displacement" or "impact"'
 PLATENS_ALONG = '"glued", "clamped" or "contact"'
 PLATENS_ACROSS = '"contact", "glued" or "sliding"'
-
-
-class Pressed(NamedTuple):
-    """What a loading presses: its height (m), whether along the cells; a custom structure; whether
-    it is endless, whether its sides are tied to each other; its width (m); the name of a sheet.
-    """
-
-    height: float
-    along: bool
-    structure: Structure | None = None
-    endless: bool = False
-    tied: bool = False
-    width: float = inf
-    sheet: str = ""
-
-    @property
-    def shells(self) -> bool:
-        """Whether the walls are shells in space."""
-        return self.along or bool(self.sheet)
-
-    @property
-    def where(self) -> str:
-        """Why they are, as part of a sentence."""
-        return f'if lattice.kind is "{self.sheet}"' if self.sheet else WHERE
-
-    @property
-    def unending(self) -> str:
-        """Why there is no middle of the lattice to strike; nothing if there is one."""
-        if self.sheet:
-            return self.where
-        return ENDLESS if self.endless else TIED if self.tied else ""
 
 
 def loading(
@@ -60,29 +29,24 @@ def loading(
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
     given = dict(values)
     if pressed.structure is not None and not pressed.along:
-        return of_file(given, pressed.structure, integrator)
-    mode = mode_of(given, pressed.shells)
+        return OfFile.of(given, pressed, integrator, relaxes)
+    mode = _mode_of(given, pressed.shells)
     _check(given, mode, pressed, integrator)
     given = struck(given, pressed.width, pressed.unending)
-    if pressed.endless:
-        return mean_crush(given, pressed.height, integrator, relaxes)
-    if mode == "force":
-        return dead_load(given, integrator)
-    if mode == "impact":
-        return impact(given, pressed.height, integrator)
-    return crush(given, pressed.height, integrator, relaxes)
+    kind = next(kind for kind in BY_MODE if mode in kind.words)
+    return kind.of(given, pressed, integrator, relaxes)
 
 
-def mode_of(given: Given, shells: bool) -> str:
+def _mode_of(given: Given, shells: bool) -> str:
     """The mode, which keys that only one mode has imply if it is not given; else a dead load, and
     of shells a crush.
     """
     if "mode" in given:
-        words = [*(mode_word(kind) for kind in BY_MODE), DROP]
-        if given["mode"] not in (*words, "custom"):
-            allowed = ", ".join(map('"{}"'.format, words))
-            raise RefusedError("loading.mode", given["mode"], allowed)
-        return "impact" if given["mode"] == DROP else str(given["mode"])
+        for kind in KINDS:
+            if given["mode"] in kind.words:
+                return kind.words[0]
+        allowed = ", ".join(f'"{word}"' for kind in BY_MODE for word in kind.words)
+        raise RefusedError("loading.mode", given["mode"], allowed)
     implied = _implied(given)
     if len(implied) > 1:
         (one, key), (other, also) = list(implied.items())[:2]
@@ -92,19 +56,15 @@ def mode_of(given: Given, shells: bool) -> str:
     return next(iter(implied), usual)
 
 
-def mode_word(kind: type[Table]) -> str:
-    """The `loading.mode` of a kind."""
-    return str(kind.model_fields["mode"].default)
-
-
 def _implied(given: Given) -> dict[str, str]:
-    """The modes that keys imply, each with the first of its keys."""
+    """The modes that keys imply, each with the first of its keys; a subclass implies its own."""
     implied: dict[str, str] = {}
     for kind in BY_MODE:
-        others = {key for other in BY_MODE if other is not kind for key in other.model_fields}
+        kinds = [other for other in BY_MODE if not issubclass(other, kind)]
+        others = {key for other in kinds for key in other.model_fields}
         own = [key for key in kind.model_fields if key not in others and key in given]
         if own:
-            implied[mode_word(kind)] = own[0]
+            implied[kind.words[0]] = own[0]
     if "duration" in given and "impact" not in implied:
         implied.setdefault("force", "duration")
     return implied

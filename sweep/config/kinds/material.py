@@ -6,6 +6,8 @@ from pydantic import Field
 
 from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.table import (
+    COMPUTED,
+    STEADY,
     Density,
     Duration,
     Given,
@@ -77,6 +79,13 @@ class Material(Table):
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
+    needs: ClassVar[dict[str, str]] = {
+        "reference_time": STEADY,
+        "hardening": "material.yield_stress is not given",
+        "fracture_strain": "material.yield_stress is not given",
+        "softening_m": "material.softening_r is not given",
+        "softening_beta": "material.softening_r is not given",
+    }
     not_along: ClassVar[tuple[str, ...]] = ("softening_r", "yield_stress")  # refused along cells
 
     name: str = "ninjaflex"
@@ -98,9 +107,9 @@ class Material(Table):
     yield_stress: Stress | None = None
     hardening: Annotated[float, Field(ge=0, json_schema_extra={"unit": "Pa"})] | None = None
     fracture_strain: Stretched | None = None
-    curve_strain: Curve = ()
-    curve_stress: Curve = ()
-    uncertain: Annotated[tuple[Range, ...], Field(strict=False)] = ()
+    curve_strain: Annotated[Curve, COMPUTED] = ()
+    curve_stress: Annotated[Curve, COMPUTED] = ()
+    uncertain: Annotated[tuple[Range, ...], Field(strict=False), COMPUTED] = ()
 
     @property
     def relaxes(self) -> bool:

@@ -1,9 +1,11 @@
 """The loading in the file of a custom structure: for a duration, or quasi-static in equal steps."""
 
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Self
 
-from sweep.config.kinds.direction import ACROSS, Directed
-from sweep.config.kinds.solver import ARCS, IN_TIME
+from sweep.config.kinds.directed import Directed, Ramp
+from sweep.config.kinds.direction import ACROSS
+from sweep.config.kinds.pressed import Pressed
+from sweep.config.kinds.solver import ARCS, IN_TIME, Solver
 from sweep.config.kinds.table import Duration, Given, RefusedError
 from sweep.config.structures.structure import Structure
 
@@ -13,6 +15,8 @@ class OfFile(Directed):
 
     because: ClassVar[str] = 'lattice.kind is "custom"'
     constants: ClassVar[dict[str, Any]] = {"platen": "none", "allowed_forces": []}
+    words: ClassVar[tuple[str, ...]] = ("custom",)
+    solid: ClassVar[bool] = False
     cycles: ClassVar[int] = 1
     platen: ClassVar[str] = "none"
     columns: ClassVar[dict[str, float]] = {}
@@ -25,22 +29,33 @@ class OfFile(Directed):
     duration: Duration
     quasi_static: bool
 
+    @classmethod
+    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+        """The loading of a structure; what is at rest only with inertia is refused in statics."""
+        structure, still = pressed.structure, integrator in ("static", ARCS)
+        assert structure is not None
+        quasi_static = still or bool(given.get("quasi_static"))
+        if quasi_static and not still and integrator is not None:
+            raise RefusedError("solver.integrator", integrator, '"static" if quasi_static')
+        if quasi_static and structure.floor_y_mm is None:
+            _check_mechanism(structure, integrator)
+        if integrator == ARCS and structure.prescribed:
+            allowed = '"static", or loads instead of prescribed moves'
+            raise RefusedError("solver.integrator", ARCS, allowed)
+        if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
+            raise RefusedError("solver.integrator", ARCS, '"static" where there are no loads')
+        duration = given.get("duration", 1.0 if quasi_static else 0.2)
+        return cls(duration=duration, quasi_static=quasi_static)
 
-def of_file(given: Given, structure: Structure, integrator: str | None) -> OfFile:
-    """The loading of a structure; what is at rest only with inertia is refused in statics."""
-    still = integrator in ("static", ARCS)
-    quasi_static = still or bool(given.get("quasi_static"))
-    if quasi_static and not still and integrator is not None:
-        raise RefusedError("solver.integrator", integrator, '"static" if quasi_static')
-    if quasi_static and structure.floor_y_mm is None:
-        _check_mechanism(structure, integrator)
-    if integrator == ARCS and structure.prescribed:
-        allowed = '"static", or loads instead of prescribed moves'
-        raise RefusedError("solver.integrator", ARCS, allowed)
-    if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
-        raise RefusedError("solver.integrator", ARCS, '"static" where there are no loads')
-    duration = given.get("duration", 1.0 if quasi_static else 0.2)
-    return OfFile(duration=duration, quasi_static=quasi_static)
+    def ramps(self, solver: Solver) -> list[Ramp]:
+        """Loads and moves that act from the start, or that grow together in statics."""
+        start = 0.0 if self.quasi_static else 1.0
+        time, steps = (self.duration, None) if start else (None, solver.load_steps)
+        return [Ramp("loading", load=(start, 1.0), way=(0.0, 1.0), time=time, steps=steps)]
+
+    def loaded_for(self, height: float) -> float:
+        """The duration, s."""
+        return self.duration
 
 
 def _check_mechanism(structure: Structure, integrator: str | None) -> None:

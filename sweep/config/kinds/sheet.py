@@ -3,12 +3,11 @@ block.
 """
 
 from abc import abstractmethod
-from math import isclose
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from sweep.config.kinds.direction import ACROSS, ALONG, Direction
-from sweep.config.kinds.specimen import Nodes, Specimen
-from sweep.config.kinds.table import Given, Length, Mass, RefusedError, chosen
+from sweep.config.kinds.specimen import Nodes, Specimen, check_imperfection, check_thickness
+from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
 from sweep.constants import TO_MM
 from sweep.design.surfaces.names import BLOCK, SHEETS
 
@@ -19,7 +18,6 @@ S = TypeVar("S", bound="Surface")
 LEAST, MOST = 0.6, 1.7  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 MOST_QUADS = 20_000  # with six unknowns for each
-MOST_IMPERFECTION = 1.0  # in wall thicknesses
 SIDES = ("width", "height", "depth")
 FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
 
@@ -32,12 +30,13 @@ class Surface(Specimen):
     `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
     """
 
+    shells: ClassVar[bool] = True
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
     neutral: ClassVar[dict[str, Any]] = Specimen.neutral | {"sides": "periodic"}
 
-    period: Length
-    pressed: Direction
+    period: Annotated[Length, COMPUTED]
+    pressed: Annotated[Direction, COMPUTED]
     nodes_per_wall: Nodes = QUADS
 
     def given(self) -> dict[str, Any]:
@@ -116,9 +115,14 @@ class Surface(Specimen):
         return SHEETS[self.sheet].area / self.period * self.width * self.height * self.depth
 
     @property
+    def counted_volume(self) -> float:
+        """Volume of the sheet of one period, m^3."""
+        return self.wall_thickness * self.area
+
+    @property
     def extruded(self) -> float:
         """Volume as printed, m^3."""
-        return self.wall_thickness * self.area
+        return self.counted_volume
 
     @property
     def elements(self) -> int:
@@ -141,10 +145,24 @@ class Sheet(Surface):
 
     because: ClassVar[str] = "lattice.kind is a sheet, one period of which is computed"
     labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
+    words: ClassVar[tuple[str, ...]] = tuple(SHEETS)
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {"mass": ("wall_thickness",)}
 
     kind: Literal["gyroid", "schwarz_p", "schwarz_d"]
     cell_size: Length | None = None
     mass: Mass | None = None
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The sheet of these values."""
+        wanted = given.get("cell_size", CELL_SIZE * pressed_height(given, along))
+        sides = fitted(given["kind"], given, along, wanted, "cell_size")
+        made = cls.model_validate(chosen(given, cls) | sides)
+        if made.mass is not None:
+            thickness = made.mass / (density * made.area)
+            check_thickness(thickness, given)
+            made = made.model_copy(update={"wall_thickness": thickness})
+        return checked(made)
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: the mass or the wall thickness."""
@@ -155,18 +173,6 @@ class Sheet(Surface):
     def sheet(self) -> str:
         """The name of the surface."""
         return self.kind
-
-
-def sheet(given: Given, density: float, along: bool) -> Sheet:
-    """The sheet of these values; density (kg/m^3): of the material. along: whether it is pressed
-    along the print axis.
-    """
-    wanted = given.get("cell_size", CELL_SIZE * pressed_height(given, along))
-    sides = fitted(given["kind"], given, along, wanted, "cell_size")
-    made = Sheet.model_validate(chosen(given, Sheet) | sides)
-    if made.mass is not None:
-        made = _weighing(made, made.mass, given, density)
-    return checked(made)
 
 
 def pressed_height(given: Given, along: bool) -> float:
@@ -231,9 +237,7 @@ def checked(made: S) -> S:
     if made.elements > MOST_QUADS:
         allowed = f"at most {MOST_QUADS:,} quads, {made.elements:,} here: a larger period, or fewer"
         raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
-    if made.imperfection > MOST_IMPERFECTION:
-        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, of a sheet"
-        raise RefusedError("lattice.imperfection", made.imperfection, allowed)
+    check_imperfection(made, "of a sheet")
     if made.wall_thickness >= THICKEST * made.period:
         key = next((key for key in ("infill", "mass") if made.value(key)), "wall_thickness")
         most = made.value(key) * THICKEST * made.period / made.wall_thickness
@@ -243,12 +247,3 @@ def checked(made: S) -> S:
     seed = (made.imperfection_seed or 0) if made.imperfection else None
     unused = {"layers": None, "symmetry": "none"}
     return made.model_copy(update=unused | {"imperfection_seed": seed})
-
-
-def _weighing(made: Sheet, mass: float, given: Given, density: float) -> Sheet:
-    """The sheet whose wall thickness gives it a mass, kg."""
-    thickness = mass / (density * made.area)
-    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
-        allowed = f"{thickness:.6g} m at the mass given; give one of them"
-        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
-    return made.model_copy(update={"wall_thickness": thickness})

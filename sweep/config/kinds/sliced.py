@@ -1,7 +1,7 @@
 """A lattice as a slicer lays it: lines in perimeters, in a pattern of the slicer's own name."""
 
 from math import isnan, radians
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
@@ -9,12 +9,14 @@ from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import (
     LAYER_HEIGHT,
     MAX_NODES,
+    NOZZLE,
     Laid,
     Lines,
     check_proportion,
     check_size,
 )
 from sweep.config.kinds.table import (
+    COMPUTED,
     Angle,
     Few,
     Given,
@@ -62,6 +64,14 @@ class Sliced(Laid):
     labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "line_distance")
     constants: ClassVar[dict[str, Any]] = {"kind": "square"}
     derived: ClassVar[tuple[str, ...]] = ("fill_distance", "cells_x", "cells_y", "wall_thickness")
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {
+        "infill": ("fill_distance",),
+        "mass": ("infill", "fill_distance"),
+        "line_distance": ("infill", "fill_distance"),
+    }
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = dict.fromkeys(
+        ("wall_thickness", "cells_x", "cells_y"), SIZES
+    )
 
     slicer: Literal["prusa", "orca", "cura"]
     pattern: str
@@ -69,13 +79,31 @@ class Sliced(Laid):
     line_distance: Length | None = None
     mass: Mass | None = None
     fill_angle: Angle = FILL_ANGLE
-    fill_distance: Length
+    fill_distance: Annotated[Length, COMPUTED]
     fill_multiline: Annotated[int, Field(ge=1, le=MOST_LINES)] = 1
     line_width: Length
     layer_height: Length = LAYER_HEIGHT
     perimeters: Lines = 0
     cells_x: Few
     cells_y: Few
+
+    @classmethod
+    def means(cls, given: Given) -> bool:
+        """Whether values mean this kind of lattice."""
+        return given.get("slicer") is not None
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The infill of these values."""
+        pattern = _checked_pattern(given)
+        width = line_width_of(given)
+        usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
+        made = cls.model_validate(usual | chosen(given, cls) | UNKNOWN | {"line_width": width})
+        check_proportion(made)
+        _check_lines(made)
+        made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
+        per_area = density * made.depth
+        return made.model_copy(update=_laid(made, _share(made, given, per_area), per_area))
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: not the share if it follows from another."""
@@ -114,6 +142,30 @@ class Sliced(Laid):
         return spread_lines(self.slicer, self.fill_multiline) * self.line
 
     @property
+    def line_printed(self) -> float:
+        """Width of a line, m."""
+        return self.line_width
+
+    @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """None: its walls are lines."""
+        return ()
+
+    @property
+    def gap_printed(self) -> float:
+        """Clear width of the narrowest cell, m; beside the double walls of a honeycomb."""
+        return self.opening - (2.0 if self.printed_as.wall > 1.0 else 1.0) * self.lines
+
+    def thicker(self, times: float) -> dict[str, Any]:
+        """What changes if wider lines are laid in the same places, perimeters as well."""
+        wider = self.line_width + (times - 1.0) * self.line
+        return {"line_width": wider, "infill": times * self.infill}
+
+    def check_standing(self, where: str) -> None:
+        """Refuse all, as lines cannot be pressed along the cells."""
+        raise RefusedError("lattice.slicer", self.slicer, f"none {where}: give kind and cells")
+
+    @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
         return self.perimeters * self.line, self.perimeters * self.line
@@ -147,17 +199,16 @@ class Sliced(Laid):
         return self.printed_as.opening * self.fill_distance
 
 
-def sliced(given: Given, density: float) -> Sliced:
-    """The infill of these values; density (kg/m^3): of the material."""
-    slicer, pattern = given["slicer"], _checked_pattern(given)
-    width = given.get("nozzle", Sliced.model_fields["nozzle"].default)
-    width = given.get("line_width", width * PROGRAMS[slicer].nozzles)
-    usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
-    made = Sliced.model_validate(usual | chosen(given, Sliced) | UNKNOWN | {"line_width": width})
-    check_proportion(made)
-    _check_lines(made)
-    made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
-    return _laid(made, _share(made, given, density * made.depth), density * made.depth)
+def line_width_of(given: Given) -> float:
+    """The width of a line (m): as given, or that of the slicer for the nozzle."""
+    usual = PROGRAMS[given["slicer"]].nozzles * given.get("nozzle", NOZZLE)
+    return float(given.get("line_width", usual))
+
+
+def check_layer(layer: float, width: float) -> None:
+    """Refuse a line that is higher than wide, m."""
+    if layer > width:
+        raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
 
 
 def _share(made: Sliced, given: Given, per_area: float) -> float:
@@ -175,8 +226,8 @@ def _share(made: Sliced, given: Given, per_area: float) -> float:
     return given["infill"] if made.mass is None else _share_for(made, made.mass, per_area)
 
 
-def _laid(made: Sliced, share: float, per_area: float) -> Sliced:
-    """The infill of a share; per_area: kg/m^2."""
+def _laid(made: Sliced, share: float, per_area: float) -> dict[str, Any]:
+    """What a share of infill sets; per_area: kg/m^2."""
     most = _most_of(made)
     if share >= most * (1.0 - 1e-12):
         wide = "so that cells are twice as wide as their walls"
@@ -186,11 +237,12 @@ def _laid(made: Sliced, share: float, per_area: float) -> Sliced:
                 "lattice.line_distance", made.line_distance, f"above {least:.4g} m, {wide}"
             )
         raise RefusedError("lattice.infill", share, f"below {100.0 * most:.3g} %, {wide}")
-    laid = made.model_copy(update=_spacing(made, share))
+    spacing = _spacing(made, share)
+    laid = made.model_copy(update=spacing)
     check_size(laid, ("infill",))
     if abs(_drawn(laid) - 1.0) > MASS_ERROR:
         raise _refused_drawing(laid, share, per_area)
-    return laid
+    return spacing
 
 
 def _most_of(made: Sliced) -> float:
@@ -219,16 +271,14 @@ def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedErro
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = laid.model_copy(update=_spacing(laid, other))
         if other < _most_of(laid) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
-            if laid.line_distance is not None:
-                allowed = (
-                    f"{nearest.fill_distance:.4g} m, for example, or another fill_angle; {why}"
-                )
-                return RefusedError("lattice.line_distance", laid.line_distance, allowed)
-            if laid.mass is None:
-                allowed = f"{100.0 * other:.0f} %, for example, or another fill_angle; {why}"
-                return RefusedError("lattice.infill", share, allowed)
-            allowed = f"{per_area * counted_area(nearest.geometry):.4g} kg, for example; {why}"
-            return RefusedError("lattice.mass", laid.mass, allowed)
+            mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
+            examples = {
+                "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",
+                "mass": f"{mass:.4g} kg, for example",
+                "infill": f"{100.0 * other:.0f} %, for example{turn}",
+            }
+            key = next(key for key in examples if getattr(laid, key) is not None)
+            return RefusedError(f"lattice.{key}", getattr(laid, key), f"{examples[key]}; {why}")
     allowed = (
         f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
     )
@@ -303,9 +353,7 @@ def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
 
 def _check_lines(made: Sliced) -> None:
     """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
-    width, height = made.line_width, made.layer_height
-    if height > width:
-        raise RefusedError("lattice.layer_height", height, f"at most the line width, {width:g} m")
+    check_layer(made.layer_height, made.line_width)
     most = int(0.5 * min(made.width, made.height) / made.line)
     if not 1 <= made.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"

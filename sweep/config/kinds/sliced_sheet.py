@@ -2,16 +2,22 @@
 
 from collections.abc import Mapping
 from math import cos, isclose
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
-from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, names_in
-from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines, Specimen
+from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
+from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
-from sweep.design.slicer.patterns import PROGRAMS, Program, SheetPattern, line_of, spread_lines
+from sweep.design.slicer.patterns import (
+    PROGRAMS,
+    SHEET_PATTERNS,
+    SheetPattern,
+    line_of,
+    spread_lines,
+)
 from sweep.design.surfaces.names import SHEETS
 
 LEAST_SHARE = 0.02
@@ -30,6 +36,8 @@ class SlicedSheet(Surface):
         "lattice.slicer prints a sheet, one period of which is computed without perimeters"
     )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
+    fits: ClassVar[tuple[str, ...]] = ("infill", *SIDES)
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {"wall_thickness": ("infill",)}
 
     slicer: Literal["prusa", "orca", "cura"]
     pattern: Literal["gyroid", "tpmsd"]
@@ -39,6 +47,33 @@ class SlicedSheet(Surface):
     line_width: Length
     layer_height: Length = LAYER_HEIGHT
     perimeters: Lines = 0
+
+    @classmethod
+    def means(cls, given: Given) -> bool:
+        """Whether values mean this kind of lattice."""
+        return given.get("slicer") is not None and given.get("pattern") in SHEET_PATTERNS
+
+    @classmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The sheet of these values."""
+        pattern = _pattern(given)
+        width = line_width_of(given)
+        layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
+        _check(given, width, layer, lines)
+        angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
+        spread = pattern.period * spread_lines(given["slicer"], lines) * one
+        wanted, turned = spread / given["infill"], _is_turned(angle, along)
+        if given.get("perimeters"):
+            sides = fitted_block(given, along, wanted)
+            _check_block(given, angle, one, sides)
+        else:
+            sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
+        follows: dict[str, Any] = {
+            "wall_thickness": lines * one,
+            "line_width": width,
+            "infill": spread / sides["period"],
+        }
+        return checked(cls.model_validate(chosen(given, cls) | sides | follows))
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
@@ -72,37 +107,19 @@ class SlicedSheet(Surface):
         return self.pattern
 
     @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """None: its walls are lines."""
+        return ()
+
+    @property
     def extruded(self) -> float:
         """Volume as printed, m^3."""
         sheet = SHEETS[self.sheet].steep * super().extruded
         return sheet * self.inside + self.framed
 
 
-def sliced_sheet(given: Given, along: bool) -> SlicedSheet:
-    """The sheet of these values; along: whether it is pressed along the print axis."""
-    program, pattern = _program(given)
-    width = given.get("nozzle", Specimen.model_fields["nozzle"].default)
-    width = given.get("line_width", width * program.nozzles)
-    layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
-    _check(given, width, layer, lines)
-    angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
-    spread = pattern.period * spread_lines(given["slicer"], lines) * one
-    wanted, turned = spread / given["infill"], _is_turned(angle, along)
-    if given.get("perimeters"):
-        sides = fitted_block(given, along, wanted)
-        _check_block(given, angle, one, sides)
-    else:
-        sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
-    follows: dict[str, Any] = {
-        "wall_thickness": lines * one,
-        "line_width": width,
-        "infill": spread / sides["period"],
-    }
-    return checked(SlicedSheet.model_validate(chosen(given, SlicedSheet) | sides | follows))
-
-
-def _program(given: Given) -> tuple[Program, SheetPattern]:
-    """The slicer and its pattern; refused is what it does not print."""
+def _pattern(given: Given) -> SheetPattern:
+    """The pattern of the slicer; refused is what it does not print."""
     slicer, name = given["slicer"], given["pattern"]
     if slicer not in PROGRAMS:
         raise RefusedError("lattice.slicer", slicer, ", ".join(PROGRAMS))
@@ -111,7 +128,7 @@ def _program(given: Given) -> tuple[Program, SheetPattern]:
         other = next(other for other, program in PROGRAMS.items() if name in program.sheets)
         allowed = f'{names_in(slicer)}; "{name}" with lattice.slicer "{other}"'
         raise RefusedError("lattice.pattern", name, allowed)
-    return program, program.sheets[name]
+    return program.sheets[name]
 
 
 def _parallel(angle: float, other: float) -> bool:
@@ -152,8 +169,7 @@ def _check(given: Given, width: float, layer: float, lines: int) -> None:
         raise RefusedError("lattice.infill", None, 'a share such as "15 %"')
     if given["infill"] < LEAST_SHARE:
         raise RefusedError("lattice.infill", given["infill"], f"at least {100 * LEAST_SHARE:g} %")
-    if layer > width:
-        raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
+    check_layer(layer, width)
     if lines > PROGRAMS[given["slicer"]].lines:
         raise RefusedError(
             "lattice.fill_multiline", lines, '1; more with lattice.slicer "orca" or "cura"'

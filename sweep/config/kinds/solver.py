@@ -1,12 +1,16 @@
 """How the equations are solved: in time, quasi-statically, or along arcs of an equilibrium path."""
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field
 
 from sweep.config.kinds.table import Count, Duration, Length, Strain, Table
 
 ARCS = "arc_length"
+# A million rows of history take 120 MB, and a million steps of one square cell half a minute.
+MAX_STEPS = 1_000_000
+LOAD_STEPS = 200
+TIME_STEP = 1e-4  # s
 IN_TIME = '"backward_euler", "bdf2" or "newmark"'  # the integrators
 Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"]
 
@@ -67,4 +71,4 @@ class Arcs(_Solver):
     arc_length: Length
 
 
-Solver = Annotated[InTime | Static | Arcs, Field(discriminator="integrator")]
+Solver: TypeAlias = Annotated[InTime | Static | Arcs, Field(discriminator="integrator")]

@@ -2,16 +2,24 @@
 
 from abc import abstractmethod
 from math import isclose, isnan
-from typing import Annotated, Any, ClassVar, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
 from sweep.config.kinds.table import Few, Given, Length, RefusedError, Size, Table
+from sweep.config.structures.structure import Structure
 from sweep.design.geometry import Geometry
+
+if TYPE_CHECKING:
+    from sweep.design.network import Network
 
 NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
 # The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
 MAX_NODES = 50_000
+ENDLESS = 'if lattice.boundary is "periodic"'
+TIED = 'if lattice.sides is "periodic"'
+MOST_IMPERFECTION = 1.0  # of shells, in wall thicknesses
 MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
 
 Lines = Annotated[int, Field(ge=0, le=100)]
@@ -26,7 +34,20 @@ class Specimen(Table):
     refused. layers: quads up the height of a lattice that is pressed along its cells; None across
     them. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed: of
     the shape of its imperfection; None: the shape in which equal walls buckle.
+
+    words: what `lattice.kind` may be. shells: whether its walls are shells in space anyway. across:
+    keys without effect where it is pressed across its cells, with their values there. aperiodic:
+    why no period of it is known, after its name.
     """
+
+    words: ClassVar[tuple[str, ...]] = ()
+    shells: ClassVar[bool] = False
+    across: ClassVar[dict[str, Any]] = {
+        "layers": None,
+        "symmetry": "none",
+        "imperfection_seed": None,
+    }
+    aperiodic: ClassVar[str] = " has no effective material here"
 
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
     neutral: ClassVar[dict[str, Any]] = {
@@ -49,6 +70,75 @@ class Specimen(Table):
     imperfection_seed: Annotated[int, Field(ge=0)] | None = None
     layers: Few | None = None
     symmetry: Literal["none", "quarter"] = "none"
+
+    @classmethod
+    def means(cls, given: Given) -> bool:
+        """Whether values mean this kind of lattice."""
+        return given.get("kind") in cls.words
+
+    @classmethod
+    @abstractmethod
+    def of(cls, given: Given, density: float, along: bool) -> Self:
+        """The lattice of these values; density (kg/m^3): of the material. along: whether it is
+        pressed along its cells.
+        """
+
+    @classmethod
+    def check_file(cls, path: Path) -> list[str]:
+        """Refuse a file that cannot be read; else sentences about what was read."""
+        return []
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """Its name for people."""
+
+    @property
+    def loaded(self) -> Structure | None:
+        """The structure, if its file has the loads too."""
+        return None
+
+    @property
+    def network(self) -> "Network":
+        """Centre lines and thickness of the walls, m."""
+        raise TypeError(f"{self.name} is not drawn with lines")
+
+    @property
+    @abstractmethod
+    def counted_volume(self) -> float:
+        """Volume of the walls as budgets count it, m^3."""
+
+    @property
+    def pieces(self) -> tuple[int, ...]:
+        """Number of elements: of every wall, or of each one."""
+        return (self.value("nodes_per_wall") + 1,)
+
+    def remeshed(self, pieces: tuple[int, ...]) -> dict[str, Any]:
+        """What changes with other numbers of `pieces`."""
+        return {"nodes_per_wall": pieces[0] - 1}
+
+    @property
+    def wall_quads(self) -> Any:
+        """Number of quads along a whole wall that stands: (1,) for all walls, or (w,)."""
+        return self.pieces
+
+    def check_standing(self, where: str) -> None:
+        """Refuse walls that cannot be pressed along the cells; where: why they are, in words."""
+
+    @property
+    def line_printed(self) -> float:
+        """Width of a line, m."""
+        return self.nozzle
+
+    @property
+    def walls_printed(self) -> tuple[float, ...]:
+        """Thicknesses of walls that have to be whole numbers of lines, m."""
+        return (self.wall_thickness,)
+
+    @property
+    def gap_printed(self) -> float | None:
+        """Clear width of the narrowest cell, m; None if it is not known."""
+        return None
 
     @property
     def endless(self) -> bool:
@@ -81,6 +171,29 @@ class Laid(Specimen):
     """A specimen whose walls follow from a few numbers, its `geometry`."""
 
     nodes_per_wall: Nodes
+
+    @property
+    def network(self) -> "Network":
+        """Centre lines and thickness of the walls, m."""
+        from sweep.design.lattice import build_network
+
+        return build_network(self.geometry)
+
+    @property
+    def counted_volume(self) -> float:
+        """Volume of the walls as budgets count it, m^3."""
+        from sweep.design.lattice import counted_area
+
+        return self.depth * counted_area(self.geometry)
+
+    @property
+    def gap_printed(self) -> float | None:
+        """Clear width of the narrowest cell, m."""
+        return self.opening - max(self.walls_printed)
+
+    def thicker(self, times: float) -> dict[str, Any]:
+        """What changes if walls are laid so many `times` as thick in the same places."""
+        return {"wall_thickness": times * self.wall_thickness}
 
     @property
     @abstractmethod
@@ -141,7 +254,19 @@ def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float
     if isnan(thickness):
         allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
         raise RefusedError("lattice.mass", mass, allowed)
+    check_thickness(thickness, given)
+    return thickness
+
+
+def check_thickness(thickness: float, given: Given) -> None:
+    """Refuse a wall thickness that is not the one (m) at the mass given."""
     if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
-    return thickness
+
+
+def check_imperfection(specimen: Specimen, where: str) -> None:
+    """Refuse a bow of shells that is no start of a buckle, but one itself."""
+    if specimen.imperfection > MOST_IMPERFECTION:
+        allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {where}"
+        raise RefusedError("lattice.imperfection", specimen.imperfection, allowed)

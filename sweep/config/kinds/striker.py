@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.direction import WHERE, Directed, is_along
-from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Table, chosen, given_or
+from sweep.config.kinds.directed import Directed
+from sweep.config.kinds.direction import WHERE, is_along
+from sweep.config.kinds.table import Angle, Given, Length, RefusedError, given_or
 from sweep.numbers import text_in
 
 if TYPE_CHECKING:
@@ -25,82 +26,33 @@ LEAST_ANGLE, MOST_ANGLE = pi / 18, 17 * pi / 18
 REACH = 4.0  # flanks are as long as the lattice is wide and high together, times this
 
 
-class Flat(Table):
-    """A platen wider than the lattice."""
-
-    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
-        """The profiles at ``x`` (m), with flanks as long as ``reach`` (m)."""
-        return ()
-
-
-class Round(Flat):
-    """A cylinder across the depth."""
-
-    striker_radius: Radius = 5e-3
-    striker_at: Place = 0.5
-
-    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
-        """A circle."""
-        from sweep.design.profile import circle
-
-        return (circle(x, self.striker_radius),)
-
-
-class Edge(Flat):
-    """A wedge of an included angle, rounded at its tip."""
-
-    striker_angle: Angle = pi / 2
-    striker_tip: Tip = 0.5e-3
-    striker_at: Place = 0.5
-
-    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
-        """A wedge."""
-        from sweep.design.profile import wedge
-
-        return (wedge(x, self.striker_angle, self.striker_tip, reach),)
-
-
-class Punch(Flat):
-    """A flat face, rounded at its corners."""
-
-    striker_width: Length = 10e-3
-    striker_tip: Tip = 0.5e-3
-    striker_at: Place = 0.5
-
-    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
-        """A punch."""
-        from sweep.design.profile import punch
-
-        return (punch(x, self.striker_width, self.striker_tip, reach),)
-
-
-class Ribs(Flat):
-    """Two supports at a distance of `base_span` from axis to axis, with round ends."""
-
-    base_span: Length
-    base_radius: Length = 1e-3
-
-    def profiles(self, x: float, reach: float) -> "tuple[Profile, ...]":
-        """Both ribs, on either side of ``x``."""
-        from sweep.design.profile import rib
-
-        half = 0.5 * self.base_span
-        return tuple(rib(x + side, self.base_radius, reach) for side in (-half, half))
-
-
-STRIKERS: dict[str, type[Flat]] = {"flat": Flat, "round": Round, "edge": Edge, "punch": Punch}
-BASES: dict[str, type[Flat]] = {"flat": Flat, "ribs": Ribs}
-UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
-CHOICES = {"striker": STRIKERS, "base": BASES}
-_OF_KINDS = {
-    key for kinds in CHOICES.values() for kind in kinds.values() for key in kind.model_fields
+USUAL: dict[str, dict[str, float | None]] = {
+    "flat": {},
+    "round": {"striker_radius": 5e-3, "striker_at": 0.5},
+    "edge": {"striker_angle": pi / 2, "striker_tip": 0.5e-3, "striker_at": 0.5},
+    "punch": {"striker_width": 10e-3, "striker_tip": 0.5e-3, "striker_at": 0.5},
+    "ribs": {"base_span": None, "base_radius": 1e-3},
 }
+"""The kinds of strikers and bases, with their keys and usual numbers; None has to be given."""
+UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
+SHAPED = ("striker", "base")
+_OF_KINDS = {key for keys in USUAL.values() for key in keys}
 
 
 class Struck(Directed):
     """A loading by a striker on a base; each has the keys of its kind, and None for others."""
 
     neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"striker": "flat", "base": "flat"}
+
+    needs: ClassVar[dict[str, str]] = {
+        "striker_at": 'loading.striker is "flat"',
+        "striker_radius": 'loading.striker is not "round"',
+        "striker_angle": 'loading.striker is not "edge"',
+        "striker_tip": 'loading.striker is neither "edge" nor "punch"',
+        "striker_width": 'loading.striker is not "punch"',
+        "base_span": 'loading.base is not "ribs"',
+        "base_radius": 'loading.base is not "ribs"',
+    }
 
     striker: Literal["flat", "round", "edge", "punch"] = "flat"
     striker_at: Place | None = None
@@ -120,12 +72,12 @@ class Struck(Directed):
     @property
     def shape_columns(self) -> dict[str, str]:
         """Striker and base in words, such as "round, 5 mm, at 50 %", of a results file."""
-        return {key: ", ".join(self._words(key)) for key in CHOICES}
+        return {key: ", ".join(self._words(key)) for key in SHAPED}
 
     def _words(self, key: str) -> Iterator[str]:
         """The kind of the striker or the base, and its numbers."""
         yield str(getattr(self, key))
-        for name, value in _made(key, self.given()):
+        for name, value in _numbers(key, self.given()).items():
             if name == "striker_angle":
                 yield f"{degrees(value):.4g} deg"
             elif name == "striker_at":
@@ -138,17 +90,29 @@ class Struck(Directed):
 
         left: x of its left side; all in m.
         """
-        kind = _made(key, self.given())
-        place = given_or(self.striker_at, 0.5) if key == "striker" else 0.5
-        return kind.profiles(left + place * width, REACH * (width + height))
+        from sweep.design.profile import circle, punch, rib, wedge
+
+        number, reach = _numbers(key, self.given()), REACH * (width + height)
+        x = left + number.get("striker_at", 0.5) * width
+        match getattr(self, key):
+            case "round":
+                return (circle(x, number["striker_radius"]),)
+            case "edge":
+                return (wedge(x, number["striker_angle"], number["striker_tip"], reach),)
+            case "punch":
+                return (punch(x, number["striker_width"], number["striker_tip"], reach),)
+            case "ribs":
+                half = 0.5 * number["base_span"]
+                return tuple(rib(x + side, number["base_radius"], reach) for side in (-half, half))
+        return ()
 
 
-def _made(key: str, given: Given) -> Flat:
-    """The striker or the base of these values."""
-    if given.get(key) == "ribs" and "base_span" not in given:
+def _numbers(key: str, given: Given) -> dict[str, float]:
+    """The numbers of the striker or the base of these values."""
+    usual = USUAL[given.get(key, "flat")]
+    if "base_span" in usual and "base_span" not in given:
         raise RefusedError("loading.base_span", None, "the distance of the ribs, axis to axis")
-    kind = CHOICES[key][given.get(key, "flat")]
-    return kind.model_validate(chosen(given, kind))
+    return {name: given.get(name, number) for name, number in usual.items()}
 
 
 def struck(given: Given, width: float, unending: str) -> dict[str, Any]:
@@ -157,13 +121,13 @@ def struck(given: Given, width: float, unending: str) -> dict[str, Any]:
     Keys of other kinds of strikers are left out. width (m): of the lattice over centre lines.
     unending: the key that ties its sides, in words; empty if none does.
     """
-    shaped = {key for key in CHOICES if given.get(key, "flat") != "flat"}
+    shaped = {key for key in SHAPED if given.get(key, "flat") != "flat"}
     if shaped and (is_along(given) or unending):
         key, where = min(shaped), WHERE if is_along(given) else unending
         raise RefusedError(f"loading.{key}", given[key], f'"flat" {where}')
     own = {name: value for name, value in given.items() if name not in _OF_KINDS}
-    for key in CHOICES:
-        own |= dict(_made(key, given))
+    for key in SHAPED:
+        own |= _numbers(key, given)
     if shaped:
         own["platen"] = _standing(given)
     _check(own, width)

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from functools import cache, lru_cache
-from typing import Annotated, Any, ClassVar, TypeVar
+from typing import Annotated, Any, ClassVar, TypedDict, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -16,7 +16,19 @@ Given = Mapping[str, Any]
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
 
-TABLES = ("lattice", "material", "loading", "contact", "damping", "solver")
+
+class Tables(TypedDict, total=False):
+    """The values of the tables of a case; None: its defaults."""
+
+    lattice: "Given | Table | None"
+    material: "Given | Table | None"
+    loading: "Given | Table | None"
+    contact: "Given | Table | None"
+    damping: "Given | Table | None"
+    solver: "Given | Table | None"
+
+
+TABLES = tuple(Tables.__annotations__)
 SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not change them
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
@@ -42,6 +54,8 @@ Cycles = Annotated[int, Field(ge=1, le=100)]
 # JSON returns lists, so that lists are accepted too.
 Forces = Annotated[tuple[Force, ...], Field(strict=False)]
 NonNegative = Annotated[float, Field(ge=0)]
+STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
+COMPUTED = "computed"  # marks a field that is no key of a config
 Positive = Annotated[float, Field(gt=0)]
 
 
@@ -49,7 +63,11 @@ class Table(BaseModel):
     """One table of a case, complete and in SI; its attributes are keys of the config.
 
     labels: keys that never enter an id. neutral: keys that enter it only with other values.
-    constants: what enters it beside the attributes. derived: attributes that no config sets.
+    constants: what enters it beside the attributes. derived: attributes that follow from others.
+
+    sets: key -> the keys whose values follow from it, if it is given. replaces: key -> other keys
+    whose values a new one takes away. needs: key that may be left out -> why it is. fits: keys
+    whose values are the nearest that fit. because: why other keys have no effect.
     """
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
@@ -57,6 +75,19 @@ class Table(BaseModel):
     neutral: ClassVar[dict[str, Any]] = {}
     constants: ClassVar[dict[str, Any]] = {}
     derived: ClassVar[tuple[str, ...]] = ()
+    sets: ClassVar[dict[str, tuple[str, ...]]] = {}
+    replaces: ClassVar[dict[str, tuple[str, ...]]] = {}
+    needs: ClassVar[dict[str, str]] = {}
+    fits: ClassVar[tuple[str, ...]] = ()
+
+    @classmethod
+    def replaced(cls, key: str) -> set[str]:
+        """The keys whose values a new one of a key takes away: that set it, that it sets, or of
+        which both set one.
+        """
+        own = {key, *cls.sets.get(key, ())}
+        causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}
+        return {*own, *causes, *cls.replaces.get(key, ())} - {key}
 
     def given(self) -> dict[str, Any]:
         """The values from which this table follows, by key."""

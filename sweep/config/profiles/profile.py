@@ -6,10 +6,10 @@ nozzle in SuperSlicer, OrcaSlicer and Bambu Studio. (The newest PrusaSlicer take
 layer height together where both are 0.)
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import isfinite
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from sweep.config.faults import MisfitError
 from sweep.config.kinds.specimen import LAYER_HEIGHT, NOZZLE
@@ -17,6 +17,7 @@ from sweep.config.profiles.settings import NEEDED, Settings, read_settings
 from sweep.design.slicer.patterns import ROUNDED, WIDTH_PER_NOZZLE
 from sweep.numbers import in_unit, to_si
 
+T = TypeVar("T")
 TITLES = {"prusa": "PrusaSlicer", "superslicer": "SuperSlicer", "orca": "OrcaSlicer"}
 SLICERS = {"prusa": "prusa", "superslicer": "prusa", "orca": "orca"}
 
@@ -132,7 +133,7 @@ class _Translation:
     def values(self) -> dict[str, Any]:
         """Keys of [lattice] with their values."""
         names, program = self.names, self.settings.program
-        nozzle, layer = self._length(NOZZLES), self._length(names.layer)
+        nozzle, layer = self._read(NOZZLES, _length), self._read(names.layer, _length)
         width = self._width(*names.widths, nozzle or NOZZLE, layer or LAYER_HEIGHT)
         spacing = self._spacing(nozzle or NOZZLE) if program == "superslicer" else None
         if spacing is not None:
@@ -140,13 +141,13 @@ class _Translation:
         found = {
             "slicer": SLICERS[program],
             "pattern": self._said(names.pattern).lower() or None,
-            "infill": _quantity(self._share(names.infill), "%"),
+            "infill": _quantity(self._read(names.infill, _percentage), "%"),
             "line_width": _quantity(width, "mm"),
             "layer_height": _quantity(layer, "mm"),
             "nozzle": _quantity(nozzle, "mm"),
-            "perimeters": self._count(names.perimeters),
-            "fill_angle": _quantity(self._number(names.angle), "deg"),
-            "fill_multiline": self._count(names.lines),
+            "perimeters": self._read(names.perimeters, _count),
+            "fill_angle": _quantity(self._read(names.angle, _number), "deg"),
+            "fill_multiline": self._read(names.lines, _count),
         }
         return {key: value for key, value in found.items() if value is not None}
 
@@ -175,74 +176,65 @@ class _Translation:
             self.differing[name] = text[:LONGEST]
         return first.strip()[:LONGEST]
 
-    def _number(self, name: str) -> float | None:
-        """A number without a sign of per cent; None if it is not there."""
+    def _read(self, name: str, meaning: Callable[[str], T]) -> T | None:
+        """The meaning of a setting; None if it is not there, or, noted, without a meaning."""
         text = self._said(name)
-        if not text:
-            return None
         try:
-            number = float(text)
+            return meaning(text) if text else None
         except ValueError:
-            number = float("nan")
-        if not isfinite(number):
             self.unread[name] = text
             return None
-        return number
-
-    def _length(self, name: str) -> float | None:
-        """A length above 0 in m, of millimetres."""
-        number = self._number(name)
-        if number is not None and number <= 0.0:
-            self.unread[name] = self._said(name)
-            return None
-        return None if number is None else to_si(number, "mm")
-
-    def _count(self, name: str) -> int | None:
-        """A whole number."""
-        number = self._number(name)
-        if number is not None and not number.is_integer():
-            self.unread[name] = self._said(name)
-            return None
-        return None if number is None else int(number)
-
-    def _share(self, name: str) -> float | None:
-        """Per cent: of "15%", and of "15", as JSON may have it; of "0.15" of an old Slic3r too."""
-        text = self._said(name)
-        number, percent = _percentage(text)
-        if number is None:
-            if text:
-                self.unread[name] = text
-            return None
-        return in_unit(number, "%") if not percent and 0.0 < number < 1.0 else number
 
     def _width(self, own: str, usual: str, nozzle: float, layer: float) -> float | None:
         """The width of a line, m; None if nothing is said of it."""
+        of = layer if self.settings.program == "prusa" else nozzle
         for name in (own, usual):
-            number, percent = _percentage(self._said(name))
-            if number is None and self._said(name):
-                self.unread[name] = self._said(name)
-            elif number is not None and number > 0.0:
-                of = layer if self.settings.program == "prusa" else nozzle
-                return to_si(number, "%") * of if percent else to_si(number, "mm")
+            if (width := self._read(name, lambda text: _width_of(text, of))) and width > 0.0:
+                return width
         return WIDTH_PER_NOZZLE * nozzle if self.automatic else None
 
     def _spacing(self, nozzle: float) -> float | None:
         """The distance of lines that fill all, of which SuperSlicer has one of the two."""
         if self._said(self.names.widths[0]) not in ("", "0"):
             return None
-        number, percent = _percentage(self._said(SPACING))
-        if number is None or number <= 0.0:
-            return None
-        return to_si(number, "%") * nozzle if percent else to_si(number, "mm")
+        spacing = self._read(SPACING, lambda text: _width_of(text, nozzle))
+        return spacing if spacing and spacing > 0.0 else None
 
 
-def _percentage(text: str) -> tuple[float | None, bool]:
-    """A number, and whether it is one of per cent; None if there is none."""
-    try:
-        number = float(text.removesuffix("%"))
-    except ValueError:
-        return None, False
-    return (number if isfinite(number) else None), text.endswith("%")
+def _number(text: str) -> float:
+    """A finite number."""
+    number = float(text)
+    if not isfinite(number):
+        raise ValueError(text)
+    return number
+
+
+def _length(text: str) -> float:
+    """A length above 0 in m, of millimetres."""
+    number = _number(text)
+    if number <= 0.0:
+        raise ValueError(text)
+    return to_si(number, "mm")
+
+
+def _count(text: str) -> int:
+    """A whole number."""
+    number = _number(text)
+    if not number.is_integer():
+        raise ValueError(text)
+    return int(number)
+
+
+def _percentage(text: str) -> float:
+    """Per cent: of "15%", and of "15", as JSON may have it; of "0.15" of an old Slic3r too."""
+    number = _number(text.removesuffix("%"))
+    return in_unit(number, "%") if "%" not in text and 0.0 < number < 1.0 else number
+
+
+def _width_of(text: str, of: float) -> float:
+    """A width in m, of millimetres, or of per cent of another (m)."""
+    number = _number(text.removesuffix("%"))
+    return to_si(number, "%") * of if text.endswith("%") else to_si(number, "mm")
 
 
 def _quantity(value: float | None, unit: str) -> str | None:

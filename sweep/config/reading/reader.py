@@ -16,7 +16,7 @@ from sweep.config.defaults import drop_tests
 from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
-from sweep.config.kinds.cells import DRAWN
+from sweep.config.kinds.lattice import KINDS
 from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
@@ -29,7 +29,7 @@ from sweep.config.profiles.profile import read_profile
 from sweep.config.profiles.settings import NEEDED
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import CHOICES, meant, present_choice, with_words
-from sweep.config.structures.structure_file import StructureError, read_structure
+from sweep.config.structures.structure_file import StructureError
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -37,6 +37,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
+FILED = [kind for kind in KINDS if "file" in kind.model_fields]  # lattices of a `lattice.file`
 PROFILE = "lattice.profile"
 OF_A_PATTERN = ("slicer", "pattern", "infill", "fill_angle", "fill_multiline")
 NAMELESS = "unnamed"  # the name of a config that has neither a name nor a file
@@ -66,7 +67,7 @@ class Reader:
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
         self.notes: list[str] = []
-        self.draws = False  # whether `lattice.file` is that of a drawing
+        self.of_file = FILED[0]  # the kind of lattice of which `lattice.file` is
 
     def config(self, document: dict[str, Any], path: Path | None) -> Config:
         """The config of a whole document, without its cases; path: of its file, if it has one."""
@@ -86,8 +87,10 @@ class Reader:
     def _recipe(self, document: dict[str, Any]) -> Recipe:
         """The values that a document writes, and those of profiles that it does not write."""
         document, one, several = _without_profiles(document)
-        self.draws = DRAWN in _kinds(document)
-        stated = _stated(document)
+        keys = _mentioned(document)
+        words = keys.get("lattice.kind", ())
+        self.of_file = next((k for k in FILED if any(w in words for w in k.words)), FILED[0])
+        stated = {target for name in keys for target in (name, *ALIASES.get(name, ()))}
         base = self._base(document)
         if one is not None:
             base |= self._profile(one, stated)
@@ -362,12 +365,7 @@ class Reader:
     def _drawn(self, raw: str) -> str:
         """The absolute path of a user's own structure or drawing."""
         path = self.folder / raw
-        if self.draws:
-            from sweep.config.drawings.drawing_file import read_drawing
-
-            self.notes += [f"{raw}: {note}" for note in read_drawing(path).lines.notes]
-        else:
-            read_structure(path)
+        self.notes += [f"{raw}: {note}" for note in self.of_file.check_file(path)]
         return str(path.resolve())
 
     def _in_si(self, key: Key, raw: Any) -> Any:
@@ -402,28 +400,15 @@ def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, An
     return kept, taken[0], taken[1]
 
 
-def _kinds(document: dict[str, Any]) -> set[str]:
-    """The kinds of lattice that a document names, or varies."""
-    lattice = document.get("lattice")
-    found = [lattice.get("kind")] if isinstance(lattice, dict) else []
-    found += [table.get("lattice.kind") for table in _varying(document)]
-    values = [value for kind in found for value in (kind if isinstance(kind, list) else [kind])]
-    return {value for value in values if isinstance(value, str)}
-
-
-def _stated(document: dict[str, Any]) -> set[str]:
-    """The keys of [lattice] that a document states, or varies."""
-    lattice = document.get("lattice")
-    names = {f"lattice.{key}" for key in (lattice if isinstance(lattice, dict) else {})}
-    names |= {key for table in _varying(document) for key in table}
-    return names | {target for name in names for target in ALIASES.get(name, ())}
-
-
-def _varying(document: dict[str, Any]) -> list[dict[str, Any]]:
-    """The tables of a document whose keys vary, with dotted keys."""
-    grid, search, ties = (document.get(name) for name in ("grid", "search", "zip"))
-    tables = [grid, search, *(ties if isinstance(ties, list) else [])]
-    return [_flat(table) for table in tables if isinstance(table, dict)]
+def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
+    """The keys of [lattice], and those that vary, with all values of a document; dotted."""
+    ties = document.get("zip")
+    tables = [{"lattice": document.get("lattice")}, document.get("grid"), document.get("search")]
+    keys: dict[str, list[Any]] = {}
+    for table in [*tables, *(ties if isinstance(ties, list) else [])]:
+        for name, value in _flat(table).items() if isinstance(table, dict) else ():
+            keys.setdefault(name, []).extend(value if isinstance(value, list) else [value])
+    return keys
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:

@@ -6,40 +6,12 @@ from typing import Any
 from sweep.config.case import Case
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
-from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.contact import Barrier
-from sweep.config.kinds.crush import Crush
-from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.damping import NoDamping
-from sweep.config.kinds.impact import DROP, Impact
-from sweep.config.kinds.sheet import SIDES
-from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.solver import ARCS
 from sweep.config.materials.material_file import locate, read_record
+from sweep.config.structures.structure import Structure
 
-STEADY = "the stress of the material does not depend on time: it has neither loss nor relaxation"
-NEEDS = {
-    "material.reference_time": STEADY,
-    "material.hardening": "material.yield_stress is not given",
-    "material.fracture_strain": "material.yield_stress is not given",
-    "material.softening_m": "material.softening_r is not given",
-    "material.softening_beta": "material.softening_r is not given",
-    "lattice.line_width": "there are neither lattice.perimeters nor a lattice.infill",
-    "lattice.layer_height": "lattice.solid_layers is 0",
-    "loading.strain_rate": STEADY,
-    "loading.hold_time": STEADY,
-    "loading.striker_at": 'loading.striker is "flat"',
-    "loading.striker_radius": 'loading.striker is not "round"',
-    "loading.striker_angle": 'loading.striker is not "edge"',
-    "loading.striker_tip": 'loading.striker is neither "edge" nor "punch"',
-    "loading.striker_width": 'loading.striker is not "punch"',
-    "loading.base_span": 'loading.base is not "ribs"',
-    "loading.base_radius": 'loading.base is not "ribs"',
-}
-"""Why an optional key is left out of the kind that has it."""
-
-ONLY_ALONG = ("lattice.layers", "lattice.symmetry", "lattice.imperfection_seed")
-FITTED = ("lattice.infill", *(f"lattice.{side}" for side in SIDES))
 IDLE_ALONG = (
     "loading.base_patch",
     *(f"material.{key}" for key in materials.IDLE_ALONG),
@@ -59,15 +31,14 @@ def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case
 
 def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
     """A clause that says what has no effect, and why; empty if the key has its full effect."""
-    if key == "lattice.file" and isinstance(case.lattice, CustomStructure):
-        return _unused_part(case.lattice, case)
+    if key == "lattice.file" and case.lattice.loaded:
+        return _unused_part(case.lattice.loaded, case)
     why = why_unused(key, given, case)
     return f"has no effect, as {why}" if why else ""
 
 
-def _unused_part(lattice: CustomStructure, case: Case) -> str:
+def _unused_part(structure: Structure, case: Case) -> str:
     """The part of a structure's file without effect in a static case; empty if there is none."""
-    structure = lattice.structure
     if not case.loading.quasi_static:
         return ""
     static = f'solver.integrator is "{case.solver.integrator}"'
@@ -104,17 +75,18 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     is that without its folder; the share of a sheet, and the sides of a block, are the nearest that
     fit.
     """
-    if key in FITTED and isinstance(case.lattice, SlicedSheet):
-        return key.split(".")[1] in case.lattice.given()
+    table, name = key.split(".")
+    if name in (kind := getattr(case, table)).fits:
+        return name in kind.given()
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":
-        return given[key] == DROP and isinstance(case.loading, Impact)
+        return given[key] in case.loading.words
     if key == "solver.time_step":
         return case_value is not None and "solver.load_steps" not in given
     if key in ("material.name", "lattice.file"):
         return case_value is not None
-    return key == "loading.speed" and isinstance(case.loading, Crush)
+    return key == "loading.speed" and case.loading.driven
 
 
 def _why_no_memory(given: Mapping[str, Any]) -> str:
@@ -132,15 +104,15 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the kinds of a case do not hold the value of a key."""
     table, name = key.split(".")
     kind = getattr(case, table)
-    if key in NEEDS and name in type(kind).model_fields:
-        return NEEDS[key]
+    if name in kind.needs:
+        return str(kind.needs[name])
     if key == "material.fibres":
         return f'material.bend is "{case.material.bend}"'
     if table == "lattice":
         return _reason_in_lattice(key, case)
     if ARCS in (name, case.solver.integrator) and table in ("contact", "solver", "loading"):
         return f'solver.integrator is "{case.solver.integrator}"'
-    if key == "solver.load_steps" or (key == "solver.accuracy" and not _is_crush(case)):
+    if key == "solver.load_steps" or (key == "solver.accuracy" and not case.loading.driven):
         return case.loading.because
     if key == "solver.accuracy":
         return f'solver.integrator is "{case.solver.integrator}"'
@@ -150,10 +122,6 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     if rubs and key == "contact.slip_speed" and kind.friction == 0.0:
         return "contact.friction is 0"
     return str(kind.because)
-
-
-def _is_crush(case: Case) -> bool:
-    return isinstance(case.loading, Crush)
 
 
 def _why_shells(case: Case) -> str:
@@ -176,10 +144,11 @@ def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
 def _reason_in_lattice(key: str, case: Case) -> str:
     if case.lattice.sheet and key != "lattice.imperfection_seed":
         return case.lattice.because
-    if key in ONLY_ALONG and not case.shells:
+    if key.split(".")[1] in case.lattice.across and not case.shells:
         return 'loading.direction is "in_plane"'
     if key == "lattice.imperfection_seed":
         return "lattice.imperfection is 0"
-    if isinstance(case.lattice, Cells) and key in ("lattice.file", "lattice.orientation"):
-        return f'lattice.kind is "{case.lattice.kind}"'
+    kind = case.lattice.given().get("kind")
+    if kind and key in ("lattice.file", "lattice.orientation"):
+        return f'lattice.kind is "{kind}"'
     return case.lattice.because

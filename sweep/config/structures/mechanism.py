@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.config.structures.structure import Structure
+from sweep.config.structures.structure import Structure, pieces_of
 
 Floats = NDArray[np.float64]
 
@@ -45,22 +45,11 @@ def find_mechanism(structure: Structure) -> str:
 
 
 def _bodies(structure: Structure) -> list[int]:
-    """Number of the body of every wall."""
-    owner = list(range(len(structure.walls)))
+    """Number of the body of every wall: of walls that share a node without a pin."""
     at: dict[int, int] = {}
-    for k, wall in enumerate(structure.walls):
-        for node in set(wall) - set(structure.pins):
-            other, here = _root(owner, at.setdefault(node, k)), _root(owner, k)
-            owner[max(other, here)] = min(other, here)
-    roots = [_root(owner, k) for k in range(len(owner))]
-    number = {root: n for n, root in enumerate(dict.fromkeys(roots))}
-    return [number[root] for root in roots]
-
-
-def _root(owner: list[int], k: int) -> int:
-    while owner[k] != k:
-        owner[k] = k = owner[owner[k]]
-    return k
+    ends = [(k, node) for k, wall in enumerate(structure.walls) for node in wall]
+    pairs = [(at.setdefault(node, k), k) for k, node in ends if node not in structure.pins]
+    return pieces_of(len(structure.walls), pairs)
 
 
 def _constraints(structure: Structure, body: list[int], points: Floats) -> Floats:

@@ -3,7 +3,7 @@
 Each key names its unit. Nodes are numbered from 0, in the order of the file.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -135,3 +135,15 @@ class Structure(Part):
         """Extent of the nodes in x and y, mm."""
         xs, ys = zip(*self.nodes_mm, strict=True)
         return max(xs) - min(xs), max(ys) - min(ys)
+
+
+def pieces_of(count: int, pairs: Any) -> list[int]:
+    """The number of the piece of each of ``count`` things, of which pairs (p, 2) hold together."""
+    import numpy as np
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    ends = np.array(pairs, np.int64).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(pairs)), tuple(ends)), shape=(count, count))
+    pieces: list[int] = connected_components(graph, directed=False)[1].tolist()
+    return pieces

@@ -17,6 +17,7 @@ from sweep.config.structures.structure import (
     SpringPart,
     Structure,
     Support,
+    pieces_of,
 )
 
 MAX_ELEMENTS = 50_000
@@ -243,18 +244,10 @@ def _loose(structure: Structure) -> Iterator[str]:
     for k, at in enumerate(structure.nodes_mm):
         if k not in used:
             yield _fault(("nodes_mm", k), at, "no wall ends here; allowed: nodes of walls")
-    owner = {node: node for node in used}
-
-    def root(node: int) -> int:
-        while owner[node] != node:
-            owner[node] = node = owner[owner[node]]
-        return node
-
-    for a, b in [*structure.walls, *(spring.nodes for spring in structure.springs)]:
-        if a in owner and b in owner:
-            owner[max(root(a), root(b))] = min(root(a), root(b))
+    pairs = [*structure.walls, *(spring.nodes for spring in structure.springs)]
+    piece = pieces_of(len(structure.nodes_mm), pairs)
     for k, wall in enumerate(structure.walls):
-        if root(wall[0]) != root(structure.walls[0][0]):
+        if piece[wall[0]] != piece[structure.walls[0][0]]:
             wrong = "not connected with wall 0; allowed: a structure in one piece"
             yield _fault(("walls", k), wall, wrong)
             return

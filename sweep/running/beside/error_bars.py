@@ -29,7 +29,7 @@ from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.ranking.unfinished import loaded
 from sweep.running.alone import Simulate
-from sweep.running.beside.refinement import pieces, refined
+from sweep.running.beside.refinement import refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
@@ -89,9 +89,9 @@ def companions(design: Case) -> list[Companion]:
     """The design with half the elements per wall, and with half the steps; with twice as many where
     there is a single one.
     """
-    before, count = pieces(design.lattice), design.solver.load_steps
+    before, count = design.lattice.pieces, design.solver.load_steps
     meshed = refined(design, elements=0.5 if min(before) > 1 else 2.0)
-    mesh = min(n / other for n, other in zip(before, pieces(meshed.lattice), strict=True))
+    mesh = min(n / other for n, other in zip(before, meshed.lattice.pieces, strict=True))
     longer = refined(design, steps=0.5 if count is None or count > 1 else 2.0)
     steps = 2.0 if count is None else count / (longer.solver.load_steps or 1)
     return [

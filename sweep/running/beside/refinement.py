@@ -3,10 +3,8 @@
 from typing import Any
 
 from sweep.config.case import Case
-from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.solver import Solver
-from sweep.config.network import network_of
 from sweep.design.upright_plan import most_layers
 
 ROUND_OFF = 1e-9
@@ -26,20 +24,11 @@ def refined(case: Case, elements: float = 1.0, steps: float = 1.0) -> Case:
     return case.model_copy(update=tables)
 
 
-def pieces(lattice: Lattice) -> tuple[int, ...]:
-    """Numbers of elements: of every wall, or of each wall of a structure."""
-    if isinstance(lattice, CustomStructure):
-        return lattice.structure.pieces
-    return (lattice.nodes_per_wall + 1,)
-
-
 def mesh(lattice: Lattice, times: float) -> dict[str, Any]:
     """What changes in a lattice with `times` the elements: its walls, and its layers of quads."""
-    before = pieces(lattice)
+    before = lattice.pieces
     after = tuple(_times(count, times) for count in before)
-    change: dict[str, Any] = {"nodes_per_wall": after[0] - 1}
-    if isinstance(lattice, CustomStructure):
-        change = {"structure": lattice.structure.model_copy(update={"subdivide": after})}
+    change = lattice.remeshed(after)
     if lattice.layers is None:
         return change
     ratio = min(one / other for one, other in zip(before, after, strict=True))
@@ -50,7 +39,7 @@ def layers(lattice: Lattice, count: int, thicker: float = 1.0) -> dict[str, int]
     """Layers of quads of plates whose walls are so many times as thick: at most as many as leave
     quads as high as walls are thick.
     """
-    most = most_layers(thicker * network_of(lattice).wall_thickness, lattice.depth)
+    most = most_layers(thicker * lattice.network.wall_thickness, lattice.depth)
     return {"layers": max(min(count, most), 1)}
 
 

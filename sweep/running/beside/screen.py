@@ -22,7 +22,6 @@ from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.lattice import Lattice
-from sweep.config.network import network_of
 from sweep.design.drawing import extent
 from sweep.design.upright_plan import mirror_fault
 from sweep.ranking.question import Question
@@ -64,7 +63,7 @@ def unit_column(design: Case) -> Case:
     change: dict[str, Any] = {"cells_x": 1, "cells_y": 1, "mass": None, "infill": None}
     change |= {"width": float(width), "height": float(height)}
     cell = lattice.model_copy(update=change)
-    if cell.symmetry == "quarter" and mirror_fault(network_of(cell)):
+    if cell.symmetry == "quarter" and mirror_fault(cell.network):
         change["symmetry"] = "none"
     return design.changed(lattice=change, loading={"allowed_forces": ()})
 
@@ -97,7 +96,7 @@ def run_columns(
 def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
     """The row of a design as its column (`row`) estimates it; id and labels are the design's."""
     whole = design.lattice
-    areas = [network_of(lattice).printed_area for lattice in (whole, cell)]
+    areas = [lattice.network.printed_area for lattice in (whole, cell)]
     boxes = [lattice.outer_size[0] * lattice.outer_size[1] for lattice in (whole, cell)]
     mass = areas[0] / areas[1]
     density = mass * boxes[1] / boxes[0]

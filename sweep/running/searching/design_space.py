@@ -16,11 +16,8 @@ from scipy.optimize import brentq
 from sweep.config.axis import Interval, Written, rounded_down
 from sweep.config.case import Case
 from sweep.config.grid import Config, Values, chosen_case
-from sweep.config.kinds.custom_structure import CustomStructure
-from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.specimen import Laid
-from sweep.config.network import network_of
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
 from sweep.ranking.budget import greatest_mass
@@ -83,11 +80,11 @@ class DesignSpace:
     def _limited(self, size: Interval, least: Case) -> Interval | None:
         """The axis up to its greatest value within the budget; None if its least exceeds that."""
         match least.lattice:
-            case CustomStructure() | Surface():
-                return size
             case Sliced():
                 return self._limited_of_slicer(size, least)
-        return size if size.name == "lattice.infill" else self._limited_walls(size, least)
+            case Laid() if size.name != "lattice.infill":
+                return self._limited_walls(size, least)
+        return size
 
     def _limited_of_slicer(self, size: Interval, least: Case) -> Interval | None:
         """The axis of the mass as extruded, or of the share of infill, up to the budget."""
@@ -151,14 +148,7 @@ def _with_walls(case: Case, thickness: float) -> Case:
 
 def _mass(case: Case) -> float:
     """Mass of a specimen (kg) as budgets count it."""
-    lattice = case.lattice
-    if isinstance(lattice, Surface):  # one period, which `optimize` refuses
-        return case.material.density * lattice.wall_thickness * lattice.area
-    if isinstance(lattice, CustomStructure):
-        area = network_of(lattice).printed_area
-    else:
-        area = counted_area(lattice.geometry)
-    return case.material.density * lattice.depth * area
+    return case.material.density * case.lattice.counted_volume
 
 
 def _greatest_share(least: Case, size: Interval, budget: float) -> float:

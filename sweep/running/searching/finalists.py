@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sweep.config.case import Case
-from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.specimen import Laid
@@ -59,21 +58,11 @@ def perturbed(design: Case) -> list[Corner]:
         count = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
             height = layers(base.lattice, count, by) if count else {}
-            variants[name] = _with(base, _walls(base.lattice, by) | height)
+            variants[name] = _with(base, base.lattice.thicker(by) | height)
         amount = base.lattice.imperfection
         bows = BOWS if amount else {}
         variants |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
     return [Corner(name, case) for name, case in variants.items() if case]
-
-
-def _walls(lattice: Laid, by: float) -> dict[str, Any]:
-    """Walls `by` times as thick in the same places, and perimeters if a slicer lays both: it
-    extrudes wider lines, at a share of infill that keeps their distance.
-    """
-    if not isinstance(lattice, Sliced):
-        return {"wall_thickness": by * lattice.wall_thickness}
-    wider = lattice.line_width + (by - 1.0) * lattice.line
-    return {"line_width": wider, "infill": by * lattice.infill}
 
 
 def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
@@ -100,6 +89,6 @@ def _with(design: Case, change: dict[str, Any]) -> Case | None:
         "lattice.wall_thickness": lattice.wall_thickness,
         "lattice.imperfection": lattice.imperfection,
     }
-    if not isinstance(lattice, CustomStructure):
-        labels["lattice.nodes_per_wall"] = lattice.nodes_per_wall
+    if "nodes_per_wall" in type(lattice).model_fields:
+        labels["lattice.nodes_per_wall"] = lattice.value("nodes_per_wall")
     return made.model_copy(update={"axes": design.axes | labels})

@@ -7,8 +7,6 @@ import numpy as np
 
 from kernels.plates.element import shell
 from sweep.config.kinds.lattice import Lattice
-from sweep.config.kinds.upright import quads_wanted
-from sweep.config.network import network_of
 from sweep.design.period import Endless
 from sweep.design.upright_plan import Plan, plan_of, quads_along
 from sweep.scene.mesh import Floats, Ints
@@ -101,9 +99,9 @@ class PlateMesh(ShellMesh):
 def build_mesh(lattice: Lattice) -> PlateMesh:
     """The mesh of a lattice that is pressed along its cells; as it is resolved, with its layers."""
     assert lattice.layers is not None
-    network = network_of(lattice)
+    network = lattice.network
     plan = plan_of(network, lattice.symmetry == "quarter")
-    along, bows = quads_along(plan, quads_wanted(lattice)), amplitudes(plan, lattice)
+    along, bows = quads_along(plan, lattice.wall_quads), amplitudes(plan, lattice)
     endless = network if isinstance(network, Endless) else None
     if endless is not None:
         bows = bows[endless.original]

@@ -11,7 +11,6 @@ from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
 from sweep.config.case import Case
 from sweep.config.kinds.sheet import Surface
-from sweep.config.network import network_of
 from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
 from sweep.scene.mesh import Floats
@@ -77,7 +76,7 @@ def build_scene(case: Case) -> Scene:
     if isinstance(lattice, Surface):
         sheet = mesh_of_sheet(lattice)
         return scene_of(case, sheet, None, case.material.density * solid_of(lattice, sheet))
-    mesh, network = build_mesh(lattice), network_of(lattice)
+    mesh, network = build_mesh(lattice), lattice.network
     printed = mass(network, lattice.depth, case.material.density)
     return scene_of(case, mesh, network, printed)
 

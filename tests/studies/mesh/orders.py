@@ -2,7 +2,7 @@
 
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.sheet import Sheet
-from sweep.running.beside.refinement import pieces, refined
+from sweep.running.beside.refinement import refined
 from tests.studies.rankings.orders import compared, merits
 
 FINE = 12  # elements of a wall, at least
@@ -12,7 +12,7 @@ PATIENCE = 600.0  # s for a case
 
 def finer(case):
     """The same case with more elements."""
-    finest = refined(case, elements=max(FINE / min(pieces(case.lattice)), TIMES))
+    finest = refined(case, elements=max(FINE / min(case.lattice.pieces), TIMES))
     solver = finest.solver.model_copy(update={"time_limit": PATIENCE})
     return finest.model_copy(update={"solver": solver})
 

@@ -16,7 +16,7 @@ from sweep.config.load import load_config
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 from sweep.running.beside.error_bars import add_error_bars
-from sweep.running.beside.refinement import pieces, refined
+from sweep.running.beside.refinement import refined
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 from tests.studies.tables import publish
@@ -32,7 +32,7 @@ NAMES = {"displacement": "crushed", "force": "dead load", "impact": "struck"}
 
 def finer(case):
     """The case with many elements a wall and short steps."""
-    fine = refined(case, elements=ELEMENTS / min(pieces(case.lattice)), steps=STEPS)
+    fine = refined(case, elements=ELEMENTS / min(case.lattice.pieces), steps=STEPS)
     solver = fine.solver.model_copy(update={"time_limit": PATIENCE})
     return fine.model_copy(update={"solver": solver, "axes": {}})
 

@@ -1,6 +1,6 @@
 """Tables of cases from a few of their values."""
 
-from sweep.config.case import lattice_of
+from sweep.config.kinds.lattice import lattice_of
 from sweep.config.kinds.material import material
 
 DENSITY = 1190.0  # kg/m^3, that of ninjaflex

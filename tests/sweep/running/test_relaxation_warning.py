@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.running.relaxation_warning import loading_time, sentences_on_lossless
+from sweep.running.relaxation_warning import sentences_on_lossless
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from tests.support.designs.cases import pressed
@@ -23,7 +23,8 @@ SLOW = material_with(relaxation_times=(2.0, 60.0), relaxation_shares=(0.2, 0.1),
     ],
 )
 def test_time_of_a_loading(loading, time):
-    assert loading_time(Case.of(loading=loading)) == pytest.approx(time)
+    case = Case.of(loading=loading)
+    assert case.loading.loaded_for(case.height) == pytest.approx(time)
 
 
 def test_an_impact_is_too_short_for_slow_branches_and_is_told():

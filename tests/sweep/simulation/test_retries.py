@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.kinds.steps import impact_step
 from sweep.numbers import with_unit
 from sweep.result import Status, failed_result
 from sweep.simulation import retries
@@ -142,7 +141,7 @@ def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
 def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):
     asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
     result = simulate_again(STRIKE)
-    usual = impact_step(STRIKE.loading, STRIKE.extent)
+    usual = STRIKE.loading.contact_step(STRIKE.pressed, STRIKE.material.modulus)
     steps = [case.solver.time_step for case in asked]
     assert steps == pytest.approx([1e-3, usual, usual / 4.0])
     assert result.summary["retry"] == f"solver.time_step = {with_unit(usual / 4.0, 's')}"
@@ -194,7 +193,9 @@ def test_an_impact_in_steps_that_take_too_long_leaves_time_for_the_usual_ones(mo
     assert result.status is Status.CONVERGED
     assert limits[0] == 10.0
     assert limits[1] == pytest.approx(40.0, abs=1.0)
-    assert asked[1].solver.time_step == impact_step(case.loading, case.extent)
+    assert asked[1].solver.time_step == case.loading.contact_step(
+        case.pressed, case.material.modulus
+    )
 
 
 def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones():

@@ -9,7 +9,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.config.structures.structure_file import read_structure
 from sweep.design.upright_plan import most_layers
-from sweep.running.beside.refinement import layers, pieces, refined
+from sweep.running.beside.refinement import layers, refined
 from tests.support.designs.structures import BEAM
 
 CRUSH = {"mode": "displacement", "strain": 0.5}
@@ -31,7 +31,7 @@ def test_a_refined_case_is_that_of_its_numbers(times, elements, steps):
 
 def test_a_number_of_elements_may_be_asked_for():
     for before in range(1, 30):
-        assert pieces(refined(crush(before, 20), elements=12 / before).lattice) == (12,)
+        assert refined(crush(before, 20), elements=12 / before).lattice.pieces == (12,)
 
 
 def test_a_case_without_a_change_is_itself():
@@ -63,4 +63,4 @@ def test_every_wall_of_a_structure_is_divided(tmp_path):
     file.write_text(json.dumps(BEAM | {"subdivide": 3}))
     lattice = dict(kind="custom", structure=read_structure(file), file=str(file))
     case = Case.of(lattice=lattice, loading=dict(mode="custom"))
-    assert prod(pieces(refined(case, elements=2.0).lattice)) == 2 * prod(pieces(case.lattice))
+    assert prod(refined(case, elements=2.0).lattice.pieces) == 2 * prod(case.lattice.pieces)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.network import network_of
 from sweep.design.infill import families
 from sweep.design.network import mass
 from sweep.ranking.question import Question
@@ -27,13 +26,13 @@ def along(kind="square", **lattice):
 
 def pitch(case):
     """Length of the longest wall."""
-    network = network_of(case.lattice)
+    network = case.lattice.network
     start, end = network.points[network.walls].swapaxes(0, 1)
     return np.linalg.norm(end - start, axis=1).max()
 
 
 def grams(case):
-    return 1e3 * mass(network_of(case.lattice), case.lattice.depth, case.material.density)
+    return 1e3 * mass(case.lattice.network, case.lattice.depth, case.material.density)
 
 
 @pytest.mark.parametrize("kind", families())

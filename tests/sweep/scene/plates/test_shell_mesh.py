@@ -8,7 +8,6 @@ from scipy.spatial import cKDTree
 
 from kernels.shared.rows import CONTACT
 from sweep.config.case import Case
-from sweep.config.network import network_of
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.simulate import simulate
 from tests.support.kernels.pressed_plates import shaken, whole
@@ -54,7 +53,7 @@ def test_the_walls_of_a_period_have_all_its_area(kind):
     assert mesh.area.sum() == pytest.approx(expected, rel=1e-12)
     thin = case(kind, FAMILIES[kind], wall_thickness=1e-3 * T).lattice
     filled = mesh.area.sum() * T / (lattice.width * lattice.height * lattice.depth)
-    drawn = network_of(thin).printed_area * 1e3 / (thin.width * thin.height)
+    drawn = thin.network.printed_area * 1e3 / (thin.width * thin.height)
     assert filled == pytest.approx(drawn, rel=5e-3)
 
 
