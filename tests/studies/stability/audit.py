@@ -296,8 +296,9 @@ def _balance(seen):
     """The residual of a step and its energies, computed anew."""
     scene = SimpleNamespace(terms=seen.terms)
     h, points = seen.step.h if seen.step.dynamic else np.inf, 2 * seen.terms.layout.n_nodes
-    moved = np.linalg.norm((seen.x - seen.step.x0)[:points].reshape(-1, 2), axis=1).max()
-    made = whole(scene, seen.x, seen.step.x0, h, reach=seen.terms.contact.reach + 2.0 * moved)
+    moves = seen.x - seen.step.x0, seen.ahead.move
+    moved = max(np.linalg.norm(u[:points].reshape(-1, 2), axis=1).max() for u in moves)
+    made = whole(scene, seen.x, seen.step.x0, h, reach=seen.terms.contact.reach + 4.0 * moved)
     step = Whole(made.problem, seen.step)
     step.problem.begin(seen.step, seen.ahead, np.zeros_like(seen.x))
     lagged = _first_ends(step, seen) if seen.corrected else [seen.step.x0]
