@@ -24,14 +24,14 @@ HEADS = (
 )  # fmt: skip
 
 
-def crush(nodes, **loading):
+def crush(nodes, strain=0.5):
     """The crush with so many nodes in half a period."""
     lattice = {"kind": "gyroid", "depth": 12.5e-3, "cell_size": 6.25e-3, "wall_thickness": 0.4e-3}
     pressed = {"mode": "displacement", "direction": "out_of_plane", "platen": "clamped"}
     return Case.of(
         lattice=lattice | {"nodes_per_wall": nodes},
         material={"name": "ninjaflex"},
-        loading=pressed | {"strain": 0.5, "unload": False} | loading,
+        loading=pressed | {"strain": strain, "unload": False},
         solver={"time_limit": 7200.0},
     )
 
@@ -61,11 +61,12 @@ def line(case, history, row):
     ]
 
 
-def main(folder, cases=tuple(map(crush, NODES))):
+def main(folder, nodes=NODES):
     """Run what is missing, and print the table; return whether a crush stopped."""
+    cases = [crush(count) for count in nodes]
     folder.mkdir(parents=True, exist_ok=True)
     file = str(folder / "mesh.h5")
-    run_sweep(list(cases), file)
+    run_sweep(cases, file)
     rows = read_summary(file).set_index("case_id", drop=False)
     rows = [rows.loc[case.case_id] for case in cases]
     lines = [
