@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -20,6 +20,7 @@ from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.report.figures import case_plots, cushion_plots, design_map
 from sweep.report.figures.base_plots import base_pressure
+from sweep.report.figures.panel_piece import piece
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars
 from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.shaded import cut_open
@@ -175,8 +176,13 @@ def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:
     """Frames of all designs by their id; none if there are too many to draw, or if one has none."""
     if len(designs) > MAX_DRAWN:
         return {}
-    frames = {case_id: read_frames(file, case_id) for case_id in designs["case_id"]}
+    frames = {row["case_id"]: _frames(file, row) for _, row in designs.iterrows()}
     return frames if all(frames.values()) else {}
+
+
+def _frames(file: str, row: Series) -> Mapping[str, Any]:
+    """The shapes of a case, of a panel without end a piece."""
+    return piece(read_frames(file, row["case_id"]), row)
 
 
 def _some_scenes(ranking: Ranking, mode: str) -> Ranking:
@@ -192,21 +198,21 @@ def _size(designs: DataFrame) -> tuple[float, float]:
     return 5.0 * min(2, scenes) + 1.8, 4.2 * -(-scenes // 2)
 
 
-def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, dict[str, Any]]:
+def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, Mapping[str, Any]]:
     """Frames of the best crushed or struck designs, by a title with budget, scene and design."""
     first = shown[~has(shown, "dead")].drop_duplicates(["budget_g", "scene"])
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, designs), strict=True):
         budget = f"up to {row['budget_g']:.4g} g, " if row["budget_g"] > 0.0 else ""
-        if frames := read_frames(file, row["case_id"]):
+        if frames := _frames(file, row):
             winners[f"{budget}{row['scene']}: {design}"] = frames
     return winners
 
 
 def case_figures(file: str, row: Series) -> Named:
     """Figures of the curves and shapes of a case, if it has any."""
-    history, frames = read_history(file, row["case_id"]), read_frames(file, row["case_id"])
+    history, frames = read_history(file, row["case_id"]), _frames(file, row)
     mode = MODES[row["loading_mode"]]
     if len(history) > 1:
         figure = case_plots.blank(8.0, 4.4)

@@ -47,6 +47,21 @@ def _bins(places, grid):
     return grouped(home, counts[0] * counts[1] * counts[2])
 
 
+@jit_owning
+def _without_images(bins, is_image):
+    """Return the bins without what ``is_image`` (n,)."""
+    start, order = bins
+    first, kept, n = np.empty(start.size, np.int64), np.empty(order.size, np.int64), 0
+    for c in range(start.size - 1):
+        first[c] = n
+        for q in range(start[c], start[c + 1]):
+            if not is_image[order[q]]:
+                kept[n] = order[q]
+                n += 1
+    first[start.size - 1] = n
+    return first, kept
+
+
 @jit_exact
 def _box(x, nodes, radius, box):
     """Write the bounding box of ``nodes``, ``radius`` wider on all sides, to ``box`` (2, 3)."""
@@ -80,7 +95,7 @@ def _is_in(at, box):
 
 
 @jit_exact
-def _near_triangle(x, original, triangles, k, radius, grid, bins, scratch, found):
+def _near_triangle(x, triangles, k, radius, grid, bins, scratch, found):
     """Append the nodes within ``radius`` of triangle ``k`` to ``found``; return their number."""
     start, order = bins
     box, span = scratch
@@ -94,7 +109,7 @@ def _near_triangle(x, original, triangles, k, radius, grid, bins, scratch, found
             line = (i * counts[1] + j) * counts[2]
             for q in range(start[line + span[0, 2]], start[line + span[1, 2] + 1]):
                 p = order[q]
-                if p == a or p == b or p == c or original[p] != p:
+                if p == a or p == b or p == c:
                     continue
                 at = point(x, p)
                 if _is_in(at, box):
@@ -128,14 +143,16 @@ def node_triangle(x, n_nodes, original, triangles, radius):
     node, triangle, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
     if triangles.shape[0] == 0:
         return node[:0], triangle[:0], distance[:0]
-    places = np.empty((n_nodes, 3))
+    places, is_image = np.empty((n_nodes, 3)), np.empty(n_nodes, np.bool_)
     for p in range(n_nodes):
         places[p, 0], places[p, 1], places[p, 2] = point(x, p)
+        is_image[p] = original[p] != p
     grid = _grid(places, radius)
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
+    bins = _without_images(bins, is_image)
     found, count = _room(n_nodes), 0
     for k in range(triangles.shape[0]):
-        n = _near_triangle(x, original, triangles, k, radius, grid, bins, scratch, found)
+        n = _near_triangle(x, triangles, k, radius, grid, bins, scratch, found)
         if count + n > node.size:
             size = 2 * (count + n)
             node, triangle = grown(node, size), grown(triangle, size)
@@ -158,10 +175,9 @@ def _boxes_overlap(box, x, c, d):
 
 
 @jit_exact
-def _near_edge(x, edges, own, e, radius, half, grid, bins, scratch, found):
+def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
     """Append the edges after ``e`` within ``radius`` of it to ``found``; return their number.
 
-    own (l,): pairs of two edges of 0 are left out.
     half: half the length of the longest edge, m.
     """
     start, order = bins
@@ -176,7 +192,7 @@ def _near_edge(x, edges, own, e, radius, half, grid, bins, scratch, found):
             line = (i * counts[1] + j) * counts[2]
             for q in range(start[line + span[0, 2]], start[line + span[1, 2] + 1]):
                 other = order[q]
-                if other <= e or own[e] + own[other] == 0.0:
+                if other <= e:
                     continue
                 c, d = edges[other, 0], edges[other, 1]
                 if c == a or c == b or d == a or d == b or not _boxes_overlap(box, x, c, d):
@@ -193,7 +209,7 @@ def edge_edge(x, edges, own, radius):
     """Return (one, two, distance) of pairs of edges closer than ``radius`` (m) that share no node,
     one < two, by ascending ``one``. own (l,): at least one of them is not 0.
     """
-    m, half = edges.shape[0], 0.0
+    m, half, is_image = edges.shape[0], 0.0, own == 0.0
     one, two, distance = np.empty(64, np.int64), np.empty(64, np.int64), np.empty(64)
     if m == 0:
         return one[:0], two[:0], distance[:0]
@@ -204,10 +220,11 @@ def edge_edge(x, edges, own, radius):
             places[e, k] = 0.5 * (a[k] + b[k])
         half = max(half, 0.5 * length(minus(a, b)))
     grid = _grid(places, radius + half)
-    bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
-    found, count = _room(m), 0
+    every, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
+    proper, found, count = _without_images(every, is_image), _room(m), 0
     for e in range(m):
-        n = _near_edge(x, edges, own, e, radius, half, grid, bins, scratch, found)
+        bins = proper if is_image[e] else every
+        n = _near_edge(x, edges, e, radius, half, grid, bins, scratch, found)
         if count + n > one.size:
             size = 2 * (count + n)
             one, two, distance = grown(one, size), grown(two, size), grown(distance, size)

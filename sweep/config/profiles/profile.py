@@ -81,6 +81,7 @@ LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
         "fuzzy_skin": ("none", "disabled_fuzzy"),
         "alternate_extra_wall": ("0",),
         "sparse_infill_rotate_template": ("",),
+        "gyroid_optimized": ("0",),
         "infill_wall_overlap": ("25%",),
         "filament_flow_ratio": ("1",),
         "print_flow_ratio": ("1",),

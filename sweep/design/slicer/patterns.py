@@ -186,8 +186,10 @@ NEAREST = {"brick": "square", "circle": "hex", "reentrant": "hex"}
 """Families that no slicer draws -> one like them that slicers draw; not all have one."""
 
 TURNS = "it turns from layer to layer", "alignedrectilinear"
-WANDERS = "its walls wander from layer to layer", "honeycomb"
-CUBES = "its walls are inclined to the layers", "triangles"
+TWISTS = "its walls turn with the height, which would need prisms that turn", "honeycomb"
+LEVELS = "its walls wander from layer to layer, which would need its level surface", "honeycomb"
+CELLS = "its walls are inclined and meet along lines, which would need their joints", "honeycomb"
+CUBES = CELLS[0], "triangles"
 TREES = "it changes from layer to layer", "grid"
 LOOPS = "its loops do not meet, and only the top and the bottom hold them", "grid"
 PATHS = "it is one winding path without joints", "grid"
@@ -199,9 +201,9 @@ NO_PRISMS = {
     "zig-zag": TURNS,
     "zig_zag": TURNS,
     "monotonic": TURNS,
-    "tpmsfk": WANDERS,
-    "3dhoneycomb": WANDERS,
-    "crosshatch": WANDERS,
+    "tpmsfk": LEVELS,
+    "3dhoneycomb": CELLS,
+    "crosshatch": TWISTS,
     "cubic": CUBES,
     "cubicsubdiv": CUBES,
     "adaptivecubic": CUBES,

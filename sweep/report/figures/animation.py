@@ -11,6 +11,7 @@ import numpy as np
 from sweep.modes import MODES
 from sweep.numbers import in_unit
 from sweep.report.figures import case_plots
+from sweep.report.figures.panel_piece import piece
 from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.storyboard import FLOWN, headline
 
@@ -33,7 +34,7 @@ def write_gif(
     """Write the animation of a case, which repeats for ever."""
     from PIL import Image
 
-    frames = standing(frames)
+    frames = piece(standing(frames), row)
     count, figure = len(frames["strain"]), case_plots.blank(*SIZE)
     figure.set_layout_engine("none")  # pictures of one series have one layout
     pictures = []

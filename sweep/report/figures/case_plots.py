@@ -48,7 +48,7 @@ BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"
 WALL, PLATEN, GRID = "#2b4c6f", "#c9c9c9", "#e6e6e6"
 
-SHADES = LinearSegmentedColormap.from_list("walls", ["#16283c", WALL, "#7fa3c7", "#dfe9f3"])
+SHADES = LinearSegmentedColormap.from_list("walls", shaded.COLOURS)
 COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), strict=True))
 PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign

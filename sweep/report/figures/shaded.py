@@ -18,7 +18,20 @@ if TYPE_CHECKING:
 
 AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # of the camera, from the x axis and up
 LIGHT = np.array([-0.25, -0.65, 0.75])  # towards the light, left above the camera
+LIGHT /= np.linalg.norm(LIGHT)
 AMBIENT = 0.25  # shade of a face that turns its side to the light
+COLOURS = ("#16283c", "#2b4c6f", "#7fa3c7", "#dfe9f3")  # of shades from 0 to 1
+
+
+def _camera() -> Floats:
+    """Directions to the right and up the screen, and towards the camera, (3, 3)."""
+    low, high = (np.sin(ELEVATION), np.cos(ELEVATION))
+    across = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
+    toward = np.array([high * np.cos(AZIMUTH), high * np.sin(AZIMUTH), low])
+    return np.stack([across, np.cross(toward, across), toward])
+
+
+CAMERA = _camera()
 
 
 class Faces(NamedTuple):
@@ -30,11 +43,8 @@ class Faces(NamedTuple):
 
 def seen(points: Floats) -> tuple[Floats, Floats]:
     """Points (..., 3) on the screen, (..., 2), and how near they are to the camera, (...)."""
-    low, high = (np.sin(ELEVATION), np.cos(ELEVATION))
-    across = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
-    toward = np.array([high * np.cos(AZIMUTH), high * np.sin(AZIMUTH), low])
-    upwards = np.cross(toward, across)
-    return points @ np.column_stack([across, upwards]), points @ toward
+    view = points @ CAMERA.T
+    return view[..., :2], view[..., 2]
 
 
 def faces(position: Floats, quads: NDArray[np.int64]) -> Faces:
@@ -43,19 +53,22 @@ def faces(position: Floats, quads: NDArray[np.int64]) -> Faces:
     screen, near = seen(corner)
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
     length = np.linalg.norm(normal, axis=1)
-    toward = LIGHT / np.linalg.norm(LIGHT)
-    lit = np.abs(normal @ toward) / np.where(length > 0.0, length, 1.0)
+    lit = np.abs(normal @ LIGHT) / np.where(length > 0.0, length, 1.0)
     order = np.argsort(near.mean(axis=1), kind="stable")
     return Faces(screen[order], (AMBIENT + (1.0 - AMBIENT) * lit)[order])
 
 
 def platen(box: Floats, height: float, margin: float) -> Floats:
-    """Corners (4, 2) on the screen of a rectangle at a height; box: least and greatest x and y,
-    (2, 2), widened by a margin. All in one unit of length.
+    """Corners (4, 2) on the screen of the rectangle `ring` at a height."""
+    return seen(np.column_stack([ring(box, margin), np.full(4, height)]))[0]
+
+
+def ring(box: Floats, margin: float) -> Floats:
+    """Corners (4, 2) of a rectangle; box: least and greatest x and y, (2, 2), widened by a margin.
+    All in one unit of length.
     """
     (left, front), (right, back) = box[0] - margin, box[1] + margin
-    ring = [[left, front], [right, front], [right, back], [left, back]]
-    return seen(np.column_stack([ring, np.full(4, height)]))[0]
+    return np.array([[left, front], [right, front], [right, back], [left, back]])
 
 
 def cut_open(frames: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,6 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
-from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
@@ -24,8 +23,8 @@ from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import interrupted, loaded, same_scenes, stroke_left, unloaded
-from sweep.report.figures.flattened import lines, plan
-from sweep.report.figures.shaded import cut_open
+from sweep.report.figures.flattened import plan
+from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
 from sweep.report.page.selection import (
     SCENES,
@@ -42,7 +41,7 @@ from sweep.report.page.thinning import (
     thin_stairs,
     work_until,
 )
-from sweep.report.page.trails import UNIT, drawing, moving_shape
+from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import meanings, other_bow, unprintable
 from sweep.report.tables.narrow_note import narrow_note
@@ -332,14 +331,14 @@ class _Stored:
         return self._known.get(key)
 
     def _move(self, case: StoredRun, row: Series) -> None:
-        """Keep the moving shape of a case if there is room; of a sheet that behind its middle, as
-        all of its lines would hide one another.
-        """
+        """Keep the moving shape of a case if there is room."""
         if self._room["shapes"] <= 0:
             return
-        shapes = cut_open(case.frames) if is_sheet(row["lattice_kind"]) else case.frames
-        shapes = lines(shapes) if "quads" in shapes else shapes
-        moving = moving_shape(shapes, _forces(case.frames, case.history, row))
+        forces = _forces(case.frames, case.history, row)
+        if "quads" in case.frames:
+            moving = moving_faces(piece(case.frames, row, 1), forces, places(row))
+        else:
+            moving = moving_shape(case.frames, forces)
         if self._fits("shapes", len(json.dumps(moving))):
             self.shapes[case.case_id] = moving
 

@@ -737,7 +737,7 @@ function showStage(design) {
     $("stage").replaceChildren(...(drawn ? [drawingOf(drawn, { style: "color: var(--wall)" })] : []), words);
     return;
   }
-  player = { ...stage($("stage"), moving), moving };
+  player = { ...(moving.quads ? solidStage : stage)($("stage"), moving), moving };
   $("frame").max = player.frames - 1;
   showFrame(view.frame < player.frames && view.frame ? view.frame : Math.floor(player.frames / 3));
 }

@@ -142,23 +142,93 @@ function drawingFile(drawing) {
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(svg)}\n`;
 }
 
-// A player of moving shapes in `box`: show(k) draws frame k.
-function stage(box, moving) {
-  const bytes = Uint8Array.from(atob(moving.position), (letter) => letter.charCodeAt(0));
+// A function of a frame, a node and an axis to the coordinate of a moving shape.
+function coordinates({ position, low, step, nodes }) {
+  const bytes = Uint8Array.from(atob(position), (letter) => letter.charCodeAt(0));
   const counts = new DataView(bytes.buffer);
-  const frames = moving.strain.length;
-  const at = (k, node, axis) =>
-    moving.low[axis] + moving.step * counts.getUint16(2 * (2 * (k * moving.nodes + node) + axis), true);
+  return (k, node, axis) => low[axis] + step * counts.getUint16(2 * (low.length * (k * nodes + node) + axis), true);
+}
+
+// Left, right, low and high end of points.
+function bounds(points) {
   let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let k = 0; k < frames; k += 1)
-    for (let node = 0; node < moving.nodes; node += 1) {
-      const [x, y] = [at(k, node, 0), at(k, node, 1)];
-      [left, right] = [Math.min(left, x), Math.max(right, x)];
-      [low, high] = [Math.min(low, y), Math.max(high, y)];
+  for (const [x, y] of points) {
+    [left, right] = [Math.min(left, x), Math.max(right, x)];
+    [low, high] = [Math.min(low, y), Math.max(high, y)];
+  }
+  return [left, right, low, high];
+}
+
+const inner = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const minus = (a, b) => a.map((value, i) => value - b[i]);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+// A point on the screen, as `seen` of shaded.py.
+function seen({ camera }, point) {
+  return [inner(point, camera[0]), inner(point, camera[1])];
+}
+
+// Quads from back to front, as `faces` of shaded.py; at: position of a node.
+function faces(moving, at) {
+  const { quads, laid, camera, light, ambient } = moving;
+  const found = [];
+  for (const nodes of quads) {
+    const corner = nodes.map(at);
+    const normal = cross(minus(corner[2], corner[0]), minus(corner[3], corner[1]));
+    const shade = ambient + ((1 - ambient) * Math.abs(inner(normal, light))) / (Math.hypot(...normal) || 1);
+    for (const [x, y] of laid) {
+      const moved = corner.map((point) => [point[0] + x, point[1] + y, point[2]]);
+      const near = moved.reduce((sum, point) => sum + inner(point, camera[2]), 0);
+      found.push({ corners: moved.map((point) => seen(moving, point)), near, shade });
     }
+  }
+  return found.sort((a, b) => a.near - b.near);
+}
+
+// The colour of a shade from 0 to 1, between red, green and blue of a list.
+function shadeColour(colours, shade) {
+  const place = Math.min(shade, 1) * (colours.length - 1);
+  const first = Math.min(Math.floor(place), colours.length - 2);
+  const mixed = colours[first].map((low, i) => low + (place - first) * (colours[first + 1][i] - low));
+  return `rgb(${mixed.map(Math.round)})`;
+}
+
+// A player of moving plates in `box`: show(k) draws frame k, with the outline of the upper platen.
+function solidStage(box, moving) {
+  const coordinate = coordinates(moving);
+  const frames = moving.strain.length;
+  const at = (k) => (node) => [0, 1, 2].map((axis) => coordinate(k, node, axis));
+  const platen = (height) => moving.ring.map(([x, y]) => seen(moving, [x, y, height]));
+  const all = moving.plates.flatMap((ends, k) => [...ends.flatMap(platen), ...faces(moving, at(k)).flatMap((face) => face.corners)]);
+  const [left, right, low, high] = bounds(all);
+  const viewBox = `${left} ${-high} ${right - left} ${high - low}`;
+  const svg = shape("svg", { class: "stage", viewBox, role: "img", "aria-label": "shape of the lattice" });
+  const lower = shape("polygon", { class: "platen" });
+  const upper = shape("polygon", { class: "outline" });
+  const drawn = moving.quads.flatMap(() => moving.laid).map(() => shape("polygon", { class: "face" }));
+  svg.append(lower, ...drawn, upper);
+  box.replaceChildren(svg);
+  const place = (polygon, points) => polygon.setAttribute("points", points.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" "));
+  const show = (k) => {
+    faces(moving, at(k)).forEach(({ corners, shade }, i) => {
+      place(drawn[i], corners);
+      drawn[i].setAttribute("fill", shadeColour(moving.colours, shade));
+    });
+    place(lower, platen(moving.plates[k][0]));
+    place(upper, platen(moving.plates[k][1]));
+  };
+  return { show, frames };
+}
+
+// A player of moving walls in `box`: show(k) draws frame k.
+function stage(box, moving) {
+  const at = coordinates(moving);
+  const frames = moving.strain.length;
+  const every = moving.strain.flatMap((_, k) => Array.from({ length: moving.nodes }, (_, node) => [at(k, node, 0), at(k, node, 1)]));
+  const [left, right, low, top] = bounds(every);
   const wide = Math.max(...moving.trails.map(([thickness]) => thickness));
   const standing = moving.plates.map((ends) => ends[1]).filter((y) => y !== null);
-  high = Math.min(Math.max(high + wide, ...standing), low + 3 * (right - left) + wide);
+  const high = Math.min(Math.max(top + wide, ...standing), low + 3 * (right - left) + wide);
   const plate = 0.05 * Math.max(right - left, high - low);
   const edge = wide + plate;
   const [width, height] = [right - left + 2 * edge, high - low + wide + 2 * plate];

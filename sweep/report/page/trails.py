@@ -1,4 +1,4 @@
-"""Walls of a shape as few long polylines, and shapes as short text."""
+"""Walls of a shape as few long polylines, or as faces, and shapes as short text."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.numbers import in_unit
+from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
 
@@ -23,6 +24,7 @@ STRAIGHT = 0.03  # of the wall thickness: nodes nearer to a straight wall are no
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it
 GRID = 65535  # steps of a coordinate of a frame
 FRAMES = 24
+PLATEN = 0.05  # of the width of plates: by how much their platens are wider
 
 
 class Trail(NamedTuple):
@@ -123,35 +125,63 @@ def _path(points: Sequence[Sequence[int]]) -> str:
 
 
 def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, Any]:
-    """Some frames of a case: trails of nodes, and positions as 16-bit numbers in base 64.
+    """Some frames of a case: trails of nodes, and what `_moving` has.
 
-    frames : from `read_frames`. forces : of every frame (N), None if unknown. x = low x + step x
-    number, in mm; frame after frame, the x and y of every node that is drawn.
+    frames : from `read_frames`. forces : of every frame (N), None if unknown.
+    """
+    used, edges = np.unique(frames["edges"], return_inverse=True)
+    position = np.asarray(frames["position_m"], float)[:, used]
+    lines = trails(position[0], edges.reshape(-1, 2), frames["edge_thickness_m"].astype(float))
+    return {
+        **_moving(frames, position, forces),
+        "profiles": [[*map(_points, shapes)] for shapes in outlines(frames)],
+        "trails": [[float(f"{in_unit(t.thickness, 'mm'):.4g}"), t.nodes] for t in lines],
+    }
+
+
+def moving_faces(frames: Mapping[str, Any], forces: Sequence[Any], laid: Floats) -> dict[str, Any]:
+    """The same of plates: nodes of their quads, and how `shaded.faces` sees them. laid (k, 2): how
+    far the pieces that are drawn side by side are moved along x and y, m.
+    """
+    used, quads = np.unique(frames["quads"], return_inverse=True)
+    position = np.asarray(frames["position_m"], float)[:, used]
+    plan, laid = in_unit(position[0, :, :2], "mm"), in_unit(laid, "mm")
+    box = np.stack([plan.min(0), plan.max(0) + laid.max(0)])
+    return {
+        **_moving(frames, position, forces),
+        "quads": quads.reshape(-1, 4).tolist(),
+        "laid": _points(laid),
+        "ring": _points(ring(box, PLATEN * float(np.ptp(box, axis=0).max()))),
+        "camera": CAMERA.tolist(),
+        "light": LIGHT.tolist(),
+        "ambient": AMBIENT,
+        "colours": [[*bytes.fromhex(colour[1:])] for colour in COLOURS],
+    }
+
+
+def _moving(frames: Mapping[str, Any], position: Floats, forces: Sequence[Any]) -> dict[str, Any]:
+    """Strain, time, force and platens of some frames, and positions (f, n, c) in m as 16-bit
+    numbers in base 64: x = low x + step x number, in mm; frame after frame, node after node.
     """
     chosen = _even(len(frames["strain"]))
-    used, edges = np.unique(frames["edges"], return_inverse=True)
-    edges = edges.reshape(-1, 2)
-    position = in_unit(frames["position_m"][chosen][:, used].astype(float), "mm")
+    position = in_unit(position[chosen], "mm")
     low = position.min((0, 1))
     step = float((position.max((0, 1)) - low).max()) / GRID or 1.0
     counts = np.rint((position - low) / step).astype("<u2")
     plates = in_unit(frames["plate_y_m"][chosen], "mm")
-    lines = trails(position[0], edges, frames["edge_thickness_m"].astype(float))
     return {
         "strain": _few(in_unit(frames["strain"][chosen], "%")),
         "time": _few(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
         "plates": [_few(ends) for ends in plates],
-        "profiles": [[*map(_points, shapes)] for shapes in outlines(frames)],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
-        "nodes": len(used),
-        "trails": [[float(f"{in_unit(t.thickness, 'mm'):.4g}"), t.nodes] for t in lines],
+        "nodes": position.shape[1],
         "position": b64encode(counts.tobytes()).decode(),
     }
 
 
-def _points(outline: np.ndarray) -> list[list[float]]:
+def _points(outline: Floats) -> list[list[float]]:
     return [[float(f"{v:.4g}") for v in point] for point in outline]
 
 

@@ -72,6 +72,19 @@ def test_against_all_pairs(seed, radius):
         assert 200 < len(between) < 2500
 
 
+def test_images_see_nothing_and_pairs_of_two_images_are_left_out():
+    points, triangles, edges = scattered(4)
+    x, original = placed(points), np.where(np.arange(40) < 25, np.arange(40), 3)
+    node, triangle, _ = near.node_triangle(x, 40, original, triangles, 0.3)
+    expected = {pair for pair in all_triangles(x, 40, triangles, 0.3) if pair[0] < 25}
+    assert set(zip(node.tolist(), triangle.tolist(), strict=True)) == expected
+    own = (np.arange(len(edges)) % 3 == 0).astype(float)
+    one, two, _ = near.edge_edge(x, edges, own, 0.3)
+    found = list(zip(one.tolist(), two.tolist(), strict=True))
+    assert set(found) == {pair for pair in all_edges(x, edges, 0.3) if own[list(pair)].any()}
+    assert 100 < len(found) == len(set(found))
+
+
 @pytest.mark.parametrize("length", [1e-3, 1e3])
 def test_in_other_units_and_far_from_the_origin(length):
     points, triangles, edges = scattered(7)

@@ -80,7 +80,7 @@ def test_a_mass_is_that_which_is_extruded(pattern):
 
 PATTERNS = '"grid", "triangles", "stars", "honeycomb", "alignedrectilinear", "gyroid"'
 SHARED = f'{GRID}infill = "20 %"\n'
-NO_PRISM = ("crosshatch is no prism", "layer to layer: the nearest is")
+NO_PRISM = ("crosshatch is no prism", "would need prisms that turn: the nearest is")
 IDLE = ("no effect", "lattice.slicer is given")
 
 UNFIT = {
@@ -91,6 +91,9 @@ UNFIT = {
     ),
     SHARED.replace("prusa", "cura").replace("grid", "crosshatch"): (
         *('lattice.pattern = "crosshatch"', '"trihexagon", "gyroid";', *NO_PRISM),
+    ),
+    SHARED.replace("grid", "cubic"): (
+        *('lattice.pattern = "cubic"', "would need their joints", "the nearest is triangles"),
     ),
     SHARED.replace("prusa", "orca").replace("grid", "lateral-honeycomb"): (
         *('lattice.pattern = "lateral-honeycomb"', "lies in the layers", 'lattice.kind "hex"'),

@@ -132,6 +132,12 @@ def test_what_is_taken_over_and_left_out_is_told(ini):
     assert left.endswith("external_perimeter_extrusion_width = 0.6")
 
 
+def test_the_other_gyroid_of_orcaslicer_is_left_out(orca):
+    (_, left) = orca(sparse_infill_pattern="gyroid", gyroid_optimized="1").notes
+    assert left.endswith("left out, as no wall here has it: gyroid_optimized = 1")
+    assert len(orca(gyroid_optimized="0").notes) == 1
+
+
 def test_what_is_not_said_is_told(ini, orca):
     notes = ini(nozzle_diameter=None, fill_density=None).notes
     assert "own.ini does not say: infill, nozzle" in notes

@@ -131,13 +131,20 @@ def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     assert 0 < len(data["shapes"]) < 500
 
 
-def test_plates_are_drawn_as_their_plan_and_move_as_lines(tmp_path):
-    data = gathered(tmp_path, summary({"direction": "out_of_plane", "solid_strain": 0.7}))
+def test_plates_are_drawn_as_their_plan_and_move_as_faces(tmp_path):
+    row = {"direction": "out_of_plane", "solid_strain": 0.7}
+    data = gathered(tmp_path, summary(row))
     (drawn,) = data["drawings"]
     assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
     (shape,) = data["shapes"].values()
-    assert shape["nodes"] == 8
-    assert shape["plates"] == [[None, None]] * 3
-    upright = {"direction": "out_of_plane", "solid_strain": 0.7, "lattice_kind": "gyroid"}
-    (shape,) = gathered(tmp_path, summary(upright))["shapes"].values()
-    assert shape["nodes"] == 6  # of the two quads behind
+    assert (shape["nodes"], len(shape["quads"]), len(shape["laid"])) == (8, 4, 1)
+    assert shape["plates"][1] == [0.0, 1800.0]
+
+
+def test_a_panel_moves_as_four_periods(tmp_path):
+    """Of the tube, 1 mm wide, as a period: its walls at the sides are cut away."""
+    row = {"direction": "out_of_plane", "solid_strain": 0.7, "sides": "tied, fixed period"}
+    row |= {"outer_width_m": 2e-3, "depth_m": 2e-3}
+    (shape,) = gathered(tmp_path, summary(row))["shapes"].values()
+    assert shape["laid"] == [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0]]
+    assert len(shape["quads"]) == 4

@@ -1,0 +1,30 @@
+"""A panel of a sheet that remembers its strains is struck: it takes energy, and the book closes."""
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.simulation.simulate import simulate
+
+ENERGY = 3e-3  # J
+
+
+def test_a_struck_sheet_returns_less_if_it_loses_energy():
+    returned = []
+    for loss in (0.0, 0.3):
+        case = Case.of(
+            lattice={"kind": "gyroid", "depth": 6e-3, "cell_size": 6e-3, "nodes_per_wall": 2}
+            | {"wall_thickness": 0.4e-3},
+            material={"name": "cheetah"} | ({"loss": loss} if loss else {}),
+            loading={"mode": "impact", "direction": "out_of_plane", "platen": "glued"}
+            | {"energy": ENERGY, "striker_mass": 2e-3},
+        )
+        result = simulate(case)
+        found = result.summary
+        assert (found["status"], found["max_crossings"]) == ("converged", 0)
+        assert found["absorbed_energy_J"] == pytest.approx(ENERGY, rel=1e-2)
+        assert abs(found["energy_residual_J"]) < 1e-8 * ENERGY
+        spent = result.history["dissipated_material_J"][-1]
+        assert spent > 0.1 * ENERGY if loss else spent == 0.0
+        returned.append(found["returned_energy_J"])
+    assert np.diff(returned) < -0.1 * ENERGY
