@@ -59,6 +59,7 @@ KEYS = {
     "compression": ("loading.strain", "the share of the height by which the lattice is crushed"),
     "displacement": ("loading.stroke", "the way of the platen"),
     "load": ("loading.force", ""),
+    "mass": ("loading.striker_mass", ""),
     "max_force": ("loading.allowed_forces", "a list"),
     "thickness": ("lattice.wall_thickness", ""),
     "infill_pattern": ("lattice.pattern", "with lattice.slicer; without a slicer, lattice.kind"),

@@ -16,7 +16,7 @@ from sweep.config.defaults import drop_tests
 from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
-from sweep.config.kinds.lattice import KINDS
+from sweep.config.kinds.lattice import KINDS, Lattice
 from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
@@ -67,7 +67,7 @@ class Reader:
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
         self.notes: list[str] = []
-        self.of_file = FILED[0]  # the kind of lattice of which `lattice.file` is
+        self.of_file: type[Lattice] | None = FILED[0]  # whose `lattice.file` is read, if any
 
     def config(self, document: dict[str, Any], path: Path | None) -> Config:
         """The config of a whole document, without its cases; path: of its file, if it has one."""
@@ -89,7 +89,8 @@ class Reader:
         document, one, several = _without_profiles(document)
         keys = _mentioned(document)
         words = keys.get("lattice.kind", ())
-        self.of_file = next((k for k in FILED if any(w in words for w in k.words)), FILED[0])
+        named = [kind for kind in FILED if any(word in words for word in kind.words)]
+        self.of_file = next(iter(named), None if words else FILED[0])
         stated = {target for name in keys for target in (name, *ALIASES.get(name, ()))}
         base = self._base(document)
         if one is not None:
@@ -364,6 +365,10 @@ class Reader:
 
     def _drawn(self, raw: str) -> str:
         """The absolute path of a user's own structure or drawing."""
+        if self.of_file is None:
+            words = (f'"{word}"' for kind in FILED for word in kind.words)
+            why = f"has no effect with this lattice.kind; needed: {' or '.join(words)}"
+            raise StructureError([why])
         path = self.folder / raw
         self.notes += [f"{raw}: {note}" for note in self.of_file.check_file(path)]
         return str(path.resolve())

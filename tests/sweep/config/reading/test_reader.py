@@ -103,6 +103,7 @@ SIZE = f"{LENGTH}, at most 1000 m"
 CELLS = "a whole number, at least 1, at most 1000"
 TYPE, RANGE, BARE, KIND = "wrong type", "out of range", "bare number", "unit of another kind"
 UNKNOWN = "unknown key; the nearest is"
+UNREAD = 'has no effect with this lattice.kind; needed: "custom" or "drawn"'
 
 VALUES = {
     '[lattice]\nwall_thicknes = "0.8 mm"': (
@@ -119,6 +120,10 @@ VALUES = {
     "[lattice]\ncells_x = true": ("lattice.cells_x = true", TYPE, CELLS),
     "[lattice]\ncells_y = 3.0": ("lattice.cells_y = 3.0", TYPE, CELLS),
     "lattice = 3": ("lattice = 3", "not a table", "[lattice]"),
+    '[lattice]\nkind = "hex"\nfile = "a.svg"': ('lattice.file = "a.svg"', UNREAD),
+    '[loading]\nmode = "impact"\nmass = "1 kg"': (
+        *('loading.mass = "1 kg"', f"{UNKNOWN} loading.striker_mass"),
+    ),
     '[loading]\nstrain = "160 %"': ('loading.strain = "160 %"', RANGE, STRAIN),
     "[loading]\nstrain = 60": ("loading.strain = 60", RANGE, STRAIN),
     "[contact]\nfriction = nan": ("contact.friction = NaN", "not finite", "at least 0"),
