@@ -6,7 +6,8 @@ negative pivot, whichever has the larger predicted decrease. The line search sta
 admissible share of the move and backtracks to sufficient decrease (Armijo); predictors and moves
 that drive the problem are accepted at any finite energy. Converged means: scaled residual and
 Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a point within
-`Coordinates.close`. A factor is reused within that distance.
+`Coordinates.close`. A factor is reused within that distance. A residual above the tolerance is
+round-off where positions do not resolve the move that it has led to.
 
 Exact means not projected. Lagged forces have a primal-dual matrix, which is the second derivative
 where the duals fit (`Problem.follow`), and `solver.hessian` of configs may leave a part out. With
@@ -288,6 +289,15 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
 
 
 @jit_exact
+def _is_round_off(move, tolerance, descent):
+    """Return whether the last move was too short for positions to resolve: what is left of the
+    residual is round-off, though it is more than that of the stiffest coordinate alone.
+    """
+    arrived = descent.remaining == 0.0 and descent.iterations > 0
+    return arrived and move.longest <= tolerance.resolution
+
+
+@jit_exact
 def _descend(x, problem, step, tolerance, workspace, descent, control):
     """Iterate as `minimise`; return the outcome."""
     found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
@@ -314,7 +324,7 @@ def _descend(x, problem, step, tolerance, workspace, descent, control):
         slope = 0.0
         if descent.stable or not descent.balanced:
             slope = _newton_direction(problem, found, work, descent.remaining)
-        if descent.stable and descent.balanced:
+        if descent.stable and (descent.balanced or _is_round_off(move, tolerance, descent)):
             descent.decrement = -0.5 * slope
             if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
                 return CONVERGED

@@ -9,6 +9,7 @@ from kernels.solve.residual import Tolerance, allowed, allowed_decrement
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
+from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import grid, slopes
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
@@ -267,3 +268,29 @@ def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
     assert allowed(1e17, tolerance) == pytest.approx(10.0)
     assert allowed_decrement(1e17, tolerance, 92) == 1e-12
     assert allowed_decrement(1e20, tolerance, 92) == pytest.approx(9.2e-11)
+
+
+def test_a_residual_that_positions_do_not_resolve_is_round_off():
+    """Steel at rest: twice what the stiffest coordinate explains is left, and no step was short
+    enough to end.
+    """
+    case = Case.of(
+        lattice=dict(
+            kind="hex",
+            orientation="pointy",
+            cells_x=11,
+            cells_y=2,
+            width=149e-3,
+            height=18.6e-3,
+            depth=7.12e-3,
+            wall_thickness=0.258e-3,
+            nodes_per_wall=2,
+            imperfection=0.0,
+        ),
+        material=dict(modulus=141e9, density=3070.0, poisson=0.0, loss=0.561, reference_time=5850),
+        loading=dict(mode="displacement", strain=0.0569, speed=3.06e-3),
+        solver=dict(load_steps=25, retry=False, time_limit=60.0),
+    )
+    result = simulate(case)
+    assert result.status == "converged", result.message
+    assert result.summary["newton_iterations"] < 1000
