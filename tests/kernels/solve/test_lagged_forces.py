@@ -70,8 +70,8 @@ def test_walls_of_acute_corners_are_kept_from_crossing(friction):
 def test_a_violent_motion_slides_smoothly():
     """A light lattice under 54 N moves at hundreds of metres a second until it has given way.
 
-    Over a fixed slip speed of 1 mm/s, contacts would change their signs one by one: a hundred
-    thousand iterations were not enough for the first step.
+    Over a fixed slip speed of 1 mm/s, contacts would change their signs one by one, and tens of
+    thousands of iterations were not enough for the first step.
     """
     case = Case.of(
         lattice=dict(
