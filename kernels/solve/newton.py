@@ -289,12 +289,17 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
 
 
 @jit_exact
-def _is_round_off(move, tolerance, descent):
-    """Return whether the last move was too short for positions to resolve: what is left of the
-    residual is round-off, though it is more than that of the stiffest coordinate alone.
+def _is_settled(step, move, tolerance, descent):
+    """Return whether the residual is admissible, or the last move was too short for positions to
+    resolve: what is left is then round-off, though more than that of the stiffest coordinate.
+
+    The predictor of a motion is not accepted: what slows it down, such as damping, may be below the
+    admissible residual for thousands of steps, and would be booked without having acted.
     """
-    arrived = descent.remaining == 0.0 and descent.iterations > 0
-    return arrived and move.longest <= tolerance.resolution
+    if descent.iterations == 0:
+        return descent.balanced and (not step.dynamic or descent.residual == 0.0)
+    unresolved = descent.remaining == 0.0 and move.longest <= tolerance.resolution
+    return descent.balanced or unresolved
 
 
 @jit_exact
@@ -324,7 +329,7 @@ def _descend(x, problem, step, tolerance, workspace, descent, control):
         slope = 0.0
         if descent.stable or not descent.balanced:
             slope = _newton_direction(problem, found, work, descent.remaining)
-        if descent.stable and (descent.balanced or _is_round_off(move, tolerance, descent)):
+        if descent.stable and _is_settled(step, move, tolerance, descent):
             descent.decrement = -0.5 * slope
             if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
                 return CONVERGED

@@ -322,8 +322,7 @@ class _Run:
         rows = self.rows[:count]
         left = np.abs(rows["residual"]).max()
         size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
-        moved = count * self.scene.force_scale * self.scene.size
-        return bool(left <= GAP * size + self.case.solver.tolerance * moved)
+        return bool(left <= GAP * size + count * self.noise)
 
     def _is_over(self) -> bool:
         """True if the striker is back where it started, or has stopped again under its weight.

@@ -42,9 +42,6 @@ def solver(
     if pressed.shells:
         settings = ALONG | {key: value for key, value in given.items() if key not in IDLE_ALONG}
     arcs = settings.get("integrator") == ARCS
-    if "step_error" in settings and (loading.quasi_static or arcs):
-        allowed = f"none unless solver.integrator is {IN_TIME}"
-        raise RefusedError("solver.step_error", settings["step_error"], allowed)
     steps = settings, loading, pressed, material.modulus, by_position
     made = _arcs(settings, pressed.diagonal) if arcs else _steps(*steps)
     _check_count(made, loading, given.get("time_step"))
