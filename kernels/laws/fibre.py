@@ -39,7 +39,7 @@ def respond(law, strain, memory, point):
 
 @jit
 def commit(law, strain, memory, point):
-    """Accept ``strain``. Return the stored energy and the dissipation of the step, J/m^3."""
+    """Accept ``strain``. Return potential less stored energy, and the dissipation, J/m^3."""
     if law.yielding.limit == 0.0:
         return law.relaxing.commit(strain, memory, point)
     return law.yielding.commit(strain, memory, point)

@@ -7,9 +7,9 @@ of its material points. A step, which stays a minimisation, needs only
 
 with the strain e, the state q committed last and the duration of the step. Without memory W is the
 stored energy. A law with memory minimises over its internal variables itself, so that W is its
-incremental potential. At commit it returns stored and dissipated energy separately, for the energy
-book. The state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law
-without memory keeps none.
+incremental potential. At commit it tells stored from dissipated energy, for the energy book. The
+state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law without
+memory keeps none.
 
 The initial state is zero. With a duration of zero the state does not change, and W is the stored
 energy. The law of a `section` has several points, of one strain each.
@@ -18,8 +18,6 @@ energy. The law of a `section` has several points, of one strain each.
 from typing import NamedTuple, Protocol
 
 import numpy as np
-
-from kernels.compile.jit import jit_exact
 
 
 class Memory(NamedTuple):
@@ -69,16 +67,9 @@ class Law(Protocol):
     def commit(self, strain, memory, point):
         """Accept ``strain``: update the committed state.
 
-        Return the stored energy and the dissipation of the step, J/m^3.
+        Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation of
+        the step.
         """
-
-
-@jit_exact
-def commit_point(law, strain, memory, point):
-    """Accept the strain of a point; return potential less stored energy, and the dissipation."""
-    potential = law.respond(strain, memory, point)[0]
-    stored, dissipated = law.commit(strain, memory, point)
-    return potential - stored, dissipated
 
 
 def in_python(law, name):

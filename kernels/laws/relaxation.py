@@ -31,7 +31,9 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
-STRAIN, STORED, MOST, BRANCHES = range(4)  # places in a state; from the last all s_i, all e_i
+# Places in a state: the last three before the branches are the elastic law's at the strain; from
+# BRANCHES on all s_i, then all e_i. A tangent of zero: of a point that was never strained.
+STRAIN, STORED, MOST, ENERGY, STRESS, TANGENT, BRANCHES = range(7)
 SMALL = 1e-2  # of dt / tau: below it `_square` is a series
 NEAR = 1e-4  # difference of two strains between which a curve is straight: its energy is then
 # wrong by less than 1e-8 of that of a strain of 1 %
@@ -91,12 +93,18 @@ def begin(law, memory, point):
     if law.state_size() == 0:
         return
     state, pace, n, slope = memory.committed[point], memory.pace, law.shares.size, 0.0
-    density, stress, _ = law.elastic.respond(state[STRAIN], state[MOST])
+    stress = state[STRESS]
     for i in range(n):
         x = stress - state[BRANCHES + i]
         slope += law.shares[i] * (pace.decay[i] * x - pace.gain[i] * stress)
-    constant = state[STORED] - pace.scale[0] * density - slope * state[STRAIN]
+    constant = state[STORED] - pace.scale[0] * state[ENERGY] - slope * state[STRAIN]
     memory.line[point, 0], memory.line[point, 1] = constant, slope
+
+
+@jit
+def _most(law, memory, point):
+    """Return the greatest energy W of the past of a point, which only a softening law needs."""
+    return memory.committed[point, MOST] if law.elastic.softening > 0.0 else 0.0
 
 
 @jit
@@ -104,7 +112,7 @@ def respond(law, strain, memory, point):
     """Return the potential of the step (J/m^3), the stress and its tangent (Pa) at ``strain``."""
     if law.state_size() == 0:
         return law.elastic.respond(strain, 0.0)
-    density, stress, tangent = law.elastic.respond(strain, memory.committed[point, MOST])
+    density, stress, tangent = law.elastic.respond(strain, _most(law, memory, point))
     scale, slope = memory.pace.scale[0], memory.line[point, 1]
     density = scale * density + slope * strain + memory.line[point, 0]
     return density, scale * stress + slope, scale * tangent
@@ -142,34 +150,34 @@ def _branch(law, most, strain, response, x, guess):
 
 
 @jit
-def _stored(law, strain, state):
-    """Return the stored energy at ``strain`` with the branches of ``state``, J/m^3."""
-    most, n = state[MOST], law.shares.size
-    response = law.elastic.respond(strain, most)
-    energy, stress, _ = response
+def _soften(law, strain, most, state):
+    """Let the greatest energy of the past rise to ``most``; update the stored energy of a state."""
+    n, response = law.shares.size, law.elastic.respond(strain, most)
+    energy, stress, tangent = response
     stored = energy
     for i in range(n):
         x, guess = stress - state[BRANCHES + i], state[BRANCHES + n + i]
         e, kept, _ = _branch(law, most, strain, response, x, guess)
         state[BRANCHES + n + i] = e
         stored += law.shares[i] * (kept - energy)
-    return stored
+    state[MOST], state[STORED] = most, stored
+    state[ENERGY], state[STRESS], state[TANGENT] = energy, stress, tangent
 
 
 @jit
 def commit(law, strain, memory, point):
-    """Accept ``strain``: update the state. Return the stored energy and the dissipation of the
-    step, J/m^3.
+    """Accept ``strain``: update the state. Return potential less stored energy, and the dissipation
+    of the step, J/m^3.
 
     The dissipation is exact where the curve is straight and the strain changes evenly.
     """
     if law.state_size() == 0:
-        return law.elastic.respond(strain, 0.0)[0], 0.0
+        return 0.0, 0.0
     state, pace, n, dissipated = memory.committed[point], memory.pace, law.shares.size, 0.0
-    before, most = state[STRAIN], state[MOST]
-    _, past, past_tangent = law.elastic.respond(before, most)
+    before, past, most = state[STRAIN], state[STRESS], _most(law, memory, point)
+    past_tangent = state[TANGENT] if state[TANGENT] != 0.0 else law.elastic.respond(0.0, 0.0)[2]
     response = law.elastic.respond(strain, most)
-    energy, stress, _ = response
+    energy, stress, tangent = response
     stored, change = energy, stress - past
     for i in range(n):
         weights, x, e = pace.square[i], past - state[BRANCHES + i], state[BRANCHES + n + i]
@@ -180,12 +188,14 @@ def commit(law, strain, memory, point):
         state[BRANCHES + i], state[BRANCHES + n + i] = stress - x, e
         dissipated += 0.5 * law.shares[i] * (soft + softer) * work
         stored += law.shares[i] * (kept - energy)
-    state[STRAIN], state[MOST] = strain, law.elastic.greatest(strain, most)
-    if law.elastic.softening > 0.0 and state[MOST] > most:
-        state[STORED] = _stored(law, strain, state)
-        return state[STORED], dissipated + stored - state[STORED]
-    state[STORED] = stored
-    return stored, dissipated
+    state[STRAIN], state[STORED] = strain, stored
+    state[ENERGY], state[STRESS], state[TANGENT] = energy, stress, tangent
+    greatest = law.elastic.greatest(strain, most)
+    if greatest > most:
+        _soften(law, strain, greatest, state)
+    slope, constant = memory.line[point, 1], memory.line[point, 0]
+    potential = pace.scale[0] * energy + slope * strain + constant
+    return potential - state[STORED], dissipated + stored - state[STORED]
 
 
 @jit

@@ -54,8 +54,10 @@ def respond(law, strain, most):
 
 @jit
 def greatest(law, strain, most):
-    """Return the greatest energy W of the past, that at ``strain`` included."""
-    return max(most, law.curve.respond(strain)[0])
+    """Return the greatest energy W of the past, that at ``strain`` included; ``most`` if the law
+    does not soften.
+    """
+    return max(most, law.curve.respond(strain)[0]) if law.softening > 0.0 else most
 
 
 @jit

@@ -46,15 +46,15 @@ def respond(law, strain, memory, point):
 
 @jit
 def commit(law, strain, memory, point):
-    """Accept ``strain``: update plastic strain and hardening. Return the stored energy and the
-    dissipation of the step, J/m^3.
+    """Accept ``strain``: update plastic strain and hardening. Return potential less stored energy,
+    and the dissipation of the step, J/m^3: they are the same.
     """
     d, elastic, limit = _flow(law, strain, memory, point)
     state = memory.committed[point]
     state[PLASTIC] = strain - elastic
     state[PATH] += d
-    stored = 0.5 * law.modulus * elastic * elastic + guard(law.guarded, strain)[0]
-    return stored, d * (limit + 0.5 * law.hardening * d)
+    dissipated = d * (limit + 0.5 * law.hardening * d)
+    return dissipated, dissipated
 
 
 class Yielding(NamedTuple):

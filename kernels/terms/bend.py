@@ -38,7 +38,6 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.laws.law import commit_point
 from kernels.terms.section import LEAST
 from kernels.terms.stretch import strain
 
@@ -253,7 +252,7 @@ def _commit_section(bend, stretch, memory, point, k, shape):
     at = (strain(stretch, shape, k)[0], *bending(bend, shape, k))
     released, dissipated = bend.section.commit(at, memory, point)
     both = shape.turn[0, k] + shape.turn[1, k]
-    release, dissipation = commit_point(bend.hinge, both, memory, point + bend.section.points())
+    release, dissipation = bend.hinge.commit(both, memory, point + bend.section.points())
     volume, shear = bend.volume[k], bend.shear[k]
     return volume * released + shear * release, volume * dissipated + shear * dissipation
 
@@ -266,8 +265,8 @@ def _commit_linear(bend, memory, point, k, shape):
         measured(bend, k, 0, shape.turn[0, k])[0],
         measured(bend, k, 1, shape.turn[1, k])[0],
     )
-    release1, dissipation1 = commit_point(bend.hinge, one + ratio * two, memory, point)
-    release2, dissipation2 = commit_point(bend.hinge, two, memory, point + 1)
+    release1, dissipation1 = bend.hinge.commit(one + ratio * two, memory, point)
+    release2, dissipation2 = bend.hinge.commit(two, memory, point + 1)
     return stiff * release1 + rest * release2, stiff * dissipation1 + rest * dissipation2
 
 

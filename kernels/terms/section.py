@@ -39,7 +39,6 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.laws.law import commit_point
 
 LEAST = 0.05  # stretch of the centre line up to which bending takes infinite energy: second
 # derivatives grow without bound at 0, and the barrier below `elastic.GUARD` keeps walls longer
@@ -180,14 +179,14 @@ def commit(law, strain, memory, point):
     Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation.
     """
     e, last = strain[0], point + 2 * law.place.size
-    released, dissipated = commit_point(law.curve, e, memory, last)
+    released, dissipated = law.curve.commit(e, memory, last)
     released, dissipated = -law.middle * released, -law.middle * dissipated
     centre_q = (1.0 + e) ** law.m
     for section in range(2):
         for k in range(law.place.size):
             theta = law.place[k] * (strain[2] if section == 1 else strain[1])
             a = fibre(1.0 / law.m, centre_q + law.m * theta)[0]
-            release, dissipation = commit_point(law.curve, a - 1.0, memory, point)
+            release, dissipation = law.curve.commit(a - 1.0, memory, point)
             released += law.weight[k] * release
             dissipated += law.weight[k] * dissipation
             point += 1

@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
-from kernels.laws.law import commit_point
 
 
 class Stretch(NamedTuple):
@@ -117,7 +116,7 @@ def commit(stretch, law, memory, shape):
     released, dissipated = 0.0, 0.0
     for k in range(stretch.l0.size):
         e, volume = strain(stretch, shape, k)[0], stretch.area[k] * stretch.l0[k]
-        release, dissipation = commit_point(law, e, memory, k)
+        release, dissipation = law.commit(e, memory, k)
         released += volume * release
         dissipated += volume * dissipation
     return released, dissipated

@@ -61,9 +61,10 @@ def follow(law: Fibre, strains, durations, memory=None) -> Path:
     rows, work, lost, before, last = [], 0.0, 0.0, 0.0, 0.0
     for strain, duration in zip(strains, np.broadcast_to(durations, len(strains)), strict=True):
         prepare(law, memory, duration)
-        stress = law.respond(strain, memory, 0)[1]
+        potential, stress, _ = law.respond(strain, memory, 0)
         work += 0.5 * (before + stress) * (strain - last)
-        stored, dissipated = law.commit(strain, memory, 0)
+        released, dissipated = law.commit(strain, memory, 0)
+        stored = potential - released
         lost, before, last = lost + dissipated, stress, strain
         rows.append((stress, work, stored, lost))
     return Path(*np.array(rows).T)
