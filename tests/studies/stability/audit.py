@@ -300,7 +300,8 @@ def _balance(seen):
     h, points = seen.step.h if seen.step.dynamic else np.inf, 2 * seen.terms.layout.n_nodes
     moves = seen.x - seen.step.x0, seen.ahead.move
     moved = max(np.linalg.norm(u[:points].reshape(-1, 2), axis=1).max() for u in moves)
-    made = whole(scene, seen.x, seen.step.x0, h, reach=REACH * seen.terms.contact.reach + 4.0 * moved)
+    reach = REACH * seen.terms.contact.reach + 4.0 * moved
+    made = whole(scene, seen.x, seen.step.x0, h, reach=reach)
     step = Whole(made.problem, seen.step)
     step.problem.begin(seen.step, seen.ahead, np.zeros_like(seen.x))
     lagged = _first_ends(step, seen) if seen.corrected else [seen.step.x0]
