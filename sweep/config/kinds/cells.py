@@ -17,6 +17,9 @@ from sweep.config.kinds.specimen import (
 from sweep.config.kinds.table import Few, Given, Length, Mass, Positive, RefusedError, Share, chosen
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
+from sweep.numbers import at_most
+
+CAUSES = ("infill", "cell_size", "cells_x", "cells_y", "nodes_per_wall")  # of many nodes
 
 
 class Cells(Laid):
@@ -79,7 +82,7 @@ class Cells(Laid):
             _check_period(made)
         if made.infill is not None:
             made = made.model_copy(update=_filled(made, made.infill, given))
-        check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
+        check_size(made, given, CAUSES)
         if made.mass is None or "wall_thickness" in given:
             _check_openings(made)
         if made.mass is None:
@@ -243,7 +246,7 @@ def _check_openings(made: Cells) -> None:
         if made.infill is not None:
             allowed = "a share that leaves cells at least twice as wide as their walls"
             raise RefusedError("lattice.infill", made.infill, allowed)
-        allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
+        allowed = f"below half the width of the narrowest cell, {at_most(limit)} m here"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
     gap = made.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):

@@ -12,6 +12,7 @@ from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import Laid, check_proportion, check_size, thickness_of
 from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
 from sweep.design.geometry import Drawing, Geometry
+from sweep.numbers import at_most
 
 DRAWN: Final = "drawn"
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
@@ -74,12 +75,12 @@ class Drawn(Laid):
         made = cls.model_validate(dict(made) | {"width": width, "height": height})
         _check_sides(made, given)
         check_proportion(made)
-        check_size(made, ("nodes_per_wall",))
+        check_size(made, given, ("nodes_per_wall", "file"))
         if made.mass is not None:
             thickness = thickness_of(made, made.mass, given, density)
             return made.model_copy(update={"wall_thickness": thickness})
         if made.wall_thickness >= made.thickest:
-            allowed = f"below half the width of the widest cell, {made.thickest:.4g} m here"
+            allowed = f"below half the width of the widest cell, {at_most(made.thickest)} m here"
             raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
         return made
 

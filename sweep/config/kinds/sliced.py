@@ -12,6 +12,7 @@ from sweep.config.kinds.specimen import (
     NOZZLE,
     Laid,
     Lines,
+    cause,
     check_proportion,
     check_size,
 )
@@ -43,6 +44,7 @@ from sweep.design.slicer.patterns import (
     spread_lines,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
+from sweep.numbers import at_least, at_most, in_unit
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
@@ -221,8 +223,8 @@ def _share(made: Sliced, given: Given, per_area: float) -> float:
         share = share_of(made._pattern, made.line_distance, made.spread_line)
         if share < 1.0:
             return share
-        least = share * made.line_distance
-        raise RefusedError("lattice.line_distance", made.line_distance, f"above {least:.4g} m")
+        allowed = f"above {at_least(share * made.line_distance)} m"
+        raise RefusedError("lattice.line_distance", made.line_distance, allowed)
     return given["infill"] if made.mass is None else _share_for(made, made.mass, per_area)
 
 
@@ -233,13 +235,13 @@ def _laid(made: Sliced, share: float, per_area: float) -> dict[str, Any]:
         wide = "so that cells are twice as wide as their walls"
         if made.line_distance is not None:
             least = distance_of(made._pattern, most, made.spread_line)
-            raise RefusedError(
-                "lattice.line_distance", made.line_distance, f"above {least:.4g} m, {wide}"
-            )
-        raise RefusedError("lattice.infill", share, f"below {100.0 * most:.3g} %, {wide}")
+            allowed = f"above {at_least(least)} m, {wide}"
+            raise RefusedError("lattice.line_distance", made.line_distance, allowed)
+        allowed = f"below {at_most(in_unit(most, '%'), 3)} %, {wide}"
+        raise RefusedError("lattice.infill", share, allowed)
     spacing = _spacing(made, share)
     laid = made.model_copy(update=spacing)
-    check_size(laid, ("infill",))
+    check_size(laid, laid.given(), SIZES)
     if abs(_drawn(laid) - 1.0) > MASS_ERROR:
         raise _refused_drawing(laid, share, per_area)
     return spacing
@@ -291,7 +293,7 @@ def _spacing(made: Sliced, share: float) -> dict[str, Any]:
     columns, rows = (max(1, round(size / distance)) for size in (made.width, made.height))
     if columns * rows > MAX_NODES:
         allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
-        raise RefusedError("lattice.infill", share, allowed)
+        raise RefusedError(*cause(made, made.given(), SIZES), allowed)
     return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
 
 
@@ -302,10 +304,11 @@ def _share_for(made: Sliced, mass: float, per_area: float) -> float:
     first = made.model_copy(update=_spacing(made, LEAST_SHARE))
     counted = made.spread_line / made.lines  # a share as the slicer counts / of what is extruded
     most = (1.0 - 1e-9) * _most_of(made) / counted
-    share, *bounds = share_for(first.geometry, mass / per_area, most)
+    share, *limits = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
-        light, heavy = (per_area * area for area in bounds)
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
+        light, heavy = (per_area * area for area in limits)
+        bounds = f"between {at_least(light)} kg and {at_most(heavy)} kg"
+        allowed = f"{bounds} as extruded with this pattern"
         if light < mass < heavy:
             allowed = "another mass: there a line along a side appears; or another fill_angle"
         raise RefusedError("lattice.mass", mass, allowed)

@@ -1,13 +1,25 @@
 """A sheet as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
 
 from collections.abc import Mapping
-from math import cos, isclose
-from typing import Annotated, Any, ClassVar, Literal, Self
+from math import cos, isclose, isinf
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
-from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
+from sweep.config.kinds.sheet import (
+    LEAST,
+    NARROW,
+    SIDES,
+    THICKEST,
+    Surface,
+    checked,
+    fitted,
+    fitted_block,
+    narrowest,
+    pressed_height,
+    widest,
+)
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
 from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
@@ -18,7 +30,8 @@ from sweep.design.slicer.patterns import (
     line_of,
     spread_lines,
 )
-from sweep.design.surfaces.names import SHEETS
+from sweep.design.surfaces.names import BLOCK, SHEETS
+from sweep.numbers import at_least, at_most, in_unit, text_in
 
 LEAST_SHARE = 0.02
 
@@ -54,7 +67,7 @@ class SlicedSheet(Surface):
         return given.get("slicer") is not None and given.get("pattern") in SHEET_PATTERNS
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, given: Given, density: float, along: bool) -> "SlicedSheet":
         """The sheet of these values."""
         pattern = _pattern(given)
         width = line_width_of(given)
@@ -62,18 +75,33 @@ class SlicedSheet(Surface):
         _check(given, width, layer, lines)
         angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
         spread = pattern.period * spread_lines(given["slicer"], lines) * one
-        wanted, turned = spread / given["infill"], _is_turned(angle, along)
-        if given.get("perimeters"):
-            sides = fitted_block(given, along, wanted)
-            _check_block(given, angle, one, sides)
-        else:
-            sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
-        follows: dict[str, Any] = {
-            "wall_thickness": lines * one,
-            "line_width": width,
-            "infill": spread / sides["period"],
-        }
-        return checked(cls.model_validate(chosen(given, cls) | sides | follows))
+        turned, block = _is_turned(angle, along), bool(given.get("perimeters"))
+        step = BLOCK if block else SHEETS[pattern.sheet].cut(turned).step
+        follows = {"wall_thickness": lines * one, "line_width": width}
+
+        def draft(period: float) -> SlicedSheet:
+            if block:
+                sides = fitted_block(given, along, period)
+                _check_block(given, angle, one, sides)
+            else:
+                sides = fitted(pattern.sheet, given, along, period, turned)
+            share = {"infill": spread / sides["period"]}
+            return cls.model_validate(chosen(given, cls) | sides | follows | share)
+
+        wanted, height = spread / given["infill"], pressed_height(given, along)
+        made = checked(draft(wanted))
+        if made.misfit:
+            least, why = narrowest(made, draft, step)
+            if isinf(least):
+                raise _low(made, wanted, step)
+            most = f"at most {at_most(in_unit(spread / least, '%'), 3)} %"
+            raise RefusedError("lattice.infill", given["infill"], f"{most}, {why}")
+        if wanted > widest(height, step):
+            least = spread / widest(height, step)
+            allowed = f"at least {at_least(in_unit(least, '%'), 3)} %"
+            pressed = f"where {text_in(height, 'mm')} are pressed"
+            raise RefusedError("lattice.infill", given["infill"], f"{allowed} {pressed}")
+        return made
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
@@ -163,12 +191,24 @@ def _check_block(given: Given, angle: float, line: float, sides: Mapping[str, An
         raise RefusedError("lattice.perimeters", given["perimeters"], f"0 to {most - 1}")
 
 
+def _low(made: SlicedSheet, wanted: float, step: float) -> RefusedError:
+    """The refusal of a height, or of a width, in which not even one step of the sheet fits."""
+    if made.misfit != NARROW:
+        return RefusedError("lattice.width", made.width, f"less, {made.misfit}")
+    key = "depth" if made.pressed == ALONG else "height"
+    least = step * max(made.wall_thickness / THICKEST, LEAST * wanted)
+    return RefusedError(
+        f"lattice.{key}", made.pressed_height, f"above {at_least(least)} m, {NARROW}"
+    )
+
+
 def _check(given: Given, width: float, layer: float, lines: int) -> None:
     """Refuse a share, a layer or lines that a slicer's sheet does not have; width, layer: m."""
     if "infill" not in given:
         raise RefusedError("lattice.infill", None, 'a share such as "15 %"')
     if given["infill"] < LEAST_SHARE:
-        raise RefusedError("lattice.infill", given["infill"], f"at least {100 * LEAST_SHARE:g} %")
+        allowed = f"at least {text_in(LEAST_SHARE, '%')}"
+        raise RefusedError("lattice.infill", given["infill"], allowed)
     check_layer(layer, width)
     if lines > PROGRAMS[given["slicer"]].lines:
         raise RefusedError(

@@ -10,6 +10,7 @@ from pydantic import Field
 from sweep.config.kinds.table import Few, Given, Length, RefusedError, Size, Table
 from sweep.config.structures.structure import Structure
 from sweep.design.geometry import Geometry
+from sweep.numbers import at_least, at_most
 
 if TYPE_CHECKING:
     from sweep.design.network import Network
@@ -235,15 +236,21 @@ def check_proportion(specimen: Specimen) -> None:
         raise RefusedError(f"lattice.{key}", value, allowed)
 
 
-def check_size(specimen: Laid, causes: tuple[str, ...]) -> None:
-    """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest value of keys."""
+def check_size(specimen: Laid, given: Given, causes: tuple[str, ...]) -> None:
+    """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest of the given keys."""
     joints, walls = specimen.counts
     nodes = joints + specimen.elements - walls
     if nodes > MAX_NODES:
-        values = {key: getattr(specimen, key) for key in causes}
-        key = max(values, key=values.__getitem__)
-        allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
-        raise RefusedError(f"lattice.{key}", values[key], allowed)
+        key, value = cause(specimen, given, causes)
+        raise RefusedError(key, value, f"at most {MAX_NODES:,} nodes in all, {nodes:,} here")
+
+
+def cause(specimen: Specimen, given: Given, keys: tuple[str, ...]) -> tuple[str, Any]:
+    """The greatest of some keys that are given, else the last one, dotted, with its value."""
+    values = {key: specimen.value(key) for key in keys if given.get(key) is not None}
+    numbers = {key: value for key, value in values.items() if not isinstance(value, str)}
+    key = max(numbers or values or keys[-1:], key=lambda key: numbers.get(key, 0.0))
+    return f"lattice.{key}", specimen.value(key)
 
 
 def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float:
@@ -252,7 +259,7 @@ def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float
 
     thickness, light, heavy = thickness_for(made.geometry, mass, made.thickest, made.depth, density)
     if isnan(thickness):
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
+        allowed = f"between {at_least(light)} kg and {at_most(heavy)} kg with these cells"
         raise RefusedError("lattice.mass", mass, allowed)
     check_thickness(thickness, given)
     return thickness

@@ -3,12 +3,14 @@
 from typing import Any, TypeVar
 
 from sweep.config.kinds.direction import WHERE
-from sweep.config.kinds.specimen import TIED, Specimen, check_imperfection
+from sweep.config.kinds.specimen import TIED, Specimen, cause, check_imperfection
 from sweep.config.kinds.table import Given, RefusedError
 from sweep.constants import TO_MM
+from sweep.numbers import at_least
 
 NODES = 5  # inside a wall: six quads across
 MOST_NODES = 20_000  # with six unknowns each
+CAUSES = ("file", "cell_size", "infill", "cells_x", "cells_y", "nodes_per_wall", "layers", "depth")
 S = TypeVar("S", bound=Specimen)
 
 
@@ -34,7 +36,7 @@ def upright(made: S, given: Given) -> S:
     along = quads_along(plan, meshed.wall_quads)
     layers = given.get("layers") or layers_of(plan, along, made.depth)
     points, walls = own_parts(network) if made.tied else (len(plan.points), len(plan.walls))
-    _check_nodes(meshed, points + int((along[:walls] - 1).sum()), layers)
+    _check_nodes(meshed, given, points + int((along[:walls] - 1).sum()), layers)
     if layers > most:
         allowed = f"at most {most} here, as quads are no lower than walls are thick"
         raise RefusedError("lattice.layers", layers, allowed)
@@ -52,17 +54,16 @@ def _check(made: Specimen) -> None:
 
 def _too_low(made: Specimen, thickest: float) -> RefusedError:
     """The error of a height below that of one quad, the thickness of the thickest wall, m."""
-    allowed = f"at least the wall thickness, {TO_MM * thickest:.4g} mm here, {WHERE}"
-    if "depth" in made.derived:
+    of_file = "depth" in made.derived
+    least = f"{at_least(TO_MM * thickest)} mm" if of_file else f"{at_least(thickest)} m"
+    allowed = f"at least the wall thickness, {least} here, {WHERE}"
+    if of_file:
         return RefusedError("lattice.file", made.value("file"), f"a depth_mm of {allowed}")
     return RefusedError("lattice.depth", made.depth, allowed)
 
 
-def _check_nodes(made: Specimen, columns: int, layers: int) -> None:
+def _check_nodes(made: Specimen, given: Given, columns: int, layers: int) -> None:
     nodes = columns * (layers + 1)
     if nodes > MOST_NODES:
-        causes = ("cells_x", "cells_y", "nodes_per_wall", "layers")
-        values = {key: getattr(made, key, 0) or 0 for key in causes}
-        key = max(values, key=lambda name: values[name])
         allowed = f"at most {MOST_NODES:,} nodes in all {WHERE}, {nodes:,} here"
-        raise RefusedError(f"lattice.{key}", values[key], allowed)
+        raise RefusedError(*cause(made, given, CAUSES), allowed)

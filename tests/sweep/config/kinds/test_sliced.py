@@ -202,5 +202,5 @@ def test_several_lines_of_cura_stay_where_one_is():
     assert heavy.infill == 0.1
     laid = mass.geometry.sliced.share
     assert mass.infill == pytest.approx(0.5 * laid)
-    with pytest.raises(RefusedError, match=r"below 16\.7 %"):
+    with pytest.raises(RefusedError, match=r"below 16\.6 %"):
         Case.of(lattice=box | {"infill": 0.2, "fill_multiline": 6})

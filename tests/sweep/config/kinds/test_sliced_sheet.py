@@ -118,7 +118,7 @@ def test_a_block_is_its_perimeters_and_the_sheet_between_them():
     [
         ({"fill_angle": 0.0}, "45 degrees"),
         ({"perimeters": 20}, "0 to 13"),
-        ({"infill": 0.02}, "periods of at most"),
+        ({"infill": 0.02}, "at least 2.63 % where 12 mm are pressed"),
     ],
 )
 def test_a_block_that_does_not_fit_is_refused(values, words):
