@@ -205,8 +205,9 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    shells = along or kind_of(dict(pairs["lattice"])).shells
-    material = draft.add("material", materials.material, pairs["material"], shells)
+    pressed = _pressed(None, dict(pairs["lattice"]), along)
+    where = pressed.where if pressed.shells else ""
+    material = draft.add("material", materials.material, pairs["material"], where)
     density = material.density if material else None
     lattice = None
     if density or "mass" not in dict(pairs["lattice"]):
@@ -244,8 +245,9 @@ def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
     if lattice is not None:
         return _pressed_of(lattice, along)
     key = "depth" if along else "height"
-    usual = Specimen.model_fields[key].default
-    return Pressed(given.get(key, usual), along, width=given.get("width", inf))
+    height = given.get(key, Specimen.model_fields[key].default)
+    sheet = kind_of(given).sheet_clause(given)
+    return Pressed(height, along, width=given.get("width", inf), sheet=sheet)
 
 
 def _pressed_of(lattice: Lattice, along: bool) -> Pressed:
@@ -257,7 +259,7 @@ def _pressed_of(lattice: Lattice, along: bool) -> Pressed:
         lattice.endless,
         lattice.tied,
         width,
-        lattice.sheet,
+        lattice.sheet_clause(lattice.given()),
         hypot(width, height),
         width * height * depth,
     )

@@ -34,7 +34,6 @@ class Cells(Laid):
     period `height`.
     """
 
-    because: ClassVar[str] = "lattice.slicer is not given"
     labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "cell_size")
     needs: ClassVar[dict[str, str]] = {
         "line_width": "there are neither lattice.perimeters nor a lattice.infill",
@@ -91,6 +90,10 @@ class Cells(Laid):
         made = made.model_copy(update={"wall_thickness": thickness})
         _check_openings(made)
         return made
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        return self.needs.get(key, f'lattice.kind is "{self.kind}"')
 
     @property
     def name(self) -> str:

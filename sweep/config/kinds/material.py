@@ -4,7 +4,6 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.table import (
     COMPUTED,
     STEADY,
@@ -139,8 +138,8 @@ class Material(Table):
         return self.bend in SECTIONS
 
 
-def material(values: Given | Pairs, along: bool = False) -> Material:
-    """The material of these values; along: of walls that are pressed along the cells.
+def material(values: Given | Pairs, where: str = "") -> Material:
+    """The material of these values; where: why its walls are plates, in words, if they are.
 
     `RecordError` if the file of a named one cannot be read.
     """
@@ -150,7 +149,7 @@ def material(values: Given | Pairs, along: bool = False) -> Material:
     _check_relaxation(made)
     _check_softening(made)
     _check_law(made)
-    return _of_plates(made) if along else made
+    return _of_plates(made, where) if where else made
 
 
 def relaxes(given: Given) -> bool:
@@ -265,19 +264,19 @@ def _check_plasticity(made: Material) -> None:
         raise RefusedError("material.yield_stress", made.yield_stress, f"none if {other} is given")
 
 
-def _of_plates(made: Material) -> Material:
+def _of_plates(made: Material, where: str) -> Material:
     """The material of walls that are plates: incompressible sheets in plane stress, whose layers
     all follow one law, elastic or relaxing.
     """
     for key in made.not_along:
         if value := getattr(made, key):
-            allowed = f"none {WHERE}: its walls are elastic or relax"
+            allowed = f"none {where}: its walls are elastic or relax"
             raise RefusedError(f"material.{key}", value, allowed)
     if made.bend == "fibres":
-        raise RefusedError("material.bend", made.bend, f'"section" or "linear" {WHERE}')
+        raise RefusedError("material.bend", made.bend, f'"section" or "linear" {where}')
     fit = "linear" if made.stretch == "linear" else "section"
     if made.bend != fit:
-        why = f'{WHERE} and material.stretch is "{made.stretch}"'
+        why = f'{where} and material.stretch is "{made.stretch}"'
         raise RefusedError("material.bend", made.bend, f'"{fit}" {why}')
     usual = {key: Material.model_fields[key].default for key in IDLE_ALONG}
     return made.model_copy(update=usual)

@@ -10,8 +10,9 @@ from sweep.config.structures.structure import Structure
 
 class Pressed(NamedTuple):
     """What a loading presses: its height (m), whether along the cells; the structure of a file with
-    loads; whether it is endless, whether its sides are tied to each other; its width (m); the name
-    of a sheet; the diagonal of its drawing (m) and the volume of its box (m^3).
+    loads; whether it is endless, whether its sides are tied to each other; its width (m); what
+    makes its walls a sheet, as a clause; the diagonal of its drawing (m), the volume of its box
+    (m^3).
     """
 
     height: float
@@ -32,7 +33,7 @@ class Pressed(NamedTuple):
     @property
     def where(self) -> str:
         """Why they are, as part of a sentence."""
-        return f'if lattice.kind is "{self.sheet}"' if self.sheet else WHERE
+        return f"if {self.sheet}" if self.sheet else WHERE
 
     @property
     def unending(self) -> str:

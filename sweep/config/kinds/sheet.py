@@ -38,10 +38,11 @@ class Surface(Specimen):
     `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
     """
 
-    shells: ClassVar[bool] = True
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
-    neutral: ClassVar[dict[str, Any]] = Specimen.neutral | {"sides": "periodic"}
+    neutral: ClassVar[dict[str, Any]] = {
+        key: value for key, value in Specimen.neutral.items() if key != "sides"
+    }
 
     period: Annotated[Length, COMPUTED]
     pressed: Annotated[Direction, COMPUTED]
@@ -71,6 +72,19 @@ class Surface(Specimen):
     def tied(self) -> bool:
         """Its sides repeat."""
         return True
+
+    @property
+    def sides(self) -> str:
+        """What its sides are, as the key of other lattices says it."""
+        return "periodic" if self.tied else "free"
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        if key in ("sides", *SIDES) and self.tied:
+            pressed = "depth" if self.pressed == ALONG else "height"
+            way = f'of which loading.direction "{self.pressed}" presses lattice.{pressed}'
+            return f"one period of a panel is computed, {way}"
+        return self.sheet_clause(self.given())
 
     @property
     def pressed_height(self) -> float:
@@ -158,7 +172,6 @@ class Sheet(Surface):
     `cell_size` is the period wanted; `mass`, that of what is computed, sets the wall thickness.
     """
 
-    because: ClassVar[str] = "lattice.kind is a sheet, one period of which is computed"
     labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
     words: ClassVar[tuple[str, ...]] = tuple(SHEETS)
     sets: ClassVar[dict[str, tuple[str, ...]]] = {"mass": ("wall_thickness",)}
@@ -190,6 +203,11 @@ class Sheet(Surface):
             allowed = f"at most {at_most(widest(height, step))} m where {height:.6g} m are pressed"
             raise RefusedError("lattice.cell_size", wanted, allowed)
         return made
+
+    @classmethod
+    def sheet_clause(cls, given: Given) -> str:
+        """What makes walls of these values a sheet."""
+        return f'lattice.kind is "{given["kind"]}"'
 
     def given(self) -> dict[str, Any]:
         """The values from which this follows: the mass or the wall thickness."""

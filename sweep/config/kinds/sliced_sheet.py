@@ -45,9 +45,6 @@ class SlicedSheet(Surface):
     sides of the part, at 0 and 90 degrees between them.
     """
 
-    because: ClassVar[str] = (
-        "lattice.slicer prints a sheet, one period of which is computed without perimeters"
-    )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
     fits: ClassVar[tuple[str, ...]] = ("infill", *SIDES)
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {"wall_thickness": ("infill",)}
@@ -103,10 +100,22 @@ class SlicedSheet(Surface):
             raise RefusedError("lattice.infill", given["infill"], f"{allowed} {pressed}")
         return made
 
+    @classmethod
+    def sheet_clause(cls, given: Given) -> str:
+        """What makes walls of these values a sheet."""
+        return f'lattice.pattern is "{given["pattern"]}"'
+
     def given(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
         sides = {} if self.tied else {side: self.value(side) for side in SIDES}
         return super().given() | sides
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        if key == "sides" and not self.tied:
+            return "lattice.perimeters hold the sides of a block"
+        why = super().why_idle(key)
+        return f"lattice.perimeters is 0: {why}" if key in ("sides", *SIDES) else why
 
     @property
     def tied(self) -> bool:

@@ -36,13 +36,11 @@ class Specimen(Table):
     them. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed: of
     the shape of its imperfection; None: the shape in which equal walls buckle.
 
-    words: what `lattice.kind` may be. shells: whether its walls are shells in space anyway. across:
-    keys without effect where it is pressed across its cells, with their values there. aperiodic:
-    why no period of it is known, after its name.
+    words: what `lattice.kind` may be. across: keys without effect where it is pressed across its
+    cells, with their values there. aperiodic: why no period of it is known, after its name.
     """
 
     words: ClassVar[tuple[str, ...]] = ()
-    shells: ClassVar[bool] = False
     across: ClassVar[dict[str, Any]] = {
         "layers": None,
         "symmetry": "none",
@@ -83,6 +81,11 @@ class Specimen(Table):
         """The lattice of these values; density (kg/m^3): of the material. along: whether it is
         pressed along its cells.
         """
+
+    @classmethod
+    def sheet_clause(cls, given: Given) -> str:
+        """What makes walls of these values a sheet; empty if they are none."""
+        return ""
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:

@@ -79,6 +79,7 @@ class Table(BaseModel):
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {}
     needs: ClassVar[dict[str, str]] = {}
     fits: ClassVar[tuple[str, ...]] = ()
+    because: ClassVar[str] = ""
 
     @classmethod
     def replaced(cls, key: str) -> set[str]:
@@ -99,11 +100,14 @@ class Table(BaseModel):
         fields = type(self).model_fields
         return getattr(self, key) if key in fields else self.constants.get(key)
 
-    @classmethod
-    def implies(cls, key: str, value: object) -> bool:
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        return self.needs.get(key, self.because)
+
+    def implies(self, key: str, value: object) -> bool:
         """Whether a value of a key that a kind need not have says what is so anyway."""
-        implied = {**cls.neutral, **cls.constants}
-        return bool(implied.get(key, getattr(cls, key, None)) == value)
+        implied = {**self.neutral, **self.constants}
+        return bool(implied.get(key, getattr(self, key, None)) == value)
 
 
 class RefusedError(MisfitError):

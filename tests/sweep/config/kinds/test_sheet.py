@@ -100,3 +100,16 @@ def test_keys_of_drawn_lattices_are_refused():
         with pytest.raises(RefusedError):
             case(**{key: value})
     assert case(sides="periodic") == case()
+
+
+@pytest.mark.parametrize(
+    ("lattice", "where"),
+    [
+        ('kind = "gyroid"', 'if lattice.kind is "gyroid"'),
+        ('slicer = "orca"\npattern = "tpmsd"\ninfill = "20 %"', 'if lattice.pattern is "tpmsd"'),
+        ('kind = "hex"\n[loading]\ndirection = "out_of_plane"', 'direction is "out_of_plane"'),
+    ],
+)
+def test_why_walls_are_plates_is_told_in_the_keys_that_are_given(refused, lattice, where):
+    text = f'[lattice]\n{lattice}\n[material]\nbend = "fibres"'
+    assert refused(text, 'material.bend = "fibres"', '"section" or "linear"', where)

@@ -119,7 +119,7 @@ UNFIT = {
     f'{SHARED}mass = "2 g"': ('lattice.mass = "2 g"', "none where lattice.infill is given"),
     f"{SHARED}cells = 3": ("lattice.cells = 3", *IDLE),
     '[lattice]\npattern = "grid"': (
-        *('lattice.pattern = "grid"', "no effect", "lattice.slicer is not given"),
+        *('lattice.pattern = "grid"', "no effect", "needed: a lattice.slicer"),
     ),
 }
 

@@ -151,7 +151,8 @@ IDLE = {
 def test_key_of_the_other_direction_has_no_effect(lines, text):
     direction = "out_of_plane" if text.startswith(ALONG) else "in_plane"
     why = f'has no effect, as loading.direction is "{direction}"'
-    assert lines(text) == [f"{IDLE[text]}: {why}"]
+    needed = '; needed: "out_of_plane"' if direction == "in_plane" else ""
+    assert lines(text) == [f"{IDLE[text]}: {why}{needed}"]
 
 
 def test_a_draw_of_no_imperfection_has_no_effect(lines):
