@@ -20,7 +20,7 @@ from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.solver import Arcs
 from sweep.config.kinds.table import Given
-from sweep.config.load import case as made_of
+from sweep.config.load import case_of
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.numbers import to_si
 from sweep.result import Result, Status, failed_result
@@ -88,8 +88,7 @@ def simulate(
     stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to `EXPIRED`;
     stop[1] counts steps. seconds: what is left of `solver.time_limit`; all of it if None.
     """
-    if isinstance(case, Mapping):
-        case = made_of(**case)
+    case = case_of(case)
     started = time.thread_time()
     left = case.solver.time_limit if seconds is None else seconds
     try:

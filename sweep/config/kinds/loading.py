@@ -94,5 +94,6 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
     if shells and platen not in (None, "glued", "clamped", "contact"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {pressed.where}")
     if not shells and not pressed.endless and platen == "clamped":
-        allowed = f'{PLATENS_ACROSS} if loading.direction is "in_plane"'
+        none = '"none", ' if mode == "force" and not pressed.tied else ""
+        allowed = f'{none}{PLATENS_ACROSS} if loading.direction is "in_plane"'
         raise RefusedError("loading.platen", platen, allowed)

@@ -132,6 +132,8 @@ def test_what_does_not_go_along_the_cells_is_refused(refused, text):
 
 
 def test_clamped_platens_are_for_plates(refused):
+    dead = '"none", "contact", "glued" or "sliding"'
+    assert refused('[loading]\nplaten = "clamped"', 'loading.platen = "clamped"', dead)
     text = '[loading]\nmode = "displacement"\nplaten = "clamped"'
     allowed = '"contact", "glued" or "sliding" if loading.direction is "in_plane"'
     assert refused(text, 'loading.platen = "clamped"', allowed)
