@@ -70,7 +70,7 @@ def design_of(case: Case) -> Design:
         )
     if case.lattice.tied:
         raise ExportError(
-            f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
+            f"case {case.case_id} is one period of a wide panel, which is no part; "
             'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
     network = case.lattice.network

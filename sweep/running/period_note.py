@@ -13,7 +13,7 @@ def sentences_on_periods(cases: Sequence[Case]) -> list[str]:
     tied = [case for case in cases if case.lattice.tied]
     free = sum(case.widens for case in tied)
     return [
-        f"{number} of {len(cases)} cases are one period of a wide panel (lattice.sides), whose "
+        f"{number} of {len(cases)} cases are one period of a wide panel, whose "
         f"masses, forces and energies are reported; its width is {how}"
         for number, how in ((len(tied) - free, f"fixed, as {HELD}"), (free, f"free, as {FREE}"))
         if number

@@ -24,7 +24,7 @@ from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.modes import MODES
-from sweep.numbers import energy_text, in_unit, percent, three_digits, to_si
+from sweep.numbers import energy_text, in_unit, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
     PARTS,
@@ -102,7 +102,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
         turn, released, ended = crushes(history)[0]
     down, pause, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead, absorbed = MODES[row["loading_mode"]].dead, row["absorbed_energy_J"]
-    returned = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
+    returned = f"returns {tenths(row['returned_energy_J'] / absorbed)} %"
     words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{returned}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
@@ -139,12 +139,12 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
     strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
     if not (MODES[row["loading_mode"]].driven and strain > 0.0):
         return
-    mean, end = energy / (strain * row["height_m"]), in_unit(strain, "%")
+    mean, end = energy / (strain * row["height_m"]), tenths(strain)
     densified = np.isfinite(row["densification_strain"])
-    until = f"densification at {end:.0f} %, until then"
-    at = until if densified else f"no densification; counted to {end:.0f} %:"
+    until = f"densification at {end} %, until then"
+    at = until if densified else f"no densification; counted to {end} %:"
     words = f"{at}\n{_energy(energy, row)}"
-    stairs = [0.0, end, end], [mean, mean, 0.0]
+    stairs = [0.0, *[in_unit(strain, "%")] * 2], [mean, mean, 0.0]
     label = f"mean force {three_digits(mean)} N,\n{words}"
     ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)
 
