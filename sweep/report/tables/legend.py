@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 LONG_SPAN = 0.1  # of strain
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
-CRUSHED = "peak: greatest force of {of}. Peak and energy are counted {until}."
+CRUSHED = """\
+{noun}: energy absorbed {until}; J/g is of it.
+peak: greatest force of {of} until then."""
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
 SECOND = (
@@ -99,9 +101,9 @@ too small. Shorter solver.time_step, or solver.integrator "bdf2", errs less."""
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     table, of = ranking.table, of_one(ranking.table)
-    lines = []
+    noun, lines = "panel" if "panel_mass_g" in table else "counted", []
     for mode in (MODES[name] for name in sorted(table["loading_mode"].unique())):
-        counted = [CRUSHED.format(until=ranking.until, of=of)] if mode.driven else []
+        counted = [CRUSHED.format(noun=noun, until=ranking.until, of=of)] if mode.driven else []
         whole = mode.notes and not (mode.driven and ranking.limited)
         lines += [*counted, *(meanings(table, mode) if whole else [])]
     lines += panel_note(table) + column_notes(ranking) + _notes(ranking)
