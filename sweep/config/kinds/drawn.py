@@ -107,11 +107,6 @@ class Drawn(Laid):
         return Geometry(DRAWN, None, (1, 1), box, self.wall_thickness, drawing=self.drawing)
 
     @property
-    def counts(self) -> tuple[int, int]:
-        """Numbers of joints and of walls between joints."""
-        return len(self.drawing.joints), len(self.drawing.walls)
-
-    @property
     def elements(self) -> int:
         """Number of elements of all walls."""
         return int(self.wall_quads.sum())

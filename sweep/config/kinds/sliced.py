@@ -188,14 +188,6 @@ class Sliced(Laid):
         )
 
     @property
-    def counts(self) -> tuple[int, int]:
-        """Numbers of joints and of walls between joints."""
-        from sweep.design.lattice import build_network
-
-        network = build_network(self.geometry)
-        return len(network.points), len(network.walls)
-
-    @property
     def opening(self) -> float:
         """Clear width of the narrowest whole cell between centre lines, m."""
         return self.printed_as.opening * self.fill_distance

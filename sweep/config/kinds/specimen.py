@@ -219,7 +219,12 @@ class Laid(Specimen):
         """Numbers of joints and of walls between joints."""
         from sweep.design.drawing import counts, sketch
 
-        return counts(sketch(self.geometry))
+        geometry = self.geometry
+        if geometry.drawing is not None:
+            return len(geometry.drawing.joints), len(geometry.drawing.walls)
+        if geometry.sliced is not None:
+            return len(self.network.points), len(self.network.walls)
+        return counts(sketch(geometry))
 
     @property
     def elements(self) -> int:
