@@ -62,7 +62,7 @@ def _of_sheet(made: Surface, infill: Any) -> str:
     axis = "along" if made.pressed == ALONG else "across"
     share = f", {_share(made.infill, infill)}" if isinstance(made, SlicedSheet) else ""
     line = f"{made.name}{share}, pressed {axis} the print axis: {count}"
-    if made.tied:
+    if made.tied_sides:
         return line
     size = " x ".join(f"{in_unit(made.value(side), 'mm'):.4g}" for side in SIDES)
     return f"{line}; a block of {size} mm within perimeters"

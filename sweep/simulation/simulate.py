@@ -18,7 +18,7 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import Arcs
-from sweep.config.kinds.table import Given
+from sweep.config.kinds.table import Inputs
 from sweep.config.load import case_of
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.numbers import to_si
@@ -186,7 +186,7 @@ def _scene(case: Case) -> Scene | PlateScene:
             return build_structure(case)
         case Cells(endless=True):
             return build_periodic(case)
-        case Cells(tied=True):
+        case Cells(tied_sides=True):
             return build_tied(case)
     return build_scene(case)
 
@@ -205,11 +205,11 @@ WALL = Structure(
     supports=(Support(node=0, fix=("x", "y", "rotation")),),
     loads=(Load(node=1, force_N=(0.0, -1e-3)),),
 )
-PRESSED: Given = {
+PRESSED: Inputs = {
     "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
     "solver": {"load_steps": 1},
 }
-SMALLEST: Mapping[str, Sequence[Given]] = {
+SMALLEST: Mapping[str, Sequence[Inputs]] = {
     "marches": [{"lattice": CELL, "loading": {"release_time": 1e-4, "duration": 2e-4}}],
     "arcs": [
         {

@@ -52,7 +52,7 @@ def test_every_kind_of_addition_is_told():
 SHORTEST = re.findall(r"`([\w/]+\.py)`(?:,| is) the shortest", TEXT)
 PEERS = {
     "diamond.py": r"^def draw\(",
-    "custom_structure.py": r"^class \w+\((Specimen|Laid|Surface)\):",
+    "custom_structure.py": r"^class \w+\((Specimen|WallLattice|Surface)\):",
     "dead_load.py": r"^class \w+\((Struck|Directed)\):(?s:.)*^    def ramps\(",
     "dxf.py": r"^def \w+\((?s:[^)]*)\) -> Lines:",
     "spring.py": r"^class \w+\(NamedTuple\):(?s:.)*^def hessian\(",

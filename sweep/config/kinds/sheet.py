@@ -14,7 +14,7 @@ from sweep.config.kinds.specimen import (
     check_imperfection,
     check_thickness,
 )
-from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
+from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.surfaces.names import BLOCK, SHEETS
 from sweep.numbers import at_least, at_most
 
@@ -48,10 +48,10 @@ class Surface(Specimen):
     pressed: Annotated[Direction, COMPUTED]
     nodes_per_wall: Nodes = QUADS
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: of height and depth the one pressed."""
         lateral = "height" if self.pressed == ALONG else "depth"
-        return {key: value for key, value in super().given().items() if key != lateral}
+        return {key: value for key, value in super().inputs().items() if key != lateral}
 
     @property
     @abstractmethod
@@ -69,22 +69,22 @@ class Surface(Specimen):
         return self.sheet
 
     @property
-    def tied(self) -> bool:
+    def tied_sides(self) -> bool:
         """Its sides repeat."""
         return True
 
     @property
     def sides(self) -> str:
         """What its sides are, as the key of other lattices says it."""
-        return "periodic" if self.tied else "free"
+        return "periodic" if self.tied_sides else "free"
 
     def why_idle(self, key: str) -> str:
         """Why a key has no effect."""
-        if key in ("sides", *SIDES) and self.tied:
+        if key in ("sides", *SIDES) and self.tied_sides:
             pressed = "depth" if self.pressed == ALONG else "height"
             way = f'of which loading.direction "{self.pressed}" presses lattice.{pressed}'
             return f"one period of a panel is computed, {way}"
-        return self.sheet_clause(self.given())
+        return self.sheet_clause(self.inputs())
 
     @property
     def pressed_height(self) -> float:
@@ -94,7 +94,7 @@ class Surface(Specimen):
     @property
     def cells_x(self) -> int:
         """About how many periods are side by side."""
-        return max(1, round(self.width / self.period)) if not self.tied else 1
+        return max(1, round(self.width / self.period)) if not self.tied_sides else 1
 
     @property
     def cells_y(self) -> int:
@@ -150,7 +150,7 @@ class Surface(Specimen):
     def elements(self) -> int:
         """About how many quads the sheet is divided into."""
         (width, height), depth = (self.width, self.height), self.depth
-        walls = 0.0 if self.tied else FINER * 2.0 * (width + height) * depth
+        walls = 0.0 if self.tied_sides else FINER * 2.0 * (width + height) * depth
         return round((self.area + walls) * (self.quads_per_period / self.period) ** 2)
 
     @property
@@ -181,38 +181,40 @@ class Sheet(Surface):
     mass: Mass | None = None
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> "Sheet":
+    def of(cls, inputs: Inputs, density: float, along: bool) -> "Sheet":
         """The sheet of these values."""
-        height, step = pressed_height(given, along), SHEETS[given["kind"]].straight.step
+        height, step = pressed_height(inputs, along), SHEETS[inputs["kind"]].straight.step
 
         def draft(period: float) -> Sheet:
-            made = cls.model_validate(
-                chosen(given, cls) | fitted(given["kind"], given, along, period)
+            lattice = cls.model_validate(
+                own_values(inputs, cls) | fitted(inputs["kind"], inputs, along, period)
             )
-            if made.mass is None:
-                return made
-            return made.model_copy(update={"wall_thickness": made.mass / (density * made.area)})
+            if lattice.mass is None:
+                return lattice
+            return lattice.model_copy(
+                update={"wall_thickness": lattice.mass / (density * lattice.area)}
+            )
 
-        wanted = given.get("cell_size", CELL_SIZE * height)
-        made = checked(draft(wanted))
-        if made.mass is not None:
-            check_thickness(made.wall_thickness, given)
-        if made.misfit:
-            raise _misfit(made, given, *narrowest(made, draft, step))
+        wanted = inputs.get("cell_size", CELL_SIZE * height)
+        lattice = checked(draft(wanted))
+        if lattice.mass is not None:
+            check_thickness(lattice.wall_thickness, inputs)
+        if lattice.misfit:
+            raise _misfit(lattice, inputs, *narrowest(lattice, draft, step))
         if wanted > widest(height, step):
             allowed = f"at most {at_most(widest(height, step))} m where {height:.6g} m are pressed"
             raise RefusedError("lattice.cell_size", wanted, allowed)
-        return made
+        return lattice
 
     @classmethod
-    def sheet_clause(cls, given: Given) -> str:
+    def sheet_clause(cls, inputs: Inputs) -> str:
         """What makes walls of these values a sheet."""
-        return f'lattice.kind is "{given["kind"]}"'
+        return f'lattice.kind is "{inputs["kind"]}"'
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: the mass or the wall thickness."""
         without = "wall_thickness" if self.mass is not None else ""
-        return {key: value for key, value in super().given().items() if key != without}
+        return {key: value for key, value in super().inputs().items() if key != without}
 
     @property
     def sheet(self) -> str:
@@ -220,16 +222,16 @@ class Sheet(Surface):
         return self.kind
 
 
-def _misfit(made: Sheet, given: Given, least: float, why: str) -> RefusedError:
+def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedError:
     """The refusal of the period, at least this one (m), of the wall thickness, or of the mass."""
-    thick = {"mass", "wall_thickness"} & given.keys() and made.misfit == NARROW
-    if "cell_size" in given and not thick and isfinite(least):
+    thick = {"mass", "wall_thickness"} & inputs.keys() and lattice.misfit == NARROW
+    if "cell_size" in inputs and not thick and isfinite(least):
         allowed = f"at least {at_least(least)} m, {why}"
-        return RefusedError("lattice.cell_size", given["cell_size"], allowed)
-    key, unit = ("mass", "kg") if made.mass else ("wall_thickness", "m")
-    most = made.value(key) * THICKEST * made.period / made.wall_thickness
+        return RefusedError("lattice.cell_size", inputs["cell_size"], allowed)
+    key, unit = ("mass", "kg") if lattice.mass else ("wall_thickness", "m")
+    most = lattice.value(key) * THICKEST * lattice.period / lattice.wall_thickness
     allowed = f"below {at_most(most)} {unit}, {NARROW}"
-    return RefusedError(f"lattice.{key}", made.value(key), allowed)
+    return RefusedError(f"lattice.{key}", lattice.value(key), allowed)
 
 
 def widest(height: float, step: float) -> float:
@@ -237,33 +239,33 @@ def widest(height: float, step: float) -> float:
     return height / (step * LEAST)
 
 
-def narrowest(made: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
+def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
     """The least period wanted (m) of which `draft` makes a sheet without `misfit`, infinite if
     there is none, and the misfit of lesser ones. made: one with a misfit; step: in periods.
     """
-    good, bad = 0, round(made.pressed_height / (step * made.period))  # steps
-    why = made.misfit
+    good, bad = 0, round(lattice.pressed_height / (step * lattice.period))  # steps
+    why = lattice.misfit
     while bad - good > 1:
         steps = (good + bad) // 2
-        misfit = draft(made.pressed_height / (step * steps)).misfit
+        misfit = draft(lattice.pressed_height / (step * steps)).misfit
         good, bad, why = (good, steps, misfit) if misfit else (steps, bad, why)
-    return made.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
+    return lattice.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
 
 
-def pressed_height(given: Given, along: bool) -> float:
+def pressed_height(inputs: Inputs, along: bool) -> float:
     """The height that is pressed, m."""
     key = "depth" if along else "height"
-    height: float = given.get(key, Specimen.model_fields[key].default)
+    height: float = inputs.get(key, Specimen.model_fields[key].default)
     return height
 
 
 def fitted(
-    name: str, given: Given, along: bool, wanted: float, turned: bool = False
+    name: str, inputs: Inputs, along: bool, wanted: float, turned: bool = False
 ) -> dict[str, Any]:
     """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
     the one ``wanted`` (m); turned: as of `Surface`.
     """
-    height, cut = pressed_height(given, along), SHEETS[name].cut(turned)
+    height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
     period = _period(height, cut.step, wanted)
     across, pressed = ("height", "depth") if along else ("depth", "height")
     return {
@@ -275,12 +277,12 @@ def fitted(
     }
 
 
-def fitted_block(given: Given, along: bool, wanted: float) -> dict[str, Any]:
+def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
     """As `fitted`, of a block: all sides are whole numbers of `BLOCK` periods."""
-    height = pressed_height(given, along)
+    height = pressed_height(inputs, along)
     period = _period(height, BLOCK, wanted)
     step = BLOCK * period
-    sizes = {side: given.get(side, Specimen.model_fields[side].default) for side in SIDES}
+    sizes = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
     whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
     pressed = {"depth" if along else "height": height}
     return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
@@ -293,15 +295,15 @@ def _period(height: float, step: float, wanted: float) -> float:
     return height / (step * max(round(height / (step * wanted)), 1))
 
 
-def checked(made: S) -> S:
+def checked(lattice: S) -> S:
     """The sheet, if its mesh is neither too fine nor too coarse.
 
     Keys of upright walls that it does not have are taken away.
     """
-    if not 1 <= made.nodes_per_wall <= MOST_NODES:
+    if not 1 <= lattice.nodes_per_wall <= MOST_NODES:
         allowed = f"1 to {MOST_NODES}, in half a period of a sheet"
-        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
-    check_imperfection(made, "of a sheet")
-    seed = (made.imperfection_seed or 0) if made.imperfection else None
+        raise RefusedError("lattice.nodes_per_wall", lattice.nodes_per_wall, allowed)
+    check_imperfection(lattice, "of a sheet")
+    seed = (lattice.imperfection_seed or 0) if lattice.imperfection else None
     unused = {"layers": None, "symmetry": "none"}
-    return made.model_copy(update=unused | {"imperfection_seed": seed})
+    return lattice.model_copy(update=unused | {"imperfection_seed": seed})

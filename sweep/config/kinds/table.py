@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from sweep.config.faults import MisfitError
 
 T = TypeVar("T")
-Given = Mapping[str, Any]
+Inputs = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
@@ -20,12 +20,12 @@ Pairs = tuple[tuple[str, Any], ...]
 class Tables(TypedDict, total=False):
     """The values of the tables of a case; None: its defaults."""
 
-    lattice: "Given | Table | None"
-    material: "Given | Table | None"
-    loading: "Given | Table | None"
-    contact: "Given | Table | None"
-    damping: "Given | Table | None"
-    solver: "Given | Table | None"
+    lattice: "Inputs | Table | None"
+    material: "Inputs | Table | None"
+    loading: "Inputs | Table | None"
+    contact: "Inputs | Table | None"
+    damping: "Inputs | Table | None"
+    solver: "Inputs | Table | None"
 
 
 TABLES = tuple(Tables.__annotations__)
@@ -90,7 +90,7 @@ class Table(BaseModel):
         causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}
         return {*own, *causes, *cls.replaces.get(key, ())} - {key}
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this table follows, by key."""
         values = {name: value for name, value in self if name not in self.derived}
         return {name: value for name, value in values.items() if value is not None}
@@ -129,7 +129,7 @@ class RefusedError(MisfitError):
         return self.key.split(".")[0]
 
 
-def chosen(values: Given, model: type[Table]) -> dict[str, Any]:
+def own_values(values: Inputs, model: type[Table]) -> dict[str, Any]:
     """The values of the keys that a model has."""
     return {key: value for key, value in values.items() if key in model.model_fields}
 

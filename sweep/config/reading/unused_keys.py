@@ -101,7 +101,7 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return _why_no_memory(given)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
-    if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied):
+    if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied_sides):
         return "the lattice repeats"
     if case.shells and key in IDLE_ALONG:
         return _why_shells(case)
@@ -121,7 +121,7 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     """
     table, name = key.split(".")
     if name in (kind := getattr(case, table)).fits:
-        return name in kind.given()
+        return name in kind.inputs()
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":
@@ -169,7 +169,7 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
 def _why_shells(case: Case) -> str:
     """Why the walls of a case are shells."""
     if case.lattice.sheet:
-        return case.lattice.sheet_clause(case.lattice.given())
+        return case.lattice.sheet_clause(case.lattice.inputs())
     return f'loading.direction is "{case.loading.direction}"'
 
 

@@ -6,15 +6,15 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.kinds import lattice as lattices
-from sweep.config.kinds.specimen import Laid
-from sweep.config.kinds.table import Few, Given, chosen
+from sweep.config.kinds.specimen import WallLattice
+from sweep.config.kinds.table import Few, Inputs, own_values
 from sweep.design.geometry import Drawing, Geometry
 from sweep.result import Status
 from sweep.running.batches import cost
 from sweep.simulation.simulate import simulate
 
 
-class Ladder(Laid):
+class Ladder(WallLattice):
     """Two posts with rungs between them."""
 
     because: ClassVar[str] = 'lattice.kind is "ladder"'
@@ -24,9 +24,9 @@ class Ladder(Laid):
     rungs: Few = 3
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The ladder of these values."""
-        return cls.model_validate({"nodes_per_wall": 5} | chosen(given, cls))
+        return cls.model_validate({"nodes_per_wall": 5} | own_values(inputs, cls))
 
     @property
     def name(self) -> str:

@@ -36,7 +36,7 @@ def test_a_mass_sets_the_thickness():
     lattice = case(mass=1e-4, height=12 * MM).lattice
     density = case().material.density
     assert density * lattice.area * lattice.wall_thickness == pytest.approx(1e-4, rel=1e-12)
-    again = Case.of(lattice=lattice.given(), loading={})
+    again = Case.of(lattice=lattice.inputs(), loading={})
     assert again.lattice == lattice
 
 

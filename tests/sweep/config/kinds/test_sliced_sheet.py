@@ -100,7 +100,7 @@ def test_the_sides_of_a_block_are_whole_halves_of_the_period(pattern, direction)
     assert case.height == (12 * MM if case.along else 11 * MM)
     assert made.width == pytest.approx(14 * MM, abs=0.25 * made.period)
     assert made.outer_size == pytest.approx((made.width + 2 * LINE, made.height + 2 * LINE))
-    assert not made.tied
+    assert not made.tied_sides
     assert made.cells_x == round(0.5 * halves[0])
     assert Case.from_json(case.to_json()).case_id == case.case_id
 

@@ -8,7 +8,7 @@ from sweep.config.kinds.specimen import ENDLESS, TIED
 from sweep.config.structures.structure import Structure
 
 
-class Pressed(NamedTuple):
+class Body(NamedTuple):
     """What a loading presses: its height (m), whether along the cells; the structure of a file with
     loads; whether it is endless, whether its sides are tied to each other; its width (m); what
     makes its walls a sheet, as a clause; the diagonal of its drawing (m), the volume of its box
@@ -19,7 +19,7 @@ class Pressed(NamedTuple):
     along: bool
     structure: Structure | None = None
     endless: bool = False
-    tied: bool = False
+    tied_sides: bool = False
     width: float = inf
     sheet: str = ""
     diagonal: float = 1.0
@@ -40,7 +40,7 @@ class Pressed(NamedTuple):
         """Why there is no middle of the lattice to strike; nothing if there is one."""
         if self.sheet:
             return self.where
-        return ENDLESS if self.endless else TIED if self.tied else ""
+        return ENDLESS if self.endless else TIED if self.tied_sides else ""
 
     def compliance(self, modulus: float) -> float:
         """Compliance (m/N) of a solid block of a modulus (Pa): c = h^2 / (Y V)."""
