@@ -36,7 +36,9 @@ from sweep.design.slicer.patterns import (
     PATTERNS,
     PROGRAMS,
     SLICERS,
+    Lateral,
     Pattern,
+    bare,
     distance_of,
     line_of,
     lines_at_most,
@@ -44,7 +46,7 @@ from sweep.design.slicer.patterns import (
     spread_lines,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
-from sweep.numbers import at_least, at_most, in_unit
+from sweep.numbers import at_least, at_most, in_unit, text_in
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
@@ -324,7 +326,7 @@ def _checked_pattern(inputs: Inputs) -> str:
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
-        near = _no_prism(pattern, patterns) or similar(pattern, names.split('"')[1::2])
+        near = _no_prism(pattern, patterns, inputs) or similar(pattern, names.split('"')[1::2])
         raise RefusedError(key, pattern, f"{names}{near}")
     if all(inputs.get(key) is None for key in SIZES):
         allowed = 'a share such as "20 %", a lattice.line_distance, or a lattice.mass'
@@ -342,14 +344,22 @@ def names_in(slicer: str) -> str:
     return ", ".join(f'"{name}"' for name in (*program.patterns, *program.sheets))
 
 
-def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
+def _upright(lateral: Lateral, inputs: Inputs) -> str:
+    """A prism whose axis lies in the layers, as cells of which only these walls are pressed."""
+    layer, share = inputs.get("layer_height", LAYER_HEIGHT), inputs.get("infill")
+    line = line_of(inputs["slicer"], line_width_of(inputs), layer)
+    size = text_in(lateral.width * line / share, "mm") if share else ""
+    width = f'cell_size = "{size}"' if size else "a cell_size"
+    walls = f'wall_thickness = "{text_in(lateral.thickness * line, "mm")}"{lateral.walls}'
+    cells = f'lattice.kind = "{lateral.family}", {width}, {walls}'
+    return f"a prism whose axis lies in the layers: give {cells}, and no lattice.slicer"
+
+
+def _no_prism(pattern: str, patterns: dict[str, str], inputs: Inputs) -> str:
     """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
-    drawn = LATERAL.get(pattern.lower().replace(" ", ""))
-    if drawn:
-        return (
-            f'; {pattern} is a prism that lies in the layers: give lattice.kind "{drawn}" instead'
-        )
-    why, nearest = NO_PRISMS.get(pattern.lower().replace(" ", ""), ("", "grid"))
+    if lateral := LATERAL.get(bare(pattern)):
+        return f"; {pattern} is {_upright(lateral, inputs)}"
+    why, nearest = NO_PRISMS.get(bare(pattern), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
 
