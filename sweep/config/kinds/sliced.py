@@ -352,7 +352,8 @@ def _upright(lateral: Lateral, inputs: Inputs) -> str:
     width = f'cell_size = "{size}"' if size else "a cell_size"
     walls = f'wall_thickness = "{text_in(lateral.thickness * line, "mm")}"{lateral.walls}'
     cells = f'lattice.kind = "{lateral.family}", {width}, {walls}'
-    return f"a prism whose axis lies in the layers: give {cells}, and no lattice.slicer"
+    axis = "give, without lattice.slicer and with lattice.height along the print axis"
+    return f"a prism whose axis lies in the layers: {axis}, {cells}"
 
 
 def _no_prism(pattern: str, patterns: dict[str, str], inputs: Inputs) -> str:
