@@ -80,8 +80,11 @@ rammed: setup  ## ram a panel with three fronts; the rankings and the picture of
 	@$(PYTHON) -m sweep rank results/rammed.h5 --out results/rammed
 	@cp results/rammed/winners.png docs/pictures/rammed.png
 
-gyroid: setup  ## press sheets and prisms both ways; the ranking and the picture of README.md (10 min)
-	@$(PYTHON) -m sweep run configs/gyroid.toml
+gyroid: setup  ## press sheets and prisms both ways; the table and the picture of README.md (10 min)
+	@$(PYTHON) -m sweep run configs/gyroid.toml > results/gyroid.txt
+	@$(PYTHON) -m sweep run configs/sheets.toml > results/sheets.txt
+	@$(PYTHON) -m sweep merge results/panels.h5 results/gyroid.h5 results/sheets.h5
+	@COLUMNS=104 $(PYTHON) -m sweep rank results/panels.h5 --top 16
 	@$(PYTHON) -m sweep show results/gyroid.h5 6
 	@cp results/gyroid/*/shapes.png docs/pictures/gyroid.png
 

@@ -18,6 +18,7 @@ Values = TypeVar("Values")
 
 NOTHING = "–"
 LARGE = 1e9  # from here on, numbers have an exponent
+ROUND_OFF = 1e-12
 SCALES = {
     "m": ((1e3, "mm"), (1e6, "um")),
     "m^2": ((1e6, "mm2"),),
@@ -69,6 +70,18 @@ def significant(value: float, digits: int = 4) -> str:
     """A number with so many significant digits; a large one has all of its digits, no exponent."""
     text = f"{value:.{digits}g}"
     return f"{value:.0f}" if "e+" in text and abs(value) < LARGE else text
+
+
+def at_most(value: float, digits: int = 4) -> str:
+    """A positive upper bound as text, rounded down, so that the text itself is within it."""
+    unit = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    return significant(unit * math.floor(value / unit * (1.0 + ROUND_OFF)), digits)
+
+
+def at_least(value: float, digits: int = 4) -> str:
+    """A positive lower bound as text, rounded up."""
+    unit = 10.0 ** (math.floor(math.log10(value)) + 1 - digits)
+    return significant(unit * math.ceil(value / unit * (1.0 - ROUND_OFF)), digits)
 
 
 def short(value: float | str | None) -> str:

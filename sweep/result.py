@@ -114,7 +114,7 @@ def design_columns(case: Case) -> dict[str, float | int | str]:
 
 def sides_of(case: Case) -> str:
     """The column `sides` of a case."""
-    if not case.lattice.tied:
+    if not case.lattice.tied_sides:
         return "endless" if case.lattice.endless else "free"
     return f"{TIED_SIDES}, {'free' if case.widens else 'fixed'} period"
 

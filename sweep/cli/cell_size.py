@@ -53,15 +53,16 @@ def _pair(lengths: tuple[float, float], between: str) -> str:
 
 
 def _of_sheet(made: Surface, infill: Any) -> str:
-    """A line: "gyroid, pressed along the print axis: 2 x 6.25 mm, the period, in 12.5 mm"; of a
-    block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
+    """A line: "gyroid, pressed along the print axis: 2 periods of 6.25 mm in a height of 12.5 mm";
+    of a block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
     """
     height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
-    count = f"{made.pressed_height / made.period:.4g} x {period}"
+    number = f"{made.pressed_height / made.period:.4g}"
+    count = f"{number} period{'s' * (number != '1')} of {period} in a height of {height}"
     axis = "along" if made.pressed == ALONG else "across"
     share = f", {_share(made.infill, infill)}" if isinstance(made, SlicedSheet) else ""
-    line = f"{made.name}{share}, pressed {axis} the print axis: {count}, the period, in {height}"
-    if made.tied:
+    line = f"{made.name}{share}, pressed {axis} the print axis: {count}"
+    if made.tied_sides:
         return line
     size = " x ".join(f"{in_unit(made.value(side), 'mm'):.4g}" for side in SIDES)
     return f"{line}; a block of {size} mm within perimeters"

@@ -164,7 +164,7 @@ def _to_print(search: Search) -> Iterator[str]:
     if first is None:
         return
     lattice = search.cases[first].lattice
-    if lattice.endless or lattice.tied:
+    if lattice.endless or lattice.tied_sides:
         return
     words = ["crumple", "export", str(search.out), first[:SHORT], "--to", "best.3mf"]
     panel = search.question.panel or ()

@@ -76,7 +76,7 @@ def warm(_: Namespace) -> int:
 
     if not is_lasting():
         raise ArgumentError(UNWRITABLE)
-    plane, space = ["marches", "arcs"], ["plates", "sheets"]
+    plane, space = ["marches", "arcs"], ["plates"]
     cold = cold_kernels(plane + space)
     done = "compiled the kernels" if cold else "found compiled kernels and loaded them"
     started = time.perf_counter()

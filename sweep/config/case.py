@@ -22,18 +22,18 @@ from sweep.config.kinds import damping as dampings
 from sweep.config.kinds import loading as loadings
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
 from sweep.config.kinds.loading import AnyLoading, Loading
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
     TABLES,
-    Given,
+    Inputs,
     Pairs,
     RefusedError,
     Table,
@@ -93,7 +93,7 @@ class Case(BaseModel):
         return self.lattice.depth if self.along else self.lattice.height
 
     @property
-    def pressed(self) -> Pressed:
+    def pressed(self) -> Body:
         """What is pressed."""
         return _pressed_of(self.lattice, self.along)
 
@@ -111,7 +111,7 @@ class Case(BaseModel):
         that moves cannot widen in a finite time. The periods of shells are fixed.
         """
         loose = self.loading.platen == "contact" and self.contact.friction == 0.0
-        return self.lattice.tied and not self.shells and loose and self.loading.quasi_static
+        return self.lattice.tied_sides and not self.shells and loose and self.loading.quasi_static
 
     def __hash__(self) -> int:
         """Equal cases have equal ids; labels, which may differ, are no part of them."""
@@ -196,7 +196,7 @@ class Draft:
         return Case.model_construct(keys_of(Case), **values)
 
 
-def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> Draft:
+def complete(given: Mapping[str, Inputs], made: dict[Any, Any] | None = None) -> Draft:
     """The case of the values of each table, in SI. made: the tables of a sweep so far, see `Draft`.
 
     The loading is checked even if the material and the lattice are refused.
@@ -205,8 +205,9 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    shells = along or kind_of(dict(pairs["lattice"])).shells
-    material = draft.add("material", materials.material, pairs["material"], shells)
+    pressed = _pressed(None, dict(pairs["lattice"]), along)
+    where = pressed.where if pressed.shells else ""
+    material = draft.add("material", materials.material, pairs["material"], where)
     density = material.density if material else None
     lattice = None
     if density or "mass" not in dict(pairs["lattice"]):
@@ -222,7 +223,7 @@ def complete(given: Mapping[str, Given], made: dict[Any, Any] | None = None) -> 
 def _numerics(
     draft: Draft,
     pairs: Mapping[str, Pairs],
-    pressed: Pressed,
+    pressed: Body,
     loading: Loading,
     material: Material,
 ) -> None:
@@ -239,25 +240,26 @@ def _numerics(
         draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
 
 
-def _pressed(lattice: Lattice | None, given: Given, along: bool) -> Pressed:
+def _pressed(lattice: Lattice | None, given: Inputs, along: bool) -> Body:
     """What is pressed; of a lattice that is refused, by its own values."""
     if lattice is not None:
         return _pressed_of(lattice, along)
     key = "depth" if along else "height"
-    usual = Specimen.model_fields[key].default
-    return Pressed(given.get(key, usual), along, width=given.get("width", inf))
+    height = given.get(key, Specimen.model_fields[key].default)
+    sheet = kind_of(given).sheet_clause(given)
+    return Body(height, along, width=given.get("width", inf), sheet=sheet)
 
 
-def _pressed_of(lattice: Lattice, along: bool) -> Pressed:
+def _pressed_of(lattice: Lattice, along: bool) -> Body:
     width, height, depth = lattice.width, lattice.height, lattice.depth
-    return Pressed(
+    return Body(
         depth if along else height,
         along,
         lattice.loaded,
         lattice.endless,
-        lattice.tied,
+        lattice.tied_sides,
         width,
-        lattice.sheet,
+        lattice.sheet_clause(lattice.inputs()),
         hypot(width, height),
         width * height * depth,
     )
@@ -269,13 +271,13 @@ def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
     return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
 
 
-def _values(table: Given | Table) -> dict[str, Any]:
+def _values(table: Inputs | Table) -> dict[str, Any]:
     """The values of a table that are not None."""
-    values = table.given() if isinstance(table, Table) else table
+    values = table.inputs() if isinstance(table, Table) else table
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _checked(tables: Mapping[str, Any]) -> dict[str, Given | Table]:
+def _checked(tables: Mapping[str, Any]) -> dict[str, Inputs | Table]:
     """The tables that are given; refused are those that no case has, and what is no table."""
     given = {name: values for name, values in tables.items() if values is not None}
     for name, values in given.items():
@@ -288,7 +290,7 @@ def _checked(tables: Mapping[str, Any]) -> dict[str, Given | Table]:
     return given
 
 
-def _check_types(table: str, values: Given) -> None:
+def _check_types(table: str, values: Inputs) -> None:
     """Refuse a value of another type than its key has, such as a text for a number."""
     keys = table_keys(table)
     for key, value in values.items():
@@ -302,7 +304,7 @@ def _check_types(table: str, values: Given) -> None:
                 raise _refused(table, wrong | {"loc": (key,)}) from None
 
 
-def _check_keys(table: Table, name: str, values: Given) -> None:
+def _check_keys(table: Table, name: str, values: Inputs) -> None:
     """Refuse a key that the kind of a table does not have."""
     for key, value in values.items():
         if not (key in type(table).model_fields or table.implies(key, value)):
@@ -310,5 +312,5 @@ def _check_keys(table: Table, name: str, values: Given) -> None:
             raise RefusedError(f"{name}.{key}", value, allowed)
 
 
-def _frozen(values: Given) -> Pairs:
+def _frozen(values: Inputs) -> Pairs:
     return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())

@@ -4,17 +4,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from sweep.config.kinds.lattice import kind_of
-from sweep.config.kinds.table import TABLES, Given, Table
+from sweep.config.kinds.table import TABLES, Inputs, Table
 
 
-def merged(tables: Mapping[str, Table], changes: Mapping[str, Given]) -> dict[str, dict[str, Any]]:
+def merged(tables: Mapping[str, Table], changes: Mapping[str, Inputs]) -> dict[str, dict[str, Any]]:
     """The values of the tables of a case with changes, by table and key.
 
     Another material has only the new values; so has another kind of lattice, and a loading of
     another mode, whose numerics are chosen anew. What another value sets follows from it when the
     lattice or the direction changes.
     """
-    values = {name: tables[name].given() for name in TABLES}
+    values = {name: tables[name].inputs() for name in TABLES}
     values |= {name: {} for name in _renewed(values, changes)}
     for name, change in changes.items():
         for key, value in change.items():
@@ -30,7 +30,7 @@ def merged(tables: Mapping[str, Table], changes: Mapping[str, Given]) -> dict[st
     return values
 
 
-def _renewed(values: Mapping[str, Given], changes: Mapping[str, Given]) -> Iterator[str]:
+def _renewed(values: Mapping[str, Inputs], changes: Mapping[str, Inputs]) -> Iterator[str]:
     """The tables of which only new values count."""
     after = {name: {**values[name], **changes.get(name, {})} for name in values}
     if kind_of(after["lattice"]) is not kind_of(values["lattice"]):
@@ -41,7 +41,7 @@ def _renewed(values: Mapping[str, Given], changes: Mapping[str, Given]) -> Itera
         yield from ("loading", "contact", "damping", "solver")
 
 
-def _resized(changes: Mapping[str, Given]) -> bool:
+def _resized(changes: Mapping[str, Inputs]) -> bool:
     """Whether the walls or what is pressed may have another size."""
     others = changes.get("lattice") or changes.get("material")
     return bool(others) or "direction" in changes.get("loading", {})

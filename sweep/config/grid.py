@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import product
 from math import prod
@@ -24,6 +24,7 @@ MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
 OF_A_FILE = frozenset(f"material.{name}" for name in UNITS)
+SWEEP = "cases of crumple.case, or what crumple.load_config returns"
 ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values in [grid]"
 MAY_BE_UNUSED = ("material.poisson",)  # a property of the material, stated even in plane stress
 
@@ -88,6 +89,8 @@ class Config:
 
 def expand(config: Config) -> list[Case]:
     """All cases of a config; those of a search are not known before it."""
+    if not isinstance(config, Config):
+        raise _no_sweep(config, "what crumple.load_config returns")
     if config.recipe.search and not config.cases:
         line = f"[search] of {', '.join(config.recipe.search)}: {ONLY_OPTIMIZE}"
         raise ConfigError([Fault("search", line)])
@@ -96,7 +99,20 @@ def expand(config: Config) -> list[Case]:
 
 def sweep_of(cases: Config | Iterable[Case]) -> Config:
     """A config, or cases without one."""
-    return cases if isinstance(cases, Config) else Config("", tuple(cases))
+    if isinstance(cases, Config):
+        return cases
+    if isinstance(cases, str | Mapping) or not isinstance(cases, Iterable):
+        raise _no_sweep(cases, SWEEP)
+    listed = tuple(cases)
+    if other := [case for case in listed if not isinstance(case, Case)]:
+        raise _no_sweep(other[0], SWEEP)
+    return Config("", listed)
+
+
+def _no_sweep(source: object, needed: str) -> ConfigError:
+    text = json.dumps(source, default=repr)
+    text = text if len(text) <= 60 else f"{text[:57]}..."
+    return ConfigError([Fault("cases", f"{text} is no sweep; needed: {needed}")])
 
 
 def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:

@@ -155,8 +155,7 @@ def _item(schema: dict[str, Any]) -> dict[str, Any]:
 def _words(schema: dict[str, Any]) -> str:
     """The values that a schema accepts, in words."""
     if "enum" in schema or "const" in schema:
-        *others, last = [f'"{name}"' for name in schema.get("enum", [schema.get("const")])]
-        return f"{', '.join(others)} or {last}" if others else last
+        return one_of(schema.get("enum", [schema.get("const")]))
     if schema["type"] == "array":
         length = f"{schema['maxItems']} values" if "maxItems" in schema else "values"
         return f"a list of {length}, each {_words(_item(schema))}"
@@ -174,6 +173,12 @@ def _words(schema: dict[str, Any]) -> str:
     nouns = [noun] if schema.get("bare") or "unit" not in schema else []
     nouns += [QUANTITIES[schema["unit"]]] if "unit" in schema else []
     return ", ".join([" or ".join(nouns), *bounds])
+
+
+def one_of(words: Iterable[str]) -> str:
+    """Words in quotes: "a", "b" or "c"."""
+    *others, last = [f'"{word}"' for word in words]
+    return f"{', '.join(others)} or {last}" if others else last
 
 
 def _bound(value: float, schema: dict[str, Any]) -> str:

@@ -51,7 +51,17 @@ def case(**tables: Unpack[Tables]) -> Case:
     keys: case(**{"lattice.kind": "hex"}). Quantities are text with a unit; `Case.of` takes numbers
     in SI. Without any key it is the default case.
     """
-    document = document_of({name: values for name, values in tables.items() if values is not None})
+    return case_of(tables)
+
+
+def case_of(source: Case | Mapping[str, Any]) -> Case:
+    """A case itself, or the one of these tables of a config, as `case` takes them."""
+    if isinstance(source, Case):
+        return source
+    if not isinstance(source, Mapping):
+        needed = "a case of crumple.case, or a dict of its tables"
+        raise ConfigError([Fault("case", f"{in_words(source)} is no case; needed: {needed}")])
+    document = document_of({name: values for name, values in source.items() if values is not None})
     if other := [name for name in document if name not in TABLES]:
         allowed = f"the tables {', '.join(TABLES)}, or keys such as lattice.kind"
         line = f"{other[0]} = {in_words(document[other[0]])}: of no case; allowed: {allowed}"

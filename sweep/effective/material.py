@@ -1,5 +1,6 @@
 """The effective material of an infill: nine elastic constants, buckling stresses, density."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.load import case_of
 from sweep.effective.buckling import buckling_stress
 from sweep.effective.cell import frame_of, infill_of, turned
 from sweep.effective.stiffness import response, sheared
@@ -111,12 +113,14 @@ class EffectiveMaterial:
         return f"<EffectiveMaterial {self.name} of {self.material}: {moduli}>"
 
 
-def card(case: Case) -> EffectiveMaterial:
+def card(case: Case | Mapping[str, Any]) -> EffectiveMaterial:
     """The effective material of the infill of a case, without its perimeters and solid layers.
 
+    case: or the tables of a config, as `crumple.case` takes them.
     Walls are linear, with the modulus, Poisson's ratio and plane state of the material of the case,
     and with its joints; small strains. What is no periodic infill of even walls is a `MisfitError`.
     """
+    case = case_of(case)
     infill = infill_of(case)
     frame, material, depth = frame_of(infill), case.material, case.lattice.depth
     stiffness, _ = response(frame)

@@ -68,9 +68,9 @@ def design_of(case: Case) -> Design:
             f"case {case.case_id} is a sheet, which has no outline; allowed: .stl and .3mf with a "
             "panel, .csv, .pvd, .vtu, .gif"
         )
-    if case.lattice.tied:
+    if case.lattice.tied_sides:
         raise ExportError(
-            f"case {case.case_id} is one period of a wide panel (lattice.sides), which is no part; "
+            f"case {case.case_id} is one period of a wide panel, which is no part; "
             'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
         )
     network = case.lattice.network

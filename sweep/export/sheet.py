@@ -40,7 +40,7 @@ BEYOND = 1  # period of the net around the panel
 def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[str]]:
     """The walls over a panel of two lengths (m), as they are printed, and what they are."""
     lattice = _sheet_of(case)
-    if not lattice.tied:
+    if not lattice.tied_sides:
         raise ExportError(
             f"case {case.case_id} is a block within perimeters, whose walls the slicer lays; "
             "allowed: a .3mf with --kind settings, .csv, .pvd, .vtu, .gif"
@@ -73,7 +73,7 @@ def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list
     import shapely
 
     lattice = _sheet_of(case)
-    if not lattice.tied:
+    if not lattice.tied_sides:
         return _within_perimeters(case, sides)
     first, second = _two(case, sides)
     height = lattice.pressed_height

@@ -194,7 +194,7 @@ def check_budgets(frame: DataFrame, question: Question) -> None:
     if question.budgets and question.panel is None and is_period(frame).any():
         raise RankError(
             f'budget = "{question.budgets[0]}"; allowed with a panel, such as --panel "100 mm" '
-            '"50 mm": here masses are of periods of wide panels (lattice.sides), not of parts'
+            '"50 mm": here masses are of periods of wide panels, not of parts'
         )
 
 

@@ -98,7 +98,7 @@ MEASURES = {
         *("J", "J", "ENERGY"),
         shared=True,
         asked_of=asked_of("min_absorbed"),
-        noun="absorbed energy",
+        noun="counted energy",
         none="None absorbs as much as {}; the most is {}",
         example="1.5 J",
         least=True,

@@ -21,7 +21,7 @@ def _has_patch(case: Case) -> bool:
     """Whether the pressure on a patch of the base is measured."""
     loading, lattice = case.loading, case.lattice
     flat = isinstance(loading, Struck) and loading.base == "flat"
-    return flat and not (case.along or lattice.endless or lattice.tied)
+    return flat and not (case.along or lattice.endless or lattice.tied_sides)
 
 
 MEASURED: dict[str, tuple[str, Callable[[Case], bool]]] = {

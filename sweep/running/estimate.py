@@ -30,7 +30,7 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.sheet import Surface
-from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted, text_in
 from sweep.result import Result, Status
@@ -257,7 +257,7 @@ def _kind(case: Case) -> tuple[str | int, ...]:
     """The parameters that affect the pace most, besides the numbers of elements and steps."""
     loading = case.loading.direction, case.loading.mode, str(case.loading.platen)
     lattice = case.lattice
-    nodes = lattice.nodes_per_wall if isinstance(lattice, Laid) else 0
+    nodes = lattice.nodes_per_wall if isinstance(lattice, WallLattice) else 0
     return *loading, case.contact.model, nodes
 
 

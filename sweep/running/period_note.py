@@ -10,10 +10,10 @@ FREE = "platens without friction hold nothing: the mean lateral force is zero"
 
 def sentences_on_periods(cases: Sequence[Case]) -> list[str]:
     """A sentence about cases whose period is fixed, and one about those where it is free."""
-    tied = [case for case in cases if case.lattice.tied]
+    tied = [case for case in cases if case.lattice.tied_sides]
     free = sum(case.widens for case in tied)
     return [
-        f"{number} of {len(cases)} cases are one period of a wide panel (lattice.sides), whose "
+        f"{number} of {len(cases)} cases are one period of a wide panel, whose "
         f"masses, forces and energies are reported; its width is {how}"
         for number, how in ((len(tied) - free, f"fixed, as {HELD}"), (free, f"free, as {FREE}"))
         if number

@@ -6,6 +6,12 @@ from sweep.config.case import Case
 from sweep.running.alone import Simulate
 from sweep.running.progress import announce
 
+OF = {
+    "marches": "walls in the plane",
+    "arcs": "arc lengths",
+    "plates": "walls as shells",
+}
+"""What kernels are of, in words."""
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
 
 
@@ -17,8 +23,9 @@ def real_simulate(cases: Iterable[Case]) -> Simulate:
     from kernels.compile.cache import is_lasting
 
     simulate, kernels = simulate_unloaded(cases)
-    if cold_kernels(kernels):
-        announce(f"compiling the kernels, once: this takes {time_to_compile()}")
+    if cold := cold_kernels(kernels):
+        scenes = " and of ".join(OF[name] for name in cold)
+        announce(f"compiling the kernels of {scenes}, once: this takes {time_to_compile()}")
         if not is_lasting():
             announce(f"for this run alone: {UNWRITABLE}")
     load(kernels)

@@ -6,7 +6,7 @@ from kernels.terms.contact import Contact
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
@@ -52,7 +52,7 @@ def load_of(numbering: Numbering, case: Case) -> Floats:
 def build_scene(case: Case) -> Scene:
     """Build the arrays of ``case``."""
     lattice, platen = case.lattice, gripped(case.loading)
-    assert isinstance(lattice, Laid)
+    assert isinstance(lattice, WallLattice)
     network, solid = build_network(lattice.geometry), case.solver.joints == "solid"
     mesh, arms = build_mesh(lattice, solid, platen)
     numbering = Numbering(

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network
 from sweep.scene.joints import Arms, point_joints, solid_joints
@@ -104,7 +104,7 @@ class Mesh:
 
 
 @lru_cache(maxsize=16)
-def build_mesh(lattice: Laid, solid: bool, platen: str | None) -> tuple[Mesh, Arms]:
+def build_mesh(lattice: WallLattice, solid: bool, platen: str | None) -> tuple[Mesh, Arms]:
     """The mesh of a lattice between platens, and the ends of its walls.
 
     solid: joints are solid; else they are points. It is cached, since consecutive cases often share

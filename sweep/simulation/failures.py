@@ -21,14 +21,19 @@ from sweep.simulation.time_resolution import resolving_step
 
 Failure = tuple[Status, str]
 
-SAFER = 'try smaller steps, damping or solver.integrator "backward_euler"'
-SAFER_ALONG = 'try smaller steps or solver.integrator "backward_euler"'  # there is no damping
+SAFER = {
+    (False, False): 'try smaller steps, damping or solver.integrator "backward_euler"',
+    (False, True): "try smaller steps or damping",
+    (True, False): 'try smaller steps or solver.integrator "backward_euler"',
+    (True, True): "try smaller steps",
+}
+"""By whether walls are shells, which have no damping, and whether the integrator is that one."""
 FINER = "try more solver.load_steps"
 SOUNDER = "try a smaller solver.tolerance, and check for values of the wrong order of magnitude"
 ADVICE = {
     outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
     outcomes.STALLED: "the minimisation stalled; try a looser solver.tolerance or smaller steps",
-    outcomes.SINGULAR: "no stable equilibrium was found; check the supports or add damping",
+    outcomes.SINGULAR: "no stable equilibrium was found; check the supports{damped}",
     outcomes.INACCURATE: "no step was short enough for solver.step_error; "
     "try a larger one or {shorter}",
     outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
@@ -67,7 +72,8 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
         return APART
     if case.loading.quasi_static:
         limit <<= MOST_DOUBLINGS  # of the last attempt
-    return ADVICE[outcome].format(limit=limit, shorter=shorter, further=further)
+    damped = "" if case.loading.quasi_static or case.shells else " or add damping"
+    return ADVICE[outcome].format(limit=limit, shorter=shorter, further=further, damped=damped)
 
 
 def _may_overlap(case: Case) -> bool:
@@ -83,7 +89,7 @@ def timed_out(case: Case, where: str) -> Failure:
 
 def energy_gained(case: Case) -> Failure:
     """The time integration has gained energy."""
-    safer = SAFER_ALONG if case.shells else SAFER
+    safer = SAFER[case.shells, case.solver.integrator == "backward_euler"]
     advice = FINER if case.loading.quasi_static else safer
     return Status.STOPPED, f"the time integration gained energy; {advice}"
 

@@ -17,10 +17,9 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
-from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.solver import Arcs
-from sweep.config.kinds.table import Given
-from sweep.config.load import case as made_of
+from sweep.config.kinds.table import Inputs
+from sweep.config.load import case_of
 from sweep.config.structures.structure import Load, Structure, Support
 from sweep.numbers import to_si
 from sweep.result import Result, Status, failed_result
@@ -88,8 +87,7 @@ def simulate(
     stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to `EXPIRED`;
     stop[1] counts steps. seconds: what is left of `solver.time_limit`; all of it if None.
     """
-    if isinstance(case, Mapping):
-        case = made_of(**case)
+    case = case_of(case)
     started = time.thread_time()
     left = case.solver.time_limit if seconds is None else seconds
     try:
@@ -188,7 +186,7 @@ def _scene(case: Case) -> Scene | PlateScene:
             return build_structure(case)
         case Cells(endless=True):
             return build_periodic(case)
-        case Cells(tied=True):
+        case Cells(tied_sides=True):
             return build_tied(case)
     return build_scene(case)
 
@@ -196,7 +194,7 @@ def _scene(case: Case) -> Scene | PlateScene:
 def kernels_of(case: Case) -> str:
     """Which kernels a case runs on, a key of `SMALLEST`."""
     if case.shells:
-        return "sheets" if isinstance(case.lattice, Surface) else "plates"
+        return "plates"
     return "arcs" if isinstance(case.solver, Arcs) else "marches"
 
 
@@ -207,32 +205,33 @@ WALL = Structure(
     supports=(Support(node=0, fix=("x", "y", "rotation")),),
     loads=(Load(node=1, force_N=(0.0, -1e-3)),),
 )
-SMALLEST: Mapping[str, Given] = {
-    "marches": {"lattice": CELL, "loading": {"release_time": 1e-4, "duration": 2e-4}},
-    "arcs": {
-        "lattice": {"kind": "custom", "structure": WALL},
-        "solver": {"integrator": "arc_length", "load_steps": 1},
-    },
-    "plates": {
-        "lattice": CELL | {"nodes_per_wall": 1, "layers": 2},
-        "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
-        "solver": {"load_steps": 1},
-    },
-    "sheets": {
-        "lattice": {"kind": "gyroid", "nodes_per_wall": 1},
-        "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
-        "solver": {"load_steps": 1},
-    },
+PRESSED: Inputs = {
+    "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
+    "solver": {"load_steps": 1},
 }
-"""A case of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are
-flat at rest, and those that are not.
+SMALLEST: Mapping[str, Sequence[Inputs]] = {
+    "marches": [{"lattice": CELL, "loading": {"release_time": 1e-4, "duration": 2e-4}}],
+    "arcs": [
+        {
+            "lattice": {"kind": "custom", "structure": WALL},
+            "solver": {"integrator": "arc_length", "load_steps": 1},
+        }
+    ],
+    "plates": [
+        {**PRESSED, "lattice": CELL | {"nodes_per_wall": 1, "layers": 2}},
+        {**PRESSED, "lattice": {"kind": "gyroid", "nodes_per_wall": 1}},
+    ],
+}
+"""Cases of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are flat
+at rest and those that are not.
 """
 
 
 def warm_up(kernels: Iterable[str] = ("marches",)) -> None:
     """Load or compile kernels, by their keys in `SMALLEST`, so that no case spends time on it."""
     for name in kernels:
-        simulate(complete(SMALLEST[name]).sound())
+        for tables in SMALLEST[name]:
+            simulate(complete(tables).sound())
 
 
 class _Run:

@@ -8,6 +8,8 @@ from sweep.numbers import (
     FACTORS,
     NOTHING,
     SCALES,
+    at_least,
+    at_most,
     in_unit,
     percent,
     short,
@@ -61,3 +63,11 @@ def test_quantities_are_in_a_unit_of_their_size():
     assert shown == ["100 us", "500 ms", "90 s", "60 mJ", "500 kPa", "40 %"]
     assert [with_unit(v, "s") for v in ("bdf2", NAN, None)] == ["bdf2", NOTHING, NOTHING]
     assert [with_unit(v, u) for v, u in ((0.0, "s"), (3, ""), (5.0, "N"))] == ["0 s", "3", "5 N"]
+
+
+BOUNDS = [(1.25e-3, "0.00125", "0.00125"), (0.359277, "0.3592", "0.3593"), (51.4, "51.4", "51.4")]
+
+
+@pytest.mark.parametrize(("value", "most", "least"), BOUNDS)
+def test_bounds_are_rounded_to_the_side_on_which_they_hold(value, most, least):
+    assert (at_most(value), at_least(value)) == (most, least)

@@ -8,18 +8,30 @@ from sweep.config.kinds.specimen import (
     LAYER_HEIGHT,
     MAX_NODES,
     TIED,
-    Laid,
     Lines,
+    WallLattice,
     check_proportion,
     check_size,
     thickness_of,
 )
-from sweep.config.kinds.table import Few, Given, Length, Mass, Positive, RefusedError, Share, chosen
+from sweep.config.kinds.table import (
+    Few,
+    Inputs,
+    Length,
+    Mass,
+    Positive,
+    RefusedError,
+    Share,
+    own_values,
+)
 from sweep.design.geometry import Geometry
 from sweep.design.infill import families, trait
+from sweep.numbers import at_most
+
+CAUSES = ("infill", "cell_size", "cells_x", "cells_y", "nodes_per_wall")  # of many nodes
 
 
-class Cells(Laid):
+class Cells(WallLattice):
     """Cells of a family of infill, in walls of one thickness or of a gradient, with an outline.
 
     `mass` sets the wall thickness; `cell_size`, the width of a regular cell, sets the numbers of
@@ -31,8 +43,7 @@ class Cells(Laid):
     period `height`.
     """
 
-    because: ClassVar[str] = "lattice.slicer is not given"
-    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "cell_size")
+    labels: ClassVar[tuple[str, ...]] = (*WallLattice.labels, "cell_size")
     needs: ClassVar[dict[str, str]] = {
         "line_width": "there are neither lattice.perimeters nor a lattice.infill",
         "layer_height": "lattice.solid_layers is 0",
@@ -60,34 +71,38 @@ class Cells(Laid):
     layer_height: Length | None = None
 
     @classmethod
-    def means(cls, given: Given) -> bool:
+    def means(cls, inputs: Inputs) -> bool:
         """Whether values mean this kind of lattice: if they mean no other."""
         return True
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The cells of these values. along: periodic sides are those of both directions."""
-        usual = {"nodes_per_wall": nodes_of(given.get("kind", "square"))}
-        made = cls.model_validate(usual | chosen(given, cls))
-        check_proportion(made)
-        if along and made.tied:
-            made = made.model_copy(update={"layers": made.layers or 1})
-        made = made.model_copy(update=_lines(made))
-        if made.cell_size is not None:
-            made = made.model_copy(update=_divided(made, made.cell_size, given))
-        if made.endless or made.tied:
-            _check_period(made)
-        if made.infill is not None:
-            made = made.model_copy(update=_filled(made, made.infill, given))
-        check_size(made, ("infill",) if made.infill else ("cells_x", "cells_y", "nodes_per_wall"))
-        if made.mass is None or "wall_thickness" in given:
-            _check_openings(made)
-        if made.mass is None:
-            return made
-        thickness = thickness_of(made, made.mass, given, density)
-        made = made.model_copy(update={"wall_thickness": thickness})
-        _check_openings(made)
-        return made
+        usual = {"nodes_per_wall": nodes_of(inputs.get("kind", "square"))}
+        lattice = cls.model_validate(usual | own_values(inputs, cls))
+        check_proportion(lattice)
+        if along and lattice.tied_sides:
+            lattice = lattice.model_copy(update={"layers": lattice.layers or 1})
+        lattice = lattice.model_copy(update=_lines(lattice))
+        if lattice.cell_size is not None:
+            lattice = lattice.model_copy(update=_divided(lattice, lattice.cell_size, inputs))
+        if lattice.endless or lattice.tied_sides:
+            _check_period(lattice)
+        if lattice.infill is not None:
+            lattice = lattice.model_copy(update=_filled(lattice, lattice.infill, inputs))
+        check_size(lattice, inputs, CAUSES)
+        if lattice.mass is None or "wall_thickness" in inputs:
+            _check_openings(lattice)
+        if lattice.mass is None:
+            return lattice
+        thickness = thickness_of(lattice, lattice.mass, inputs, density)
+        lattice = lattice.model_copy(update={"wall_thickness": thickness})
+        _check_openings(lattice)
+        return lattice
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        return self.needs.get(key, f'lattice.kind is "{self.kind}"')
 
     @property
     def name(self) -> str:
@@ -100,7 +115,7 @@ class Cells(Laid):
         return self.boundary == "periodic"
 
     @property
-    def tied(self) -> bool:
+    def tied_sides(self) -> bool:
         """Whether its left and right sides are tied to each other."""
         return self.sides == "periodic"
 
@@ -115,7 +130,10 @@ class Cells(Laid):
             self.wall_thickness,
             self.grading,
             self.outline,
-            (self.endless or self.tied, self.endless or (self.tied and self.layers is not None)),
+            (
+                self.endless or self.tied_sides,
+                self.endless or (self.tied_sides and self.layers is not None),
+            ),
         )
 
     @property
@@ -167,7 +185,7 @@ class Cells(Laid):
 
     @property
     def thickest(self) -> float:
-        """See `Laid.thickest`; of a gradient, that of the mean wall."""
+        """See `WallLattice.thickest`; of a gradient, that of the mean wall."""
         if self.grading == 1.0:
             return super().thickest
         from sweep.design.box import gradient
@@ -175,97 +193,97 @@ class Cells(Laid):
         return super().thickest / float(gradient(self.geometry).max())
 
 
-def _lines(made: Cells) -> dict[str, Any]:
+def _lines(lattice: Cells) -> dict[str, Any]:
     """The keys that only an outline, a share of infill or some families use."""
-    lines = made.perimeters > 0 or made.infill is not None
-    turned = trait(made.kind, "ORIENTED")
+    lines = lattice.perimeters > 0 or lattice.infill is not None
+    turned = trait(lattice.kind, "ORIENTED")
     return {
-        "orientation": (made.orientation or "pointy") if turned else None,
-        "line_width": made.line if lines else None,
-        "layer_height": (made.layer_height or LAYER_HEIGHT) if made.solid_layers else None,
+        "orientation": (lattice.orientation or "pointy") if turned else None,
+        "line_width": lattice.line if lines else None,
+        "layer_height": (lattice.layer_height or LAYER_HEIGHT) if lattice.solid_layers else None,
     }
 
 
-def _filled(made: Cells, share: float, given: Given) -> dict[str, Any]:
+def _filled(lattice: Cells, share: float, inputs: Inputs) -> dict[str, Any]:
     """The numbers of cells and the wall thickness of a share of infill."""
-    if made.mass is not None:
-        raise RefusedError("lattice.mass", made.mass, "none where lattice.infill is given")
+    if lattice.mass is not None:
+        raise RefusedError("lattice.mass", lattice.mass, "none where lattice.infill is given")
     from sweep.design.sizing import cells_for
 
-    width = made.line
+    width = lattice.line
     reason = f"as lattice.infill is {100 * share:g} %; give one of them"
-    _check_follows("wall_thickness", width, f"{width:g} m, {reason}", given)
-    thin = made.model_copy(update={"wall_thickness": width})
+    _check_follows("wall_thickness", width, f"{width:g} m, {reason}", inputs)
+    thin = lattice.model_copy(update={"wall_thickness": width})
     count = cells_for(thin.geometry, share, MAX_NODES)
     if count is None:
         lines = f"lines of {width:g} m in this box"
         allowed = f"a share that 1 to {MAX_NODES:,} cells fill with {lines}"
         raise RefusedError("lattice.infill", share, allowed)
-    return {"wall_thickness": width} | _following(count, reason, given)
+    return {"wall_thickness": width} | _following(count, reason, inputs)
 
 
-def _divided(made: Cells, size: float, given: Given) -> dict[str, int]:
+def _divided(lattice: Cells, size: float, inputs: Inputs) -> dict[str, int]:
     """The numbers of cells that come nearest to a size."""
-    if made.infill is not None:
+    if lattice.infill is not None:
         raise RefusedError("lattice.cell_size", size, "none where lattice.infill is given")
     from sweep.design.sizing import cell_of, cells_of_size
 
-    count = cells_of_size(made.geometry, size, MAX_NODES)
+    count = cells_of_size(lattice.geometry, size, MAX_NODES)
     if count is None:
-        width, height = cell_of(made.geometry._replace(cells=(1, 1)))
+        width, height = cell_of(lattice.geometry._replace(cells=(1, 1)))
         box = f"a single cell is {width:.4g} m wide, or {height:.4g} m high"
         allowed = (
             f"the width of a cell of which 1 to {MAX_NODES:,} fit, regular within a third; {box}"
         )
         raise RefusedError("lattice.cell_size", size, allowed)
     reason = f"as lattice.cell_size is {size:g} m; give one of them"
-    return _following(count, reason, given)
+    return _following(count, reason, inputs)
 
 
-def _following(count: tuple[int, int], reason: str, given: Given) -> dict[str, int]:
+def _following(count: tuple[int, int], reason: str, inputs: Inputs) -> dict[str, int]:
     """The numbers of cells that follow from other keys."""
     follows = dict(zip(("cells_x", "cells_y"), count, strict=True))
     for key, value in follows.items():
-        _check_follows(key, value, f"{value}, {reason}", given)
+        _check_follows(key, value, f"{value}, {reason}", inputs)
     return follows
 
 
-def _check_follows(key: str, value: object, allowed: str, given: Given) -> None:
+def _check_follows(key: str, value: object, allowed: str, inputs: Inputs) -> None:
     """Refuse a given value that differs from the one that follows from other keys."""
-    if given.get(key, value) != value:
-        raise RefusedError(f"lattice.{key}", given[key], allowed)
+    if inputs.get(key, value) != value:
+        raise RefusedError(f"lattice.{key}", inputs[key], allowed)
 
 
-def _check_openings(made: Cells) -> None:
+def _check_openings(lattice: Cells) -> None:
     """Refuse walls as thick as the openings between them, and an outline that fills cells."""
-    limit, thickness = made.thickest, made.wall_thickness
+    limit, thickness = lattice.thickest, lattice.wall_thickness
     if thickness >= limit * (1.0 - 1e-12):
-        if made.infill is not None:
+        if lattice.infill is not None:
             allowed = "a share that leaves cells at least twice as wide as their walls"
-            raise RefusedError("lattice.infill", made.infill, allowed)
-        allowed = f"below half the width of the narrowest cell, {limit:.4g} m here"
+            raise RefusedError("lattice.infill", lattice.infill, allowed)
+        allowed = f"below half the width of the narrowest cell, {at_most(limit)} m here"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
-    gap = made.opening - thickness
+    gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
-        outline, count = made.outline[axis], getattr(made, key)
+        outline, count = lattice.outline[axis], getattr(lattice, key)
         if count and outline >= gap:
             most = int(gap / (outline / count))
             allowed = f"at most {most} here, thinner in all than cells are open, {gap:.4g} m"
             raise RefusedError(f"lattice.{key}", count, allowed)
 
 
-def _check_period(made: Cells) -> None:
+def _check_period(lattice: Cells) -> None:
     """Refuse a lattice that cannot be a period, or that has two kinds of it."""
-    if made.endless and made.tied:
+    if lattice.endless and lattice.tied_sides:
         raise RefusedError("lattice.sides", "periodic", f'"free" {ENDLESS}')
-    endless = ENDLESS if made.endless else TIED
+    endless = ENDLESS if lattice.endless else TIED
     for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
-        if getattr(made, key) != value:
+        if getattr(lattice, key) != value:
             text = "none" if value is None else f"{value:g}"
-            raise RefusedError(f"lattice.{key}", getattr(made, key), f"{text} {endless}")
-    flat = made.orientation == "flat"
+            raise RefusedError(f"lattice.{key}", getattr(lattice, key), f"{text} {endless}")
+    flat = lattice.orientation == "flat"
     key, row = ("cells_x", "column") if flat else ("cells_y", "row")
-    repeats = made.geometry.periodic[0 if flat else 1]
-    if repeats and trait(made.kind, "STAGGERED") and getattr(made, key) % 2:
-        allowed = f"an even number {endless}, as every other {row} of {made.kind} is shifted"
-        raise RefusedError(f"lattice.{key}", getattr(made, key), allowed)
+    repeats = lattice.geometry.periodic[0 if flat else 1]
+    if repeats and trait(lattice.kind, "STAGGERED") and getattr(lattice, key) % 2:
+        allowed = f"an even number {endless}, as every other {row} of {lattice.kind} is shifted"
+        raise RefusedError(f"lattice.{key}", getattr(lattice, key), allowed)

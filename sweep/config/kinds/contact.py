@@ -2,19 +2,19 @@
 
 from typing import ClassVar, Literal
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import ARCS
 from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.table import (
-    Given,
+    Inputs,
     NonNegative,
     Pairs,
     Positive,
     RefusedError,
     Speed,
     Table,
-    chosen,
+    own_values,
 )
 
 SLIP = 0.01  # default slip speed / speed of the platen or the striker
@@ -63,21 +63,21 @@ class ByPosition(Forceless):
 Contact = NoContact | Barrier | ByPosition
 
 
-def contact(values: Given | Pairs, loading: Loading, pressed: Pressed, integrator: str) -> Contact:
+def contact(values: Inputs | Pairs, loading: Loading, body: Body, integrator: str) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
     along arcs, since the unstable parts of an equilibrium path are not a motion.
     """
-    given = dict(values)
-    model = given.get("model", "auto")
+    inputs = dict(values)
+    model = inputs.get("model", "auto")
     if model == "position_based":
-        return _by_position(loading, pressed, integrator)
-    structure = pressed.structure
+        return _by_position(loading, body, integrator)
+    structure = body.structure
     floor = structure is not None and structure.floor_y_mm is not None
     if model == "none" and loading.platen != "contact" and not floor:
         return NoContact()
-    acts = chosen(given, Barrier) | {"model": "barrier" if model == "auto" else model}
+    acts = own_values(inputs, Barrier) | {"model": "barrier" if model == "auto" else model}
     if integrator == ARCS:
         return Barrier.model_validate(acts | {"friction": 0.0, "slip_speed": None})
     if loading.quasi_static or not acts.get("friction", 0.3):
@@ -86,11 +86,11 @@ def contact(values: Given | Pairs, loading: Loading, pressed: Pressed, integrato
     return Barrier.model_validate({"slip_speed": slip_speed} | acts)
 
 
-def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosition:
+def _by_position(loading: Loading, body: Body, integrator: str) -> ByPosition:
     """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
     key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
-    if pressed.shells:
-        raise RefusedError(key, model, f'"barrier" or "none" {pressed.where}')
+    if body.shells:
+        raise RefusedError(key, model, f'"barrier" or "none" {body.where}')
     if loading.quasi_static:
         raise RefusedError(key, model, f"{allowed}loading.quasi_static")
     if loading.base_moves:
@@ -100,9 +100,9 @@ def _by_position(loading: Loading, pressed: Pressed, integrator: str) -> ByPosit
     if loading.is_shaped:
         flat = 'unless loading.striker and loading.base are "flat"'
         raise RefusedError(key, model, f'"none" or "barrier" {flat}')
-    if pressed.structure is not None:
+    if body.structure is not None:
         raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
-    if pressed.tied:
+    if body.tied_sides:
         raise RefusedError(key, model, f'"none" or "barrier" {TIED}')
     if integrator != "backward_euler":
         only = '"backward_euler" if contact.model is "position_based"'

@@ -3,9 +3,9 @@
 from math import ceil, inf, isclose
 from typing import Any, ClassVar, Literal
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import is_along
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, Solver
 from sweep.config.kinds.specimen import ENDLESS
 from sweep.config.kinds.striker import Struck
@@ -15,13 +15,13 @@ from sweep.config.kinds.table import (
     Duration,
     Forces,
     Frequency,
-    Given,
+    Inputs,
     Length,
     RefusedError,
     Speed,
     Strain,
-    chosen,
     given_or,
+    own_values,
 )
 
 STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
@@ -56,22 +56,22 @@ class Crush(Struck):
     allowed_forces: Forces = ()
 
     @classmethod
-    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> "Crush":
+    def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> "Crush":
         """The crush of these values; of an endless lattice under a mean strain."""
-        if pressed.endless:
-            return _mean_crush(given, pressed, integrator, relaxes)
-        if given.get("platen") == "none":
+        if body.endless:
+            return _mean_crush(inputs, body, integrator, relaxes)
+        if inputs.get("platen") == "none":
             allowed = f'{PLATENS} if loading.mode is "displacement"'
             raise RefusedError("loading.platen", "none", allowed)
-        speed = _speed(given, pressed.height)
-        quasi_static = _is_quasi_static(given, speed, integrator)
-        stroke, strain = _stroke_and_strain(given, pressed.height)
-        if given.get("cycles", 1) > 1 and not given.get("unload", True):
-            raise RefusedError("loading.cycles", given["cycles"], "1 if loading.unload is false")
+        speed = _speed(inputs, body.height)
+        quasi_static = _is_quasi_static(inputs, speed, integrator)
+        stroke, strain = _stroke_and_strain(inputs, body.height)
+        if inputs.get("cycles", 1) > 1 and not inputs.get("unload", True):
+            raise RefusedError("loading.cycles", inputs["cycles"], "1 if loading.unload is false")
         motion = {"stroke": stroke, "strain": strain, "speed": speed, "quasi_static": quasi_static}
         if quasi_static:
-            motion |= _pace(given, speed, pressed.height, relaxes)
-        return cls.model_validate(chosen(given, cls) | motion)
+            motion |= _pace(inputs, speed, body.height, relaxes)
+        return cls.model_validate(own_values(inputs, cls) | motion)
 
     def ramps(self, solver: Solver) -> list[Ramp]:
         """Down, a pause, and back up; the pause takes as many steps as a motion of its time."""
@@ -108,37 +108,37 @@ def steps_in(time: float, time_step: float | None) -> int:
     return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
 
 
-def _mean_crush(given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Crush:
+def _mean_crush(inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Crush:
     """The crush of an endless lattice: a prescribed mean strain, quasi-static, without platens.
 
     The inertia of a mean motion depends on the point of reference, so that motion is refused.
     """
-    if given.get("platen", "none") != "none":
-        raise RefusedError("loading.platen", given["platen"], f'"none" {ENDLESS}')
-    others = {key: value for key, value in given.items() if key != "platen"}
-    made = Crush.of(others, pressed._replace(endless=False), integrator, relaxes)
-    if not made.quasi_static:
+    if inputs.get("platen", "none") != "none":
+        raise RefusedError("loading.platen", inputs["platen"], f'"none" {ENDLESS}')
+    others = {key: value for key, value in inputs.items() if key != "platen"}
+    crush = Crush.of(others, body._replace(endless=False), integrator, relaxes)
+    if not crush.quasi_static:
         raise RefusedError("loading.quasi_static", False, f"true {ENDLESS}", "loading.speed")
-    return made.model_copy(update={"platen": "none"})
+    return crush.model_copy(update={"platen": "none"})
 
 
-def _speed(given: Given, height: float) -> float | None:
+def _speed(inputs: Inputs, height: float) -> float | None:
     """The speed of a platen, from the strain rate if that is given."""
-    if "strain_rate" not in given:
-        return given.get("speed")
-    speed: float = given["strain_rate"] * height
-    if not isclose(given.get("speed", speed), speed, rel_tol=1e-9):
+    if "strain_rate" not in inputs:
+        return inputs.get("speed")
+    speed: float = inputs["strain_rate"] * height
+    if not isclose(inputs.get("speed", speed), speed, rel_tol=1e-9):
         raise RefusedError(
-            "loading.strain_rate", given["strain_rate"], "one of speed and strain_rate"
+            "loading.strain_rate", inputs["strain_rate"], "one of speed and strain_rate"
         )
     return speed
 
 
-def _is_quasi_static(given: Given, speed: float | None, integrator: str | None) -> bool:
+def _is_quasi_static(inputs: Inputs, speed: float | None, integrator: str | None) -> bool:
     """Whether there is no inertia: as given, else without a speed, or with a rate."""
-    rate = given.get("strain_rate")
+    rate = inputs.get("strain_rate")
     timed = speed is not None and rate is None
-    quasi_static: bool = given.get("quasi_static", not timed or integrator == "static")
+    quasi_static: bool = inputs.get("quasi_static", not timed or integrator == "static")
     if rate is not None and not quasi_static:
         raise RefusedError("loading.strain_rate", rate, "a speed, if quasi_static is false")
     if not quasi_static and integrator == "static":
@@ -149,25 +149,25 @@ def _is_quasi_static(given: Given, speed: float | None, integrator: str | None) 
 
 
 def _pace(
-    given: Given, speed: float | None, height: float, relaxes: bool
+    inputs: Inputs, speed: float | None, height: float, relaxes: bool
 ) -> dict[str, float | None]:
     """The pace of a quasi-static crush, which takes time only if the stress depends on it."""
     if not relaxes:
         return dict.fromkeys(("speed", "strain_rate", "hold_time"))
     pace = given_or(speed, STRAIN_RATE * height)
-    return {"speed": pace, "strain_rate": given.get("strain_rate", pace / height)}
+    return {"speed": pace, "strain_rate": inputs.get("strain_rate", pace / height)}
 
 
-def _stroke_and_strain(given: Given, height: float) -> tuple[float, float]:
+def _stroke_and_strain(inputs: Inputs, height: float) -> tuple[float, float]:
     """Stroke and strain, one from the other; 60 % strain if neither is given."""
-    if "stroke" not in given:
-        strain = given.get("strain", 0.6)
+    if "stroke" not in inputs:
+        strain = inputs.get("strain", 0.6)
         return strain * height, strain
-    stroke = given["stroke"]
-    strain = given.get("strain", stroke / height)
+    stroke = inputs["stroke"]
+    strain = inputs.get("strain", stroke / height)
     if stroke >= height:
-        pressed = "depth" if is_along(given) else "height"
-        allowed = f"below the {pressed} of the lattice, {height:g} m"
+        body = "depth" if is_along(inputs) else "height"
+        allowed = f"below the {body} of the lattice, {height:g} m"
         raise RefusedError("loading.stroke", stroke, allowed)
     if not isclose(stroke, strain * height, rel_tol=1e-9):
         allowed = f"{strain * height:g} m at the strain given; give one of them"

@@ -7,7 +7,7 @@ from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import COMPUTED, Given, NonNegative, RefusedError, chosen
+from sweep.config.kinds.table import COMPUTED, Inputs, NonNegative, RefusedError, own_values
 from sweep.config.structures.structure import Structure
 from sweep.config.structures.structure_file import faults, read_structure
 from sweep.constants import MM, TO_MM
@@ -53,25 +53,25 @@ class CustomStructure(Specimen):
     structure: Annotated[Structure, AfterValidator(_sound), COMPUTED]
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The structure of these values."""
-        if "structure" not in given and "file" not in given:
+        if "structure" not in inputs and "file" not in inputs:
             allowed = "the path of a .json file, as the kind is custom"
             raise RefusedError("lattice.file", None, allowed)
-        structure = given.get("structure") or read_structure(Path(given["file"]))
-        if (thickness := given.get("wall_thickness")) is not None:
+        structure = inputs.get("structure") or read_structure(Path(inputs["file"]))
+        if (thickness := inputs.get("wall_thickness")) is not None:
             structure = _scaled(structure, thickness)
         width, height = structure.size_mm
         each = structure.thickness_mm
         measured = {
-            "file": Path(given["file"]).name if given.get("file") else None,
+            "file": Path(inputs["file"]).name if inputs.get("file") else None,
             "structure": structure,
             "width": MM * width,
             "height": MM * height,
             "depth": MM * structure.depth_mm,
             "wall_thickness": MM * sum(each) / len(each),
         }
-        return cls.model_validate(chosen(given, cls) | measured)
+        return cls.model_validate(own_values(inputs, cls) | measured)
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
@@ -120,9 +120,9 @@ class CustomStructure(Specimen):
         """Thicknesses of all walls, m."""
         return tuple(MM * thickness for thickness in self.structure.thickness_mm)
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: `kind` is "custom"."""
-        return super().given() | {"kind": CUSTOM}
+        return super().inputs() | {"kind": CUSTOM}
 
     @property
     def elements(self) -> int:
@@ -132,8 +132,8 @@ class CustomStructure(Specimen):
 
 def _scaled(structure: Structure, thickness: float) -> Structure:
     """A structure whose walls are as thick on average as `thickness` (m)."""
-    made = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
-    if wrong := next(faults(made), None):
+    lattice = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
+    if wrong := next(faults(lattice), None):
         allowed = f"one that fits the structure ({wrong})"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
-    return made
+    return lattice

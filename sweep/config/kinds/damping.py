@@ -2,9 +2,9 @@
 
 from typing import Any, ClassVar, Literal
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.pressed import Pressed
-from sweep.config.kinds.table import Given, Lag, Pairs, Rate, RefusedError, Table, chosen
+from sweep.config.kinds.table import Inputs, Lag, Pairs, Rate, RefusedError, Table, own_values
 
 
 class NoDamping(Table):
@@ -37,26 +37,26 @@ class KelvinVoigt(Table):
 Damping = NoDamping | Rayleigh | KelvinVoigt
 
 
-def damping(values: Given | Pairs, loading: Loading, pressed: Pressed, relaxes: bool) -> Damping:
+def damping(values: Inputs | Pairs, loading: Loading, body: Body, relaxes: bool) -> Damping:
     """The damping of these values; shells have none."""
-    given = dict(values)
-    model = given.get("model", "none" if relaxes or pressed.shells else "rayleigh")
-    if pressed.shells and model != "none":
-        raise RefusedError("damping.model", model, f'"none" {pressed.where}')
+    inputs = dict(values)
+    model = inputs.get("model", "none" if relaxes or body.shells else "rayleigh")
+    if body.shells and model != "none":
+        raise RefusedError("damping.model", model, f'"none" {body.where}')
     if loading.quasi_static or model == "none":
         return NoDamping()
     if model == "rayleigh":
-        return Rayleigh.model_validate(_usual(given, loading) | {"model": "rayleigh"})
-    return KelvinVoigt.model_validate(chosen(given, KelvinVoigt))
+        return Rayleigh.model_validate(_usual(inputs, loading) | {"model": "rayleigh"})
+    return KelvinVoigt.model_validate(own_values(inputs, KelvinVoigt))
 
 
-def _usual(given: Given, loading: Loading) -> dict[str, Any]:
+def _usual(inputs: Inputs, loading: Loading) -> dict[str, Any]:
     """The values of Rayleigh damping; none goes with the mass where the base moves freely.
 
     It would hold the lattice back in space, and take momentum from striker and base.
     """
     if not loading.base_moves:
-        return chosen(given, Rayleigh)
-    if given.get("mass"):
-        raise RefusedError("damping.mass", given["mass"], "0 if loading.target_mass is given")
-    return chosen(given, Rayleigh) | {"mass": 0.0}
+        return own_values(inputs, Rayleigh)
+    if inputs.get("mass"):
+        raise RefusedError("damping.mass", inputs["mass"], "0 if loading.target_mass is given")
+    return own_values(inputs, Rayleigh) | {"mass": 0.0}

@@ -2,12 +2,14 @@
 
 from typing import ClassVar, Literal, Self
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import IN_TIME, Solver
 from sweep.config.kinds.striker import Struck
-from sweep.config.kinds.table import Duration, Force, Forces, Given, RefusedError, chosen
+from sweep.config.kinds.table import Duration, Force, Forces, Inputs, RefusedError, own_values
+
+DURATION, RELEASE = 0.2, 0.138  # s, as in the course report
 
 
 class DeadLoad(Struck):
@@ -22,22 +24,22 @@ class DeadLoad(Struck):
     mode: Literal["force"] = "force"
     force: Force = 10.0
     release_time: Duration
-    duration: Duration = 0.2
+    duration: Duration = DURATION
     platen: Literal["none", "contact", "glued", "sliding"] = "none"
     allowed_forces: Forces = ()
 
     @classmethod
-    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+    def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Self:
         """The dead load of these values."""
         if integrator == "static":
             allowed = f'{IN_TIME} if loading.mode is "force"'
             raise RefusedError("solver.integrator", "static", allowed)
-        duration = given.get("duration", 0.2)
-        release_time = given.get("release_time", min(0.138, duration))
+        duration = inputs.get("duration", DURATION)
+        release_time = inputs.get("release_time", min(RELEASE, duration))
         if release_time > duration:
             allowed = f"up to the duration, {duration:g} s"
             raise RefusedError("loading.release_time", release_time, allowed)
-        return cls.model_validate(chosen(given, cls) | {"release_time": release_time})
+        return cls.model_validate(own_values(inputs, cls) | {"release_time": release_time})
 
     def ramps(self, solver: Solver) -> list[Ramp]:
         """The load until its release, and the time after it."""

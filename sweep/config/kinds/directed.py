@@ -3,10 +3,10 @@
 from abc import abstractmethod
 from typing import Any, ClassVar, Literal, NamedTuple
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.direction import ACROSS, ALONG, Direction
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import TIME_STEP, InTime, Solver
-from sweep.config.kinds.table import Given, Length, Table
+from sweep.config.kinds.table import Inputs, Length, Table
 
 BASE_PATCH = 5e-3  # m
 Role = Literal["loading", "hold", "unloading"]  # in the order of a cycle
@@ -55,9 +55,7 @@ class Directed(Table):
 
     @classmethod
     @abstractmethod
-    def of(
-        cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool
-    ) -> "Directed":
+    def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> "Directed":
         """The loading of these values; relaxes: whether stress depends on time."""
 
     @abstractmethod
@@ -68,7 +66,7 @@ class Directed(Table):
     def loaded_for(self, height: float) -> float:
         """About how long walls of a height (m) are loaded, s."""
 
-    def usual_step(self, pressed: Pressed, modulus: float) -> float:
+    def usual_step(self, body: Body, modulus: float) -> float:
         """Time step (s) of a motion, if none is given; modulus: of the material, Pa."""
         return TIME_STEP
 

@@ -6,7 +6,7 @@ its walls are plates (`scene.plates`).
 
 from typing import Final, Literal
 
-from sweep.config.kinds.table import Given
+from sweep.config.kinds.table import Inputs
 
 Direction = Literal["in_plane", "out_of_plane"]
 ACROSS: Final = "in_plane"
@@ -14,6 +14,6 @@ ALONG: Final = "out_of_plane"
 WHERE = f'if loading.direction is "{ALONG}"'
 
 
-def is_along(loading: Given) -> bool:
+def is_along(loading: Inputs) -> bool:
     """Whether these values of a loading press along the cells."""
     return loading.get("direction") == ALONG

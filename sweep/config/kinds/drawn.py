@@ -9,9 +9,10 @@ from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
 from sweep.config.kinds.mesh import nodes_of
-from sweep.config.kinds.specimen import Laid, check_proportion, check_size, thickness_of
-from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
+from sweep.config.kinds.specimen import WallLattice, check_proportion, check_size, thickness_of
+from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.geometry import Drawing, Geometry
+from sweep.numbers import at_most
 
 DRAWN: Final = "drawn"
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
@@ -31,7 +32,7 @@ def _sound(drawing: Drawing) -> Drawing:
     return drawing
 
 
-class Drawn(Laid):
+class Drawn(WallLattice):
     """The walls in a `file`, which meet where they cross and are in one piece.
 
     file_unit: length of one unit of the file, in place of the one that it states. `mass` sets the
@@ -39,7 +40,7 @@ class Drawn(Laid):
     """
 
     because: ClassVar[str] = f'lattice.kind is "{DRAWN}"'
-    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "file_unit")
+    labels: ClassVar[tuple[str, ...]] = (*WallLattice.labels, "file_unit")
     constants: ClassVar[dict[str, Any]] = {"kind": DRAWN}
     derived: ClassVar[tuple[str, ...]] = ("width", "height")
     sets: ClassVar[dict[str, tuple[str, ...]]] = {"mass": ("wall_thickness",)}
@@ -59,29 +60,29 @@ class Drawn(Laid):
     mass: Mass | None = None
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The drawing of these values."""
-        if "drawing" not in given and "file" not in given:
+        if "drawing" not in inputs and "file" not in inputs:
             allowed = "the path of a drawing, as the kind is drawn"
             raise RefusedError("lattice.file", None, allowed)
         usual: dict[str, Any] = {"nodes_per_wall": nodes_of(DRAWN)}
-        values = {key: v for key, v in chosen(given, cls).items() if key not in cls.derived}
-        if "drawing" not in given:
-            usual |= _of_file(given)
-            values["file"] = Path(given["file"]).name
-        made = cls.model_validate(usual | values)
-        width, height = (max(at[axis] for at in made.drawing.joints) for axis in (0, 1))
-        made = cls.model_validate(dict(made) | {"width": width, "height": height})
-        _check_sides(made, given)
-        check_proportion(made)
-        check_size(made, ("nodes_per_wall",))
-        if made.mass is not None:
-            thickness = thickness_of(made, made.mass, given, density)
-            return made.model_copy(update={"wall_thickness": thickness})
-        if made.wall_thickness >= made.thickest:
-            allowed = f"below half the width of the widest cell, {made.thickest:.4g} m here"
-            raise RefusedError("lattice.wall_thickness", made.wall_thickness, allowed)
-        return made
+        values = {key: v for key, v in own_values(inputs, cls).items() if key not in cls.derived}
+        if "drawing" not in inputs:
+            usual |= _of_file(inputs)
+            values["file"] = Path(inputs["file"]).name
+        lattice = cls.model_validate(usual | values)
+        width, height = (max(at[axis] for at in lattice.drawing.joints) for axis in (0, 1))
+        lattice = cls.model_validate(dict(lattice) | {"width": width, "height": height})
+        _check_sides(lattice, inputs)
+        check_proportion(lattice)
+        check_size(lattice, inputs, ("nodes_per_wall", "file"))
+        if lattice.mass is not None:
+            thickness = thickness_of(lattice, lattice.mass, inputs, density)
+            return lattice.model_copy(update={"wall_thickness": thickness})
+        if lattice.wall_thickness >= lattice.thickest:
+            allowed = f"below half the width of the widest cell, {at_most(lattice.thickest)} m here"
+            raise RefusedError("lattice.wall_thickness", lattice.wall_thickness, allowed)
+        return lattice
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
@@ -90,9 +91,9 @@ class Drawn(Laid):
 
         return list(read_drawing(path).lines.notes)
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows."""
-        return super().given() | {"kind": DRAWN}
+        return super().inputs() | {"kind": DRAWN}
 
     @property
     def name(self) -> str:
@@ -104,11 +105,6 @@ class Drawn(Laid):
         """The numbers that define the drawing."""
         box = self.width, self.height
         return Geometry(DRAWN, None, (1, 1), box, self.wall_thickness, drawing=self.drawing)
-
-    @property
-    def counts(self) -> tuple[int, int]:
-        """Numbers of joints and of walls between joints."""
-        return len(self.drawing.joints), len(self.drawing.walls)
 
     @property
     def elements(self) -> int:
@@ -151,13 +147,13 @@ class Drawn(Laid):
         return 0.5 * min(_openings(self.drawing)[1], self.width, self.height)
 
 
-def _check_sides(made: Drawn, given: Given) -> None:
+def _check_sides(lattice: Drawn, inputs: Inputs) -> None:
     """Refuse a size that is not that of the drawing."""
     for key in Drawn.derived:
-        size = getattr(made, key)
-        if not isclose(given.get(key, size), size, rel_tol=SIZED):
+        size = getattr(lattice, key)
+        if not isclose(inputs.get(key, size), size, rel_tol=SIZED):
             allowed = f"{size:.6g} m, that of the drawing; lattice.file_unit changes it"
-            raise RefusedError(f"lattice.{key}", given[key], allowed)
+            raise RefusedError(f"lattice.{key}", inputs[key], allowed)
 
 
 @lru_cache(maxsize=256)
@@ -171,16 +167,16 @@ def _openings(drawing: Drawing) -> tuple[float, float]:
     return float(widths.min(initial=inf)), float(widths.max()) if len(widths) else inf
 
 
-def _of_file(given: Given) -> dict[str, Any]:
+def _of_file(inputs: Inputs) -> dict[str, Any]:
     """The values that the file of a drawing states."""
     import numpy as np
 
     from sweep.config.drawings.drawing_file import read_drawing
 
-    path = Path(given["file"])
+    path = Path(inputs["file"])
     network, lines = read_drawing(path)
-    unit = given.get("file_unit") or lines.unit
-    if lines.named and "file_unit" in given:
+    unit = inputs.get("file_unit") or lines.unit
+    if lines.named and "file_unit" in inputs:
         allowed = f"none, as {path.name} itself names the unit of its numbers"
         raise RefusedError("lattice.file_unit", unit, allowed)
     if unit is None:

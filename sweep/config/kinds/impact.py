@@ -4,10 +4,10 @@ from math import isclose, nan, pi, sqrt
 from typing import Any, ClassVar, Final, Literal, Self
 
 from sweep.config.defaults.drop_tests import Drop, drop_of
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import PLATENS
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS, is_along
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import IN_TIME, MAX_STEPS, Solver
 from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
@@ -15,13 +15,13 @@ from sweep.config.kinds.table import (
     Duration,
     Energy,
     Forces,
-    Given,
+    Inputs,
     Length,
     Mass,
     RefusedError,
     Speed,
-    chosen,
     given_or,
+    own_values,
 )
 from sweep.constants import STANDARD_GRAVITY
 
@@ -74,22 +74,22 @@ class Impact(Struck):
     allowed_forces: Forces = ()
 
     @classmethod
-    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+    def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Self:
         """The impact of these values."""
         only = 'if loading.mode is "impact"'
         if integrator == "static":
             raise RefusedError("solver.integrator", "static", f"{IN_TIME} {only}")
-        if given.get("platen") == "none":
+        if inputs.get("platen") == "none":
             raise RefusedError("loading.platen", "none", f"{PLATENS} {only}")
-        if "target_mass" in given:
-            _check_target(given)
-        mass, drop_height = _dropped(given)
-        speed, energy, fall = _at_touch(given, mass, drop_height)
+        if "target_mass" in inputs:
+            _check_target(inputs)
+        mass, drop_height = _dropped(inputs)
+        speed, energy, fall = _at_touch(inputs, mass, drop_height)
         motion = {"striker_mass": mass, "striker_speed": speed, "energy": energy}
         fixed = {"drop_height": fall, "mode": "impact"}
-        falls = is_drop(given) and "target_mass" not in given
-        usual = {"duration": PASSAGES * pressed.height / speed, "gravity": falls}
-        return cls.model_validate(usual | chosen(given, cls) | motion | fixed)
+        falls = is_drop(inputs) and "target_mass" not in inputs
+        usual = {"duration": PASSAGES * body.height / speed, "gravity": falls}
+        return cls.model_validate(usual | own_values(inputs, cls) | motion | fixed)
 
     def ramps(self, solver: Solver) -> list[Ramp]:
         """The motion of the striker, which may end before its duration."""
@@ -99,19 +99,19 @@ class Impact(Struck):
         """The time of a striker's passage, and back, s."""
         return 2.0 * height / self.striker_speed
 
-    def usual_step(self, pressed: Pressed, modulus: float) -> float:
+    def usual_step(self, body: Body, modulus: float) -> float:
         """Time step (s) of a motion, if none is given, of no more than `MAX_STEPS`."""
-        return max(self.contact_step(pressed, modulus), self.duration / MAX_STEPS)
+        return max(self.contact_step(body, modulus), self.duration / MAX_STEPS)
 
-    def contact_step(self, pressed: Pressed, modulus: float) -> float:
+    def contact_step(self, body: Body, modulus: float) -> float:
         """A share of the contact, s; modulus: of the material, Pa.
 
         A fast striker is stopped within the height of the lattice, in which its weight speeds it
         up. A slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever
         its speed, with the reduced mass m; for a solid block, this time is a lower bound.
         """
-        passage = pressed.height / self.greatest_speed(pressed.height) / STEPS_OF_PASSAGE
-        contact = pi * sqrt(self.reduced_mass * pressed.compliance(modulus)) / STEPS_OF_CONTACT
+        passage = body.height / self.greatest_speed(body.height) / STEPS_OF_PASSAGE
+        contact = pi * sqrt(self.reduced_mass * body.compliance(modulus)) / STEPS_OF_CONTACT
         return min(passage, contact)
 
     @property
@@ -160,25 +160,25 @@ class Impact(Struck):
         }
 
 
-def is_drop(given: Given) -> bool:
+def is_drop(inputs: Inputs) -> bool:
     """Whether these values of an impact speak of a fall."""
-    return given.get("mode") == DROP or "drop_height" in given or "preset" in given
+    return inputs.get("mode") == DROP or "drop_height" in inputs or "preset" in inputs
 
 
-def _check_target(given: Given) -> None:
+def _check_target(inputs: Inputs) -> None:
     """Refuse what a target that moves freely does not have: gravity, and walls along the hit."""
     free = "if loading.target_mass is given"
-    if given.get("gravity"):
+    if inputs.get("gravity"):
         allowed = f"false {free}, as a target that moves freely falls like the striker"
         raise RefusedError("loading.gravity", True, allowed)
-    if is_along(given):
-        raise RefusedError("loading.direction", given["direction"], f'"{ACROSS}" {free}')
+    if is_along(inputs):
+        raise RefusedError("loading.direction", inputs["direction"], f'"{ACROSS}" {free}')
 
 
-def _dropped(given: Given) -> tuple[float, float | None]:
+def _dropped(inputs: Inputs) -> tuple[float, float | None]:
     """Mass of the striker and height of its fall, of the preset where it says them."""
-    mass, height, count = (given.get(key) for key in ("striker_mass", "drop_height", "specimens"))
-    preset = given.get("preset")
+    mass, height, count = (inputs.get(key) for key in ("striker_mass", "drop_height", "specimens"))
+    preset = inputs.get("preset")
     drop = drop_of(preset) if preset else Drop(None, height or 0.0)
     if count and drop.mass is None:
         raise RefusedError("loading.specimens", count, "none unless loading.preset has a mass")
@@ -195,24 +195,24 @@ def _dropped(given: Given) -> tuple[float, float | None]:
     return usual, drop.height or None
 
 
-def _at_touch(given: Given, mass: float, drop_height: float | None) -> tuple[float, float, float]:
+def _at_touch(inputs: Inputs, mass: float, drop_height: float | None) -> tuple[float, float, float]:
     """Speed and energy of a striker and the height of its fall, from one of them: v^2 = 2 g h.
 
     2 m/s if none is given.
     """
-    speed = given.get("striker_speed", 2.0)
-    if "striker_speed" not in given and drop_height is not None:
+    speed = inputs.get("striker_speed", 2.0)
+    if "striker_speed" not in inputs and drop_height is not None:
         speed = sqrt(2.0 * STANDARD_GRAVITY * drop_height)
-    elif "striker_speed" not in given and "energy" in given:
-        speed = sqrt(2.0 * given["energy"] / mass)
+    elif "striker_speed" not in inputs and "energy" in inputs:
+        speed = sqrt(2.0 * inputs["energy"] / mass)
     energy, fall = 0.5 * mass * speed * speed, speed * speed / (2.0 * STANDARD_GRAVITY)
-    source = "speed" if "striker_speed" in given else "drop height"
+    source = "speed" if "striker_speed" in inputs else "drop height"
     for key, value, follows, unit in (
         ("drop_height", drop_height, fall, "m"),
-        ("energy", given.get("energy"), energy, "J"),
+        ("energy", inputs.get("energy"), energy, "J"),
     ):
         if not isclose(given_or(value, follows), follows, rel_tol=1e-9):
-            of = "preset" if key == "drop_height" and "drop_height" not in given else key
+            of = "preset" if key == "drop_height" and "drop_height" not in inputs else key
             allowed = f"{follows:g} {unit} at the {source} given; give one of them"
-            raise RefusedError(f"loading.{of}", given.get(of), allowed)
-    return speed, given.get("energy", energy), given_or(drop_height, fall)
+            raise RefusedError(f"loading.{of}", inputs.get(of), allowed)
+    return speed, inputs.get("energy", energy), given_or(drop_height, fall)

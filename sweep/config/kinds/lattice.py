@@ -12,7 +12,7 @@ from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.config.kinds.table import Given, Pairs, RefusedError, keys_of
+from sweep.config.kinds.table import Inputs, Pairs, RefusedError, keys_of
 from sweep.config.kinds.upright import upright
 
 Lattice: TypeAlias = Cells | Sliced | Sheet | SlicedSheet | CustomStructure | Drawn
@@ -38,26 +38,26 @@ AnyLattice = Annotated[
 """A lattice in a case, which JSON text holds without the name of its kind."""
 
 
-def kind_of(given: Given) -> type[Lattice]:
+def kind_of(inputs: Inputs) -> type[Lattice]:
     """The kind of lattice that values mean."""
-    return next(kind for kind in reversed(KINDS) if kind.means(given))
+    return next(kind for kind in reversed(KINDS) if kind.means(inputs))
 
 
-def lattice_of(values: Given | Pairs, density: float, along: bool) -> Lattice:
+def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
     """The lattice of these values; density (kg/m^3): of its material."""
-    given = dict(values)
-    if given.get("kind", WORDS[0]) not in WORDS:
-        raise RefusedError("lattice.kind", given["kind"], ", ".join(WORDS))
-    made = kind_of(given).of(given, density, along)
-    check_printable(made)
-    if made.sheet:
-        return made
-    return upright(made, given) if along else _across(made)
+    inputs = dict(values)
+    if inputs.get("kind", WORDS[0]) not in WORDS:
+        raise RefusedError("lattice.kind", inputs["kind"], ", ".join(WORDS))
+    lattice = kind_of(inputs).of(inputs, density, along)
+    check_printable(lattice)
+    if lattice.sheet:
+        return lattice
+    return upright(lattice, inputs) if along else _across(lattice)
 
 
-def _across(made: Lattice) -> Lattice:
+def _across(lattice: Lattice) -> Lattice:
     """The lattice without what only a crush along the cells uses.
 
     It is one of perhaps very many: all share the set of their keys.
     """
-    return type(made).model_construct(keys_of(type(made)), **(dict(made) | made.across))
+    return type(lattice).model_construct(keys_of(type(lattice)), **(dict(lattice) | lattice.across))

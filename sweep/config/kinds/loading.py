@@ -4,15 +4,15 @@ from typing import Annotated, TypeAlias, get_args
 
 from pydantic import Field
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.striker import struck
-from sweep.config.kinds.table import Given, Pairs, RefusedError
+from sweep.config.kinds.table import Inputs, Pairs, RefusedError
 
 Loading: TypeAlias = DeadLoad | Crush | Impact | OfFile
 KINDS: tuple[type[Loading], ...] = get_args(Loading)
@@ -23,31 +23,29 @@ PLATENS_ALONG = '"glued", "clamped" or "contact"'
 PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
-def loading(
-    values: Given | Pairs, pressed: Pressed, integrator: str | None, relaxes: bool
-) -> Loading:
+def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes: bool) -> Loading:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
-    given = dict(values)
-    if pressed.structure is not None and not pressed.along:
-        return OfFile.of(given, pressed, integrator, relaxes)
-    mode = _mode_of(given, pressed.shells)
-    _check(given, mode, pressed, integrator)
-    given = struck(given, pressed.width, pressed.unending)
+    inputs = dict(values)
+    if body.structure is not None and not body.along:
+        return OfFile.of(inputs, body, integrator, relaxes)
+    mode = _mode_of(inputs, body.shells)
+    _check(inputs, mode, body, integrator)
+    inputs = struck(inputs, body.width, body.unending)
     kind = next(kind for kind in BY_MODE if mode in kind.words)
-    return kind.of(given, pressed, integrator, relaxes)
+    return kind.of(inputs, body, integrator, relaxes)
 
 
-def _mode_of(given: Given, shells: bool) -> str:
+def _mode_of(inputs: Inputs, shells: bool) -> str:
     """The mode, which keys that only one mode has imply if it is not given; else a dead load, and
     of shells a crush.
     """
-    if "mode" in given:
+    if "mode" in inputs:
         for kind in KINDS:
-            if given["mode"] in kind.words:
+            if inputs["mode"] in kind.words:
                 return kind.words[0]
         allowed = ", ".join(f'"{word}"' for kind in BY_MODE for word in kind.words)
-        raise RefusedError("loading.mode", given["mode"], allowed)
-    implied = _implied(given)
+        raise RefusedError("loading.mode", inputs["mode"], allowed)
+    implied = _implied(inputs)
     if len(implied) > 1:
         (one, key), (other, also) = list(implied.items())[:2]
         keys = f"as loading.{key} needs the one and loading.{also} the other"
@@ -56,26 +54,26 @@ def _mode_of(given: Given, shells: bool) -> str:
     return next(iter(implied), usual)
 
 
-def _implied(given: Given) -> dict[str, str]:
+def _implied(inputs: Inputs) -> dict[str, str]:
     """The modes that keys imply, each with the first of its keys; a subclass implies its own."""
     implied: dict[str, str] = {}
     for kind in BY_MODE:
         kinds = [other for other in BY_MODE if not issubclass(other, kind)]
         others = {key for other in kinds for key in other.model_fields}
-        own = [key for key in kind.model_fields if key not in others and key in given]
+        own = [key for key in kind.model_fields if key not in others and key in inputs]
         if own:
             implied[kind.words[0]] = own[0]
-    if "duration" in given and "impact" not in implied:
+    if "duration" in inputs and "impact" not in implied:
         implied.setdefault("force", "duration")
     return implied
 
 
-def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) -> None:
+def _check(inputs: Inputs, mode: str, body: Body, integrator: str | None) -> None:
     """Refuse a mode, an integrator or platens that the lattice or the direction does not have."""
-    shells, since = pressed.shells, _implied(given).get(mode)
+    shells, since = body.shells, _implied(inputs).get(mode)
     because = f"loading.{since}" if since else None
     if shells and mode not in ("displacement", "impact"):
-        raise RefusedError("loading.mode", mode, f"{MODES} {pressed.where}", because)
+        raise RefusedError("loading.mode", mode, f"{MODES} {body.where}", because)
     if mode == "custom":
         allowed = '"force", "displacement" or "impact" unless lattice.kind is "custom"'
         raise RefusedError("loading.mode", "custom", allowed)
@@ -83,16 +81,17 @@ def _check(given: Given, mode: str, pressed: Pressed, integrator: str | None) ->
         unless = "" if shells else ', unless lattice.kind is "custom"'
         allowed = f'"static" where quasi-static, else {IN_TIME}{unless}'
         raise RefusedError("solver.integrator", ARCS, allowed)
-    if pressed.endless and mode != "displacement":
+    if body.endless and mode != "displacement":
         allowed = '"displacement" if lattice.boundary is "periodic"'
         raise RefusedError("loading.mode", mode, allowed, because)
-    platen = given.get("platen")
-    if pressed.sheet and "target_mass" in given:
-        raise RefusedError("loading.target_mass", given["target_mass"], f"none {pressed.where}")
-    if pressed.tied and not shells and platen in (None, "none") and (platen or mode == "force"):
+    platen = inputs.get("platen")
+    if body.sheet and "target_mass" in inputs:
+        raise RefusedError("loading.target_mass", inputs["target_mass"], f"none {body.where}")
+    if body.tied_sides and not shells and platen in (None, "none") and (platen or mode == "force"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
     if shells and platen not in (None, "glued", "clamped", "contact"):
-        raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {pressed.where}")
-    if not shells and not pressed.endless and platen == "clamped":
-        allowed = f'{PLATENS_ACROSS} if loading.direction is "in_plane"'
+        raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {body.where}")
+    if not shells and not body.endless and platen == "clamped":
+        none = '"none", ' if mode == "force" and not body.tied_sides else ""
+        allowed = f'{none}{PLATENS_ACROSS} if loading.direction is "in_plane"'
         raise RefusedError("loading.platen", platen, allowed)

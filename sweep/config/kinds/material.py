@@ -4,13 +4,12 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from sweep.config.kinds.direction import WHERE
 from sweep.config.kinds.table import (
     COMPUTED,
     STEADY,
     Density,
     Duration,
-    Given,
+    Inputs,
     NonNegative,
     Pairs,
     RefusedError,
@@ -139,172 +138,176 @@ class Material(Table):
         return self.bend in SECTIONS
 
 
-def material(values: Given | Pairs, along: bool = False) -> Material:
-    """The material of these values; along: of walls that are pressed along the cells.
+def material(values: Inputs | Pairs, where: str = "") -> Material:
+    """The material of these values; where: why its walls are plates, in words, if they are.
 
     `RecordError` if the file of a named one cannot be read.
     """
-    given = dict(values)
-    complete = "curve_strain" in given
-    made = Material.model_validate(_with_constants(given) if complete else _completed(given))
-    _check_relaxation(made)
-    _check_softening(made)
-    _check_law(made)
-    return _of_plates(made) if along else made
+    inputs = dict(values)
+    complete = "curve_strain" in inputs
+    material = Material.model_validate(_with_constants(inputs) if complete else _completed(inputs))
+    _check_relaxation(material)
+    _check_softening(material)
+    _check_law(material)
+    return _of_plates(material, where) if where else material
 
 
-def relaxes(given: Given) -> bool:
+def relaxes(inputs: Inputs) -> bool:
     """Whether these values of a material make its stress depend on time."""
-    return given.get("loss") is not None or bool(given.get("relaxation_times"))
+    return inputs.get("loss") is not None or bool(inputs.get("relaxation_times"))
 
 
-def _with_constants(given: dict[str, Any]) -> dict[str, Any]:
+def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
     """The values of a complete material, to which a change may have added a memory."""
-    usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in given else {}
-    if relaxes(given) and "reference_time" not in given:
-        usual["reference_time"] = read_record(locate(given["name"])).reference_time
-    return usual | given
+    usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in inputs else {}
+    if relaxes(inputs) and "reference_time" not in inputs:
+        usual["reference_time"] = read_record(locate(inputs["name"])).reference_time
+    return usual | inputs
 
 
-def _completed(inputs: Given) -> dict[str, Any]:
+def _completed(own: Inputs) -> dict[str, Any]:
     """The values with those of the record, and the defaults that follow from both."""
-    by_numbers = "modulus" in inputs and "name" not in inputs
-    record = None if by_numbers else read_record(locate(inputs.get("name", "ninjaflex")))
-    given = _with_memory(dict(inputs), record)
+    by_numbers = "modulus" in own and "name" not in own
+    record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
+    inputs = _with_memory(dict(own), record)
     if record is not None:
-        given = dict(record.plasticity) | given
-    if not relaxes(given):
-        given = {**given, "reference_time": None}
-    if "softening_r" in given:
-        given = {"softening_beta": SOFTENING_BETA, **given}
+        inputs = dict(record.plasticity) | inputs
+    if not relaxes(inputs):
+        inputs = {**inputs, "reference_time": None}
+    if "softening_r" in inputs:
+        inputs = {"softening_beta": SOFTENING_BETA, **inputs}
     else:
-        given = {**given, "softening_m": None, "softening_beta": None}
-    given = _with_plasticity(given)
+        inputs = {**inputs, "softening_m": None, "softening_beta": None}
+    inputs = _with_plasticity(inputs)
     if record is None:
-        return _by_numbers(given)
-    return _of_record(record, _with_law(given), inputs)
+        return _by_numbers(inputs)
+    return _of_record(record, _with_law(inputs), own)
 
 
-def _by_numbers(given: dict[str, Any]) -> dict[str, Any]:
+def _by_numbers(inputs: dict[str, Any]) -> dict[str, Any]:
     """A material without a record, which is linear."""
-    if "density" not in given:
+    if "density" not in inputs:
         raise RefusedError("material.density", None, "a density, as no name is given")
-    usual = {"reference_time": REFERENCE_TIME} if relaxes(given) else {}
-    return _with_law({"name": BY_NUMBERS, "stretch": "linear", **usual, **given})
+    usual = {"reference_time": REFERENCE_TIME} if relaxes(inputs) else {}
+    return _with_law({"name": BY_NUMBERS, "stretch": "linear", **usual, **inputs})
 
 
-def _with_law(given: dict[str, Any]) -> dict[str, Any]:
+def _with_law(inputs: dict[str, Any]) -> dict[str, Any]:
     """The values with the law of bending; that of a linear material is linear."""
-    linear = given.get("stretch", "nonlinear") == "linear"
-    return {"bend": "linear", **given} if linear else given
+    linear = inputs.get("stretch", "nonlinear") == "linear"
+    return {"bend": "linear", **inputs} if linear else inputs
 
 
-def _of_record(record: Record, given: dict[str, Any], inputs: Given) -> dict[str, Any]:
+def _of_record(record: Record, inputs: dict[str, Any], own: Inputs) -> dict[str, Any]:
     """The values with the numbers and the curve of a record."""
-    numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(given) else []))
+    numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(inputs) else []))
     record_values = {key: getattr(record, key) for key in numbers}
-    laws = [given.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
-    if given["hardening"] is None and by_curve(*laws):
+    laws = [inputs.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
+    if inputs["hardening"] is None and by_curve(*laws):
         record_values |= {"curve_strain": record.strain, "curve_stress": record.stress}
-    uncertain = _uncertain(record, inputs, {**record_values, **given})
-    return {**record_values, **given, "name": record.name, "uncertain": uncertain}
+    uncertain = _uncertain(record, own, {**record_values, **inputs})
+    return {**record_values, **inputs, "name": record.name, "uncertain": uncertain}
 
 
-def _check_relaxation(made: Material) -> None:
-    times, shares = made.relaxation_times, made.relaxation_shares
+def _check_relaxation(material: Material) -> None:
+    times, shares = material.relaxation_times, material.relaxation_shares
     if len(times) != len(shares):
         raise RefusedError("material.relaxation_times", list(times), "a time for each share")
-    if times and made.loss is not None:
-        raise RefusedError("material.loss", made.loss, "one of loss and relaxation")
+    if times and material.loss is not None:
+        raise RefusedError("material.loss", material.loss, "one of loss and relaxation")
     if sum(shares) >= 1.0:
         allowed = "shares whose sum is below 1"
         raise RefusedError("material.relaxation_shares", list(shares), allowed)
 
 
-def _check_softening(made: Material) -> None:
-    if made.softening_r is None:
+def _check_softening(material: Material) -> None:
+    if material.softening_r is None:
         return
-    if made.softening_m is None:
+    if material.softening_m is None:
         raise RefusedError("material.softening_m", None, "a stress, as softening_r is given")
-    if not made.through_fibres:
-        raise RefusedError("material.bend", made.bend, f"{FIBRES} if softening_r is given")
+    if not material.through_fibres:
+        raise RefusedError("material.bend", material.bend, f"{FIBRES} if softening_r is given")
 
 
-def _check_law(made: Material) -> None:
+def _check_law(material: Material) -> None:
     """Refuse a law of stretching or bending without its curve, or beside another law."""
-    used = by_curve(made.stretch, made.bend)
-    if made.yields:
-        _check_plasticity(made)
-    elif used and not made.curve_strain:
+    used = by_curve(material.stretch, material.bend)
+    if material.yields:
+        _check_plasticity(material)
+    elif used and not material.curve_strain:
         allowed = '"linear", as no curve is given'
-        raise RefusedError(f"material.{used}", getattr(made, used), allowed)
+        raise RefusedError(f"material.{used}", getattr(material, used), allowed)
     elif used:
-        check_curve(made.curve_strain, made.curve_stress)
-        _check_that_it_rises(made)
+        check_curve(material.curve_strain, material.curve_stress)
+        _check_that_it_rises(material)
 
 
-def _check_that_it_rises(made: Material) -> None:
+def _check_that_it_rises(material: Material) -> None:
     """Refuse a material that relaxes if its stress does not rise with strain."""
-    at = not_rising(made.curve_strain, made.curve_stress) if made.relaxes else None
+    at = not_rising(material.curve_strain, material.curve_stress) if material.relaxes else None
     if at is not None:
-        key = "relaxation_times" if made.loss is None else "loss"
-        value = list(made.relaxation_times) if made.loss is None else made.loss
-        falls = f"the stress of {made.name} does not rise from a strain of {at:g} on"
+        key = "relaxation_times" if material.loss is None else "loss"
+        value = list(material.relaxation_times) if material.loss is None else material.loss
+        falls = f"the stress of {material.name} does not rise from a strain of {at:g} on"
         raise RefusedError(f"material.{key}", value, f"none, as {falls}")
 
 
-def _check_plasticity(made: Material) -> None:
+def _check_plasticity(material: Material) -> None:
     """Refuse a plastic material with other laws beside."""
-    if made.stretch != "linear":
-        raise RefusedError("material.stretch", made.stretch, '"linear" if yield_stress is given')
-    if not made.through_fibres:
-        raise RefusedError("material.bend", made.bend, f"{FIBRES} if yield_stress is given")
-    if made.relaxes or made.softening_r is not None:
-        other = "relaxation" if made.relaxes else "softening_r"
-        other = "loss" if made.loss is not None else other
-        raise RefusedError("material.yield_stress", made.yield_stress, f"none if {other} is given")
+    if material.stretch != "linear":
+        raise RefusedError(
+            "material.stretch", material.stretch, '"linear" if yield_stress is given'
+        )
+    if not material.through_fibres:
+        raise RefusedError("material.bend", material.bend, f"{FIBRES} if yield_stress is given")
+    if material.relaxes or material.softening_r is not None:
+        other = "relaxation" if material.relaxes else "softening_r"
+        other = "loss" if material.loss is not None else other
+        raise RefusedError(
+            "material.yield_stress", material.yield_stress, f"none if {other} is given"
+        )
 
 
-def _of_plates(made: Material) -> Material:
+def _of_plates(material: Material, where: str) -> Material:
     """The material of walls that are plates: incompressible sheets in plane stress, whose layers
     all follow one law, elastic or relaxing.
     """
-    for key in made.not_along:
-        if value := getattr(made, key):
-            allowed = f"none {WHERE}: its walls are elastic or relax"
+    for key in material.not_along:
+        if value := getattr(material, key):
+            allowed = f"none {where}: its walls are elastic or relax"
             raise RefusedError(f"material.{key}", value, allowed)
-    if made.bend == "fibres":
-        raise RefusedError("material.bend", made.bend, f'"section" or "linear" {WHERE}')
-    fit = "linear" if made.stretch == "linear" else "section"
-    if made.bend != fit:
-        why = f'{WHERE} and material.stretch is "{made.stretch}"'
-        raise RefusedError("material.bend", made.bend, f'"{fit}" {why}')
+    if material.bend == "fibres":
+        raise RefusedError("material.bend", material.bend, f'"section" or "linear" {where}')
+    fit = "linear" if material.stretch == "linear" else "section"
+    if material.bend != fit:
+        why = f'{where} and material.stretch is "{material.stretch}"'
+        raise RefusedError("material.bend", material.bend, f'"{fit}" {why}')
     usual = {key: Material.model_fields[key].default for key in IDLE_ALONG}
-    return made.model_copy(update=usual)
+    return material.model_copy(update=usual)
 
 
-def _with_memory(given: dict[str, Any], record: Record | None) -> dict[str, Any]:
+def _with_memory(inputs: dict[str, Any], record: Record | None) -> dict[str, Any]:
     """The given keys with the loss and softening of the record, where they are asked for."""
-    if given.get("memory") != "measured":
-        return given
+    if inputs.get("memory") != "measured":
+        return inputs
     if record is None:
         raise RefusedError("material.memory", "measured", '"none", as no name is given')
     if not record.memory:
         allowed = f'"none", as {record.name} states neither loss nor softening'
         raise RefusedError("material.memory", "measured", allowed)
     stated = dict(record.memory)
-    if given.get("relaxation_times"):
+    if inputs.get("relaxation_times"):
         stated.pop("loss", None)
-    return {**stated, **given}
+    return {**stated, **inputs}
 
 
 def _uncertain(
-    record: Record, inputs: Given, values: dict[str, Any]
+    record: Record, own: Inputs, values: dict[str, Any]
 ) -> tuple[tuple[str, float, float], ...]:
     """The ranges of the record's numbers that a material uses, without those that it is given, and
     of the branch of its curve that is not measured.
     """
-    used = [key for key in record.ranges if key not in inputs]
+    used = [key for key in record.ranges if key not in own]
     used = [key for key in used if values.get(key) is not None or key == "friction"]
     ranges = dict(record.ranges)
     if record.derived and "curve_strain" in values:
@@ -312,12 +315,12 @@ def _uncertain(
     return tuple((key, *ranges[key]) for key in used)
 
 
-def _with_plasticity(given: dict[str, Any]) -> dict[str, Any]:
+def _with_plasticity(inputs: dict[str, Any]) -> dict[str, Any]:
     """The given keys with the defaults of fibres and of a material that yields."""
-    if given.get("yield_stress") is not None:
-        given = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **given}
+    if inputs.get("yield_stress") is not None:
+        inputs = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **inputs}
     else:
-        given = {**given, "hardening": None, "fracture_strain": None}
-    if given.get("bend") == "fibres":
-        return {"fibres": FIBRE_COUNT, **given}
-    return {**given, "fibres": None}
+        inputs = {**inputs, "hardening": None, "fracture_strain": None}
+    if inputs.get("bend") == "fibres":
+        return {"fibres": FIBRE_COUNT, **inputs}
+    return {**inputs, "fibres": None}

@@ -2,11 +2,12 @@
 
 from typing import Any, ClassVar, Literal, Self
 
+from sweep.config.kinds.body import Body
+from sweep.config.kinds.dead_load import DURATION
 from sweep.config.kinds.directed import Directed, Ramp
 from sweep.config.kinds.direction import ACROSS
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import ARCS, IN_TIME, Solver
-from sweep.config.kinds.table import Duration, Given, RefusedError
+from sweep.config.kinds.table import Duration, Inputs, RefusedError
 from sweep.config.structures.structure import Structure
 
 
@@ -30,11 +31,11 @@ class OfFile(Directed):
     quasi_static: bool
 
     @classmethod
-    def of(cls, given: Given, pressed: Pressed, integrator: str | None, relaxes: bool) -> Self:
+    def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Self:
         """The loading of a structure; what is at rest only with inertia is refused in statics."""
-        structure, still = pressed.structure, integrator in ("static", ARCS)
+        structure, still = body.structure, integrator in ("static", ARCS)
         assert structure is not None
-        quasi_static = still or bool(given.get("quasi_static"))
+        quasi_static = still or bool(inputs.get("quasi_static"))
         if quasi_static and not still and integrator is not None:
             raise RefusedError("solver.integrator", integrator, '"static" if quasi_static')
         if quasi_static and structure.floor_y_mm is None:
@@ -44,7 +45,7 @@ class OfFile(Directed):
             raise RefusedError("solver.integrator", ARCS, allowed)
         if integrator == ARCS and not (structure.loads or any(structure.gravity_mm_s2)):
             raise RefusedError("solver.integrator", ARCS, '"static" where there are no loads')
-        duration = given.get("duration", 1.0 if quasi_static else 0.2)
+        duration = inputs.get("duration", 1.0 if quasi_static else DURATION)
         return cls(duration=duration, quasi_static=quasi_static)
 
     def ramps(self, solver: Solver) -> list[Ramp]:

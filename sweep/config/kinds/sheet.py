@@ -3,19 +3,27 @@ block.
 """
 
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
+from collections.abc import Callable
+from math import inf, isfinite
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from sweep.config.kinds.direction import ACROSS, ALONG, Direction
-from sweep.config.kinds.specimen import Nodes, Specimen, check_imperfection, check_thickness
-from sweep.config.kinds.table import COMPUTED, Given, Length, Mass, RefusedError, chosen
-from sweep.constants import TO_MM
+from sweep.config.kinds.specimen import (
+    Nodes,
+    Specimen,
+    check_imperfection,
+    check_thickness,
+)
+from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.surfaces.names import BLOCK, SHEETS
+from sweep.numbers import at_least, at_most
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
 CELL_SIZE = 0.5  # of the height pressed: two periods
 THICKEST = 0.2  # of a period, about half of the clear width of a channel
+NARROW = "where walls are below a fifth of the period"
 S = TypeVar("S", bound="Surface")
-LEAST, MOST = 0.6, 1.7  # of the period wanted
+LEAST = 0.6  # of the period wanted
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 MOST_QUADS = 20_000  # with six unknowns for each
 SIDES = ("width", "height", "depth")
@@ -30,19 +38,20 @@ class Surface(Specimen):
     `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
     """
 
-    shells: ClassVar[bool] = True
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
-    neutral: ClassVar[dict[str, Any]] = Specimen.neutral | {"sides": "periodic"}
+    neutral: ClassVar[dict[str, Any]] = {
+        key: value for key, value in Specimen.neutral.items() if key != "sides"
+    }
 
     period: Annotated[Length, COMPUTED]
     pressed: Annotated[Direction, COMPUTED]
     nodes_per_wall: Nodes = QUADS
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: of height and depth the one pressed."""
         lateral = "height" if self.pressed == ALONG else "depth"
-        return {key: value for key, value in super().given().items() if key != lateral}
+        return {key: value for key, value in super().inputs().items() if key != lateral}
 
     @property
     @abstractmethod
@@ -60,9 +69,22 @@ class Surface(Specimen):
         return self.sheet
 
     @property
-    def tied(self) -> bool:
+    def tied_sides(self) -> bool:
         """Its sides repeat."""
         return True
+
+    @property
+    def sides(self) -> str:
+        """What its sides are, as the key of other lattices says it."""
+        return "periodic" if self.tied_sides else "free"
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        if key in ("sides", *SIDES) and self.tied_sides:
+            pressed = "depth" if self.pressed == ALONG else "height"
+            way = f'of which loading.direction "{self.pressed}" presses lattice.{pressed}'
+            return f"one period of a panel is computed, {way}"
+        return self.sheet_clause(self.inputs())
 
     @property
     def pressed_height(self) -> float:
@@ -72,7 +94,7 @@ class Surface(Specimen):
     @property
     def cells_x(self) -> int:
         """About how many periods are side by side."""
-        return max(1, round(self.width / self.period)) if not self.tied else 1
+        return max(1, round(self.width / self.period)) if not self.tied_sides else 1
 
     @property
     def cells_y(self) -> int:
@@ -128,8 +150,15 @@ class Surface(Specimen):
     def elements(self) -> int:
         """About how many quads the sheet is divided into."""
         (width, height), depth = (self.width, self.height), self.depth
-        walls = 0.0 if self.tied else FINER * 2.0 * (width + height) * depth
+        walls = 0.0 if self.tied_sides else FINER * 2.0 * (width + height) * depth
         return round((self.area + walls) * (self.quads_per_period / self.period) ** 2)
+
+    @property
+    def misfit(self) -> str:
+        """What a larger period mends: too many quads, or walls that are too thick; or nothing."""
+        if self.elements > MOST_QUADS:
+            return f"where the mesh has at most {MOST_QUADS:,} quads"
+        return NARROW if self.wall_thickness >= THICKEST * self.period else ""
 
     @property
     def quads_per_period(self) -> int:
@@ -143,7 +172,6 @@ class Sheet(Surface):
     `cell_size` is the period wanted; `mass`, that of what is computed, sets the wall thickness.
     """
 
-    because: ClassVar[str] = "lattice.kind is a sheet, one period of which is computed"
     labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
     words: ClassVar[tuple[str, ...]] = tuple(SHEETS)
     sets: ClassVar[dict[str, tuple[str, ...]]] = {"mass": ("wall_thickness",)}
@@ -153,21 +181,40 @@ class Sheet(Surface):
     mass: Mass | None = None
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> "Sheet":
         """The sheet of these values."""
-        wanted = given.get("cell_size", CELL_SIZE * pressed_height(given, along))
-        sides = fitted(given["kind"], given, along, wanted, "cell_size")
-        made = cls.model_validate(chosen(given, cls) | sides)
-        if made.mass is not None:
-            thickness = made.mass / (density * made.area)
-            check_thickness(thickness, given)
-            made = made.model_copy(update={"wall_thickness": thickness})
-        return checked(made)
+        height, step = pressed_height(inputs, along), SHEETS[inputs["kind"]].straight.step
 
-    def given(self) -> dict[str, Any]:
+        def draft(period: float) -> Sheet:
+            lattice = cls.model_validate(
+                own_values(inputs, cls) | fitted(inputs["kind"], inputs, along, period)
+            )
+            if lattice.mass is None:
+                return lattice
+            return lattice.model_copy(
+                update={"wall_thickness": lattice.mass / (density * lattice.area)}
+            )
+
+        wanted = inputs.get("cell_size", CELL_SIZE * height)
+        lattice = checked(draft(wanted))
+        if lattice.mass is not None:
+            check_thickness(lattice.wall_thickness, inputs)
+        if lattice.misfit:
+            raise _misfit(lattice, inputs, *narrowest(lattice, draft, step))
+        if wanted > widest(height, step):
+            allowed = f"at most {at_most(widest(height, step))} m where {height:.6g} m are pressed"
+            raise RefusedError("lattice.cell_size", wanted, allowed)
+        return lattice
+
+    @classmethod
+    def sheet_clause(cls, inputs: Inputs) -> str:
+        """What makes walls of these values a sheet."""
+        return f'lattice.kind is "{inputs["kind"]}"'
+
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: the mass or the wall thickness."""
         without = "wall_thickness" if self.mass is not None else ""
-        return {key: value for key, value in super().given().items() if key != without}
+        return {key: value for key, value in super().inputs().items() if key != without}
 
     @property
     def sheet(self) -> str:
@@ -175,21 +222,51 @@ class Sheet(Surface):
         return self.kind
 
 
-def pressed_height(given: Given, along: bool) -> float:
+def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedError:
+    """The refusal of the period, at least this one (m), of the wall thickness, or of the mass."""
+    thick = {"mass", "wall_thickness"} & inputs.keys() and lattice.misfit == NARROW
+    if "cell_size" in inputs and not thick and isfinite(least):
+        allowed = f"at least {at_least(least)} m, {why}"
+        return RefusedError("lattice.cell_size", inputs["cell_size"], allowed)
+    key, unit = ("mass", "kg") if lattice.mass else ("wall_thickness", "m")
+    most = lattice.value(key) * THICKEST * lattice.period / lattice.wall_thickness
+    allowed = f"below {at_most(most)} {unit}, {NARROW}"
+    return RefusedError(f"lattice.{key}", lattice.value(key), allowed)
+
+
+def widest(height: float, step: float) -> float:
+    """The greatest period that fits a height, m; step: in periods."""
+    return height / (step * LEAST)
+
+
+def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
+    """The least period wanted (m) of which `draft` makes a sheet without `misfit`, infinite if
+    there is none, and the misfit of lesser ones. made: one with a misfit; step: in periods.
+    """
+    good, bad = 0, round(lattice.pressed_height / (step * lattice.period))  # steps
+    why = lattice.misfit
+    while bad - good > 1:
+        steps = (good + bad) // 2
+        misfit = draft(lattice.pressed_height / (step * steps)).misfit
+        good, bad, why = (good, steps, misfit) if misfit else (steps, bad, why)
+    return lattice.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
+
+
+def pressed_height(inputs: Inputs, along: bool) -> float:
     """The height that is pressed, m."""
     key = "depth" if along else "height"
-    height: float = given.get(key, Specimen.model_fields[key].default)
+    height: float = inputs.get(key, Specimen.model_fields[key].default)
     return height
 
 
 def fitted(
-    name: str, given: Given, along: bool, wanted: float, key: str, turned: bool = False
+    name: str, inputs: Inputs, along: bool, wanted: float, turned: bool = False
 ) -> dict[str, Any]:
     """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
-    the one ``wanted`` (m), which follows from a ``key``; turned: as of `Surface`.
+    the one ``wanted`` (m); turned: as of `Surface`.
     """
-    height, cut = pressed_height(given, along), SHEETS[name].cut(turned)
-    period = _period(given, along, cut.step, wanted, key)
+    height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
+    period = _period(height, cut.step, wanted)
     across, pressed = ("height", "depth") if along else ("depth", "height")
     return {
         "width": cut.across * period,
@@ -200,50 +277,33 @@ def fitted(
     }
 
 
-def fitted_block(given: Given, along: bool, wanted: float) -> dict[str, Any]:
-    """The sizes of a block with the period that fits its height, nearest to the one ``wanted`` (m),
-    which follows from the share: all sides are whole numbers of `BLOCK` periods.
-    """
-    period = _period(given, along, BLOCK, wanted, "infill")
+def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
+    """As `fitted`, of a block: all sides are whole numbers of `BLOCK` periods."""
+    height = pressed_height(inputs, along)
+    period = _period(height, BLOCK, wanted)
     step = BLOCK * period
-    sizes = {side: given.get(side, Specimen.model_fields[side].default) for side in SIDES}
+    sizes = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
     whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
-    pressed = {"depth" if along else "height": pressed_height(given, along)}
+    pressed = {"depth" if along else "height": height}
     return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
 
 
-def _period(given: Given, along: bool, step: float, wanted: float, key: str) -> float:
-    """The period (m) nearest to the one ``wanted``, of which the height pressed is a whole number
-    of steps; step: in periods.
+def _period(height: float, step: float, wanted: float) -> float:
+    """The period (m) nearest to the one ``wanted``, of which a height is a whole number of steps;
+    step: in periods.
     """
-    height = pressed_height(given, along)
-    period = height / (step * max(round(height / (step * wanted)), 1))
-    if LEAST <= period / wanted <= MOST:
-        return period
-    most = f"at most {TO_MM * height / (step * LEAST):.4g} mm"
-    pressed = f"a {'depth' if along else 'height'} of {TO_MM * height:.4g} mm"
-    allowed = f"periods of {most} in {pressed}; {TO_MM * wanted:.4g} mm here"
-    raise RefusedError(f"lattice.{key}", given.get(key), allowed)
+    return height / (step * max(round(height / (step * wanted)), 1))
 
 
-def checked(made: S) -> S:
-    """The sheet, if its mesh and its walls are neither too fine nor too coarse or thick.
+def checked(lattice: S) -> S:
+    """The sheet, if its mesh is neither too fine nor too coarse.
 
     Keys of upright walls that it does not have are taken away.
     """
-    if not 1 <= made.nodes_per_wall <= MOST_NODES:
+    if not 1 <= lattice.nodes_per_wall <= MOST_NODES:
         allowed = f"1 to {MOST_NODES}, in half a period of a sheet"
-        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
-    if made.elements > MOST_QUADS:
-        allowed = f"at most {MOST_QUADS:,} quads, {made.elements:,} here: a larger period, or fewer"
-        raise RefusedError("lattice.nodes_per_wall", made.nodes_per_wall, allowed)
-    check_imperfection(made, "of a sheet")
-    if made.wall_thickness >= THICKEST * made.period:
-        key = next((key for key in ("infill", "mass") if made.value(key)), "wall_thickness")
-        most = made.value(key) * THICKEST * made.period / made.wall_thickness
-        unit = {"infill": "", "mass": " kg"}.get(key, " m")
-        allowed = f"below {most:.4g}{unit}, where walls are below a fifth of the period"
-        raise RefusedError(f"lattice.{key}", made.value(key), allowed)
-    seed = (made.imperfection_seed or 0) if made.imperfection else None
+        raise RefusedError("lattice.nodes_per_wall", lattice.nodes_per_wall, allowed)
+    check_imperfection(lattice, "of a sheet")
+    seed = (lattice.imperfection_seed or 0) if lattice.imperfection else None
     unused = {"layers": None, "symmetry": "none"}
-    return made.model_copy(update=unused | {"imperfection_seed": seed})
+    return lattice.model_copy(update=unused | {"imperfection_seed": seed})

@@ -10,8 +10,9 @@ from sweep.config.kinds.specimen import (
     LAYER_HEIGHT,
     MAX_NODES,
     NOZZLE,
-    Laid,
     Lines,
+    WallLattice,
+    cause,
     check_proportion,
     check_size,
 )
@@ -19,12 +20,12 @@ from sweep.config.kinds.table import (
     COMPUTED,
     Angle,
     Few,
-    Given,
+    Inputs,
     Length,
     Mass,
     RefusedError,
     Share,
-    chosen,
+    own_values,
     similar,
 )
 from sweep.design.geometry import Geometry
@@ -35,7 +36,9 @@ from sweep.design.slicer.patterns import (
     PATTERNS,
     PROGRAMS,
     SLICERS,
+    Lateral,
     Pattern,
+    bare,
     distance_of,
     line_of,
     lines_at_most,
@@ -43,6 +46,7 @@ from sweep.design.slicer.patterns import (
     spread_lines,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
+from sweep.numbers import at_least, at_most, in_unit, text_in
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
@@ -52,7 +56,7 @@ SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart t
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
-class Sliced(Laid):
+class Sliced(WallLattice):
     """An infill with the `pattern` of a slicer, within `perimeters`, layers stacked along `depth`.
 
     `infill`, the `line_distance` of parallel walls, or the `mass` as extruded, sets
@@ -61,7 +65,7 @@ class Sliced(Laid):
     """
 
     because: ClassVar[str] = "lattice.slicer is given"
-    labels: ClassVar[tuple[str, ...]] = (*Laid.labels, "line_distance")
+    labels: ClassVar[tuple[str, ...]] = (*WallLattice.labels, "line_distance")
     constants: ClassVar[dict[str, Any]] = {"kind": "square"}
     derived: ClassVar[tuple[str, ...]] = ("fill_distance", "cells_x", "cells_y", "wall_thickness")
     sets: ClassVar[dict[str, tuple[str, ...]]] = {
@@ -88,26 +92,32 @@ class Sliced(Laid):
     cells_y: Few
 
     @classmethod
-    def means(cls, given: Given) -> bool:
+    def means(cls, inputs: Inputs) -> bool:
         """Whether values mean this kind of lattice."""
-        return given.get("slicer") is not None
+        return inputs.get("slicer") is not None
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The infill of these values."""
-        pattern = _checked_pattern(given)
-        width = line_width_of(given)
+        pattern = _checked_pattern(inputs)
+        width = line_width_of(inputs)
         usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
-        made = cls.model_validate(usual | chosen(given, cls) | UNKNOWN | {"line_width": width})
-        check_proportion(made)
-        _check_lines(made)
-        made = made.model_copy(update={"wall_thickness": made.printed_as.wall * made.lines})
-        per_area = density * made.depth
-        return made.model_copy(update=_laid(made, _share(made, given, per_area), per_area))
+        lattice = cls.model_validate(
+            usual | own_values(inputs, cls) | UNKNOWN | {"line_width": width}
+        )
+        check_proportion(lattice)
+        _check_lines(lattice)
+        lattice = lattice.model_copy(
+            update={"wall_thickness": lattice.printed_as.wall * lattice.lines}
+        )
+        per_area = density * lattice.depth
+        return lattice.model_copy(
+            update=_spacing_of(lattice, _share(lattice, inputs, per_area), per_area)
+        )
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: not the share if it follows from another."""
-        values, follows = super().given(), (self.mass, self.line_distance) != (None, None)
+        values, follows = super().inputs(), (self.mass, self.line_distance) != (None, None)
         return {k: v for k, v in values.items() if k != "infill"} if follows else values
 
     @property
@@ -186,23 +196,15 @@ class Sliced(Laid):
         )
 
     @property
-    def counts(self) -> tuple[int, int]:
-        """Numbers of joints and of walls between joints."""
-        from sweep.design.lattice import build_network
-
-        network = build_network(self.geometry)
-        return len(network.points), len(network.walls)
-
-    @property
     def opening(self) -> float:
         """Clear width of the narrowest whole cell between centre lines, m."""
         return self.printed_as.opening * self.fill_distance
 
 
-def line_width_of(given: Given) -> float:
+def line_width_of(inputs: Inputs) -> float:
     """The width of a line (m): as given, or that of the slicer for the nozzle."""
-    usual = PROGRAMS[given["slicer"]].nozzles * given.get("nozzle", NOZZLE)
-    return float(given.get("line_width", usual))
+    usual = PROGRAMS[inputs["slicer"]].nozzles * inputs.get("nozzle", NOZZLE)
+    return float(inputs.get("line_width", usual))
 
 
 def check_layer(layer: float, width: float) -> None:
@@ -211,123 +213,126 @@ def check_layer(layer: float, width: float) -> None:
         raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
 
 
-def _share(made: Sliced, given: Given, per_area: float) -> float:
+def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
     """The share of infill, or that of the distance of lines, or of the mass; per_area: kg/m^2."""
-    ways = [key for key in SIZES if given.get(key) is not None]
+    ways = [key for key in SIZES if inputs.get(key) is not None]
     if len(ways) > 1:
         allowed = f"none where lattice.{ways[0]} is given"
-        raise RefusedError(f"lattice.{ways[1]}", given[ways[1]], allowed)
-    if made.line_distance is not None:
-        share = share_of(made._pattern, made.line_distance, made.spread_line)
+        raise RefusedError(f"lattice.{ways[1]}", inputs[ways[1]], allowed)
+    if lattice.line_distance is not None:
+        share = share_of(lattice._pattern, lattice.line_distance, lattice.spread_line)
         if share < 1.0:
             return share
-        least = share * made.line_distance
-        raise RefusedError("lattice.line_distance", made.line_distance, f"above {least:.4g} m")
-    return given["infill"] if made.mass is None else _share_for(made, made.mass, per_area)
+        allowed = f"above {at_least(share * lattice.line_distance)} m"
+        raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
+    return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, per_area)
 
 
-def _laid(made: Sliced, share: float, per_area: float) -> dict[str, Any]:
+def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any]:
     """What a share of infill sets; per_area: kg/m^2."""
-    most = _most_of(made)
+    most = _most_of(lattice)
     if share >= most * (1.0 - 1e-12):
         wide = "so that cells are twice as wide as their walls"
-        if made.line_distance is not None:
-            least = distance_of(made._pattern, most, made.spread_line)
-            raise RefusedError(
-                "lattice.line_distance", made.line_distance, f"above {least:.4g} m, {wide}"
-            )
-        raise RefusedError("lattice.infill", share, f"below {100.0 * most:.3g} %, {wide}")
-    spacing = _spacing(made, share)
-    laid = made.model_copy(update=spacing)
-    check_size(laid, ("infill",))
-    if abs(_drawn(laid) - 1.0) > MASS_ERROR:
-        raise _refused_drawing(laid, share, per_area)
+        if lattice.line_distance is not None:
+            least = distance_of(lattice._pattern, most, lattice.spread_line)
+            allowed = f"above {at_least(least)} m, {wide}"
+            raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
+        allowed = f"below {at_most(in_unit(most, '%'), 3)} %, {wide}"
+        raise RefusedError("lattice.infill", share, allowed)
+    spacing = _spacing(lattice, share)
+    candidate = lattice.model_copy(update=spacing)
+    check_size(candidate, candidate.inputs(), SIZES)
+    if abs(_drawn(candidate) - 1.0) > MASS_ERROR:
+        raise _refused_drawing(candidate, share, per_area)
     return spacing
 
 
-def _most_of(made: Sliced) -> float:
+def _most_of(lattice: Sliced) -> float:
     """The share at which the narrowest cell is twice as wide as its walls."""
-    pattern = made.printed_as
+    pattern = lattice.printed_as
     filled = 0.5 * pattern.opening * pattern.directions / pattern.wall
-    return filled * made.spread_line / made.lines
+    return filled * lattice.spread_line / lattice.lines
 
 
-def _drawn(laid: Sliced) -> float:
+def _drawn(candidate: Sliced) -> float:
     """The mass of the walls as drawn over the mass that is extruded."""
     from sweep.design.lattice import build_network
     from sweep.design.slicer.network import drawn_over_extruded
 
-    return drawn_over_extruded(build_network(laid.geometry), laid.geometry)
+    return drawn_over_extruded(build_network(candidate.geometry), candidate.geometry)
 
 
-def _refused_drawing(laid: Sliced, share: float, per_area: float) -> RefusedError:
+def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> RefusedError:
     """Why a share cannot be drawn, and the nearest whole per cent within `NEAR` that can."""
     from sweep.design.lattice import counted_area
 
-    wrong = 100.0 * (_drawn(laid) - 1.0)
+    wrong = 100.0 * (_drawn(candidate) - 1.0)
     weight = f"{abs(wrong):.0f} % {'more' if wrong > 0.0 else 'less'} than is extruded"
     why = f"lines that run too near the perimeters make the walls weigh {weight}"
     near = [percent / 100.0 for percent in range(1, 100) if abs(percent / 100.0 - share) < NEAR]
     for other in sorted(near, key=lambda other: abs(other - share)):
-        nearest = laid.model_copy(update=_spacing(laid, other))
-        if other < _most_of(laid) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
+        nearest = candidate.model_copy(update=_spacing(candidate, other))
+        if other < _most_of(candidate) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
             mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
             examples = {
                 "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",
                 "mass": f"{mass:.4g} kg, for example",
                 "infill": f"{100.0 * other:.0f} %, for example{turn}",
             }
-            key = next(key for key in examples if getattr(laid, key) is not None)
-            return RefusedError(f"lattice.{key}", getattr(laid, key), f"{examples[key]}; {why}")
+            key = next(key for key in examples if getattr(candidate, key) is not None)
+            return RefusedError(
+                f"lattice.{key}", getattr(candidate, key), f"{examples[key]}; {why}"
+            )
     allowed = (
         f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
     )
-    return RefusedError("lattice.perimeters", laid.perimeters, allowed)
+    return RefusedError("lattice.perimeters", candidate.perimeters, allowed)
 
 
-def _spacing(made: Sliced, share: float) -> dict[str, Any]:
+def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
     """The distance of lines of a share, and about how many cells fit."""
-    distance = distance_of(made._pattern, share, made.spread_line)
-    columns, rows = (max(1, round(size / distance)) for size in (made.width, made.height))
+    distance = distance_of(lattice._pattern, share, lattice.spread_line)
+    columns, rows = (max(1, round(size / distance)) for size in (lattice.width, lattice.height))
     if columns * rows > MAX_NODES:
         allowed = f"a share whose lines make at most {MAX_NODES:,} cells in this box"
-        raise RefusedError("lattice.infill", share, allowed)
+        raise RefusedError(*cause(lattice, lattice.inputs(), SIZES), allowed)
     return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
 
 
-def _share_for(made: Sliced, mass: float, per_area: float) -> float:
+def _share_for(lattice: Sliced, mass: float, per_area: float) -> float:
     """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
-    first = made.model_copy(update=_spacing(made, LEAST_SHARE))
-    counted = made.spread_line / made.lines  # a share as the slicer counts / of what is extruded
-    most = (1.0 - 1e-9) * _most_of(made) / counted
-    share, *bounds = share_for(first.geometry, mass / per_area, most)
+    first = lattice.model_copy(update=_spacing(lattice, LEAST_SHARE))
+    counted = lattice.spread_line / lattice.lines  # share as the slicer counts / as extruded
+    most = (1.0 - 1e-9) * _most_of(lattice) / counted
+    share, *limits = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
-        light, heavy = (per_area * area for area in bounds)
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg as extruded with this pattern"
+        light, heavy = (per_area * area for area in limits)
+        bounds = f"between {at_least(light)} kg and {at_most(heavy)} kg"
+        allowed = f"{bounds} as extruded with this pattern"
         if light < mass < heavy:
             allowed = "another mass: there a line along a side appears; or another fill_angle"
         raise RefusedError("lattice.mass", mass, allowed)
     return counted * share
 
 
-def _checked_pattern(given: Given) -> str:
+def _checked_pattern(inputs: Inputs) -> str:
     """The pattern, by its name in `PATTERNS`; refused is what is no prism of the slicer."""
-    if given["slicer"] not in SLICERS:
-        raise RefusedError("lattice.slicer", given["slicer"], ", ".join(SLICERS))
-    patterns, pattern = SLICERS[given["slicer"]], given.get("pattern")
-    key, names = "lattice.pattern", names_in(given["slicer"])
+    if inputs["slicer"] not in SLICERS:
+        raise RefusedError("lattice.slicer", inputs["slicer"], ", ".join(SLICERS))
+    patterns, pattern = SLICERS[inputs["slicer"]], inputs.get("pattern")
+    key, names = "lattice.pattern", names_in(inputs["slicer"])
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
-        near = _no_prism(pattern, patterns) or similar(pattern, names.split('"')[1::2])
+        near = _no_prism(pattern, patterns, inputs) or similar(pattern, names.split('"')[1::2])
         raise RefusedError(key, pattern, f"{names}{near}")
-    if all(given.get(key) is None for key in SIZES):
+    if all(inputs.get(key) is None for key in SIZES):
         allowed = 'a share such as "20 %", a lattice.line_distance, or a lattice.mass'
         raise RefusedError("lattice.infill", None, allowed)
-    count = given.get("fill_multiline", 1)
-    if count > lines_at_most(given["slicer"], patterns[pattern]):
+    count = inputs.get("fill_multiline", 1)
+    if count > lines_at_most(inputs["slicer"], patterns[pattern]):
         allowed = '1; more with lattice.slicer "orca" or "cura" and a pattern other than honeycomb'
         raise RefusedError("lattice.fill_multiline", count, allowed)
     return patterns[pattern]
@@ -339,22 +344,31 @@ def names_in(slicer: str) -> str:
     return ", ".join(f'"{name}"' for name in (*program.patterns, *program.sheets))
 
 
-def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
+def _upright(lateral: Lateral, inputs: Inputs) -> str:
+    """A prism whose axis lies in the layers, as cells of which only these walls are pressed."""
+    layer, share = inputs.get("layer_height", LAYER_HEIGHT), inputs.get("infill")
+    line = line_of(inputs["slicer"], line_width_of(inputs), layer)
+    size = text_in(lateral.width * line / share, "mm") if share else ""
+    width = f'cell_size = "{size}"' if size else "a cell_size"
+    walls = f'wall_thickness = "{text_in(lateral.thickness * line, "mm")}"{lateral.walls}'
+    cells = f'lattice.kind = "{lateral.family}", {width}, {walls}'
+    axis = "give, without lattice.slicer and with lattice.height along the print axis"
+    return f"a prism whose axis lies in the layers: {axis}, {cells}"
+
+
+def _no_prism(pattern: str, patterns: dict[str, str], inputs: Inputs) -> str:
     """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
-    drawn = LATERAL.get(pattern.lower().replace(" ", ""))
-    if drawn:
-        return (
-            f'; {pattern} is a prism that lies in the layers: give lattice.kind "{drawn}" instead'
-        )
-    why, nearest = NO_PRISMS.get(pattern.lower().replace(" ", ""), ("", "grid"))
+    if lateral := LATERAL.get(bare(pattern)):
+        return f"; {pattern} is {_upright(lateral, inputs)}"
+    why, nearest = NO_PRISMS.get(bare(pattern), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
 
 
-def _check_lines(made: Sliced) -> None:
+def _check_lines(lattice: Sliced) -> None:
     """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
-    check_layer(made.layer_height, made.line_width)
-    most = int(0.5 * min(made.width, made.height) / made.line)
-    if not 1 <= made.perimeters < most:
+    check_layer(lattice.layer_height, lattice.line_width)
+    most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
+    if not 1 <= lattice.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
-        raise RefusedError("lattice.perimeters", made.perimeters, allowed)
+        raise RefusedError("lattice.perimeters", lattice.perimeters, allowed)

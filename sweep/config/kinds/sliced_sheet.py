@@ -1,16 +1,28 @@
 """A sheet as a slicer prints it: in each layer a line along the curve that cuts the sheet."""
 
 from collections.abc import Mapping
-from math import cos, isclose
-from typing import Annotated, Any, ClassVar, Literal, Self
+from math import cos, isclose, isinf
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
 from sweep.config.kinds.direction import ALONG
-from sweep.config.kinds.sheet import SIDES, Surface, checked, fitted, fitted_block
+from sweep.config.kinds.sheet import (
+    LEAST,
+    NARROW,
+    SIDES,
+    THICKEST,
+    Surface,
+    checked,
+    fitted,
+    fitted_block,
+    narrowest,
+    pressed_height,
+    widest,
+)
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
 from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
-from sweep.config.kinds.table import Angle, Given, Length, RefusedError, Share, chosen
+from sweep.config.kinds.table import Angle, Inputs, Length, RefusedError, Share, own_values
 from sweep.design.slicer.patterns import (
     PROGRAMS,
     SHEET_PATTERNS,
@@ -18,7 +30,8 @@ from sweep.design.slicer.patterns import (
     line_of,
     spread_lines,
 )
-from sweep.design.surfaces.names import SHEETS
+from sweep.design.surfaces.names import BLOCK, SHEETS
+from sweep.numbers import at_least, at_most, in_unit, text_in
 
 LEAST_SHARE = 0.02
 
@@ -32,9 +45,6 @@ class SlicedSheet(Surface):
     sides of the part, at 0 and 90 degrees between them.
     """
 
-    because: ClassVar[str] = (
-        "lattice.slicer prints a sheet, one period of which is computed without perimeters"
-    )
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
     fits: ClassVar[tuple[str, ...]] = ("infill", *SIDES)
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {"wall_thickness": ("infill",)}
@@ -49,39 +59,66 @@ class SlicedSheet(Surface):
     perimeters: Lines = 0
 
     @classmethod
-    def means(cls, given: Given) -> bool:
+    def means(cls, inputs: Inputs) -> bool:
         """Whether values mean this kind of lattice."""
-        return given.get("slicer") is not None and given.get("pattern") in SHEET_PATTERNS
+        return inputs.get("slicer") is not None and inputs.get("pattern") in SHEET_PATTERNS
 
     @classmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> "SlicedSheet":
         """The sheet of these values."""
-        pattern = _pattern(given)
-        width = line_width_of(given)
-        layer, lines = given.get("layer_height", LAYER_HEIGHT), given.get("fill_multiline", 1)
-        _check(given, width, layer, lines)
-        angle, one = _angle(given, pattern, along), line_of(given["slicer"], width, layer)
-        spread = pattern.period * spread_lines(given["slicer"], lines) * one
-        wanted, turned = spread / given["infill"], _is_turned(angle, along)
-        if given.get("perimeters"):
-            sides = fitted_block(given, along, wanted)
-            _check_block(given, angle, one, sides)
-        else:
-            sides = fitted(pattern.sheet, given, along, wanted, "infill", turned)
-        follows: dict[str, Any] = {
-            "wall_thickness": lines * one,
-            "line_width": width,
-            "infill": spread / sides["period"],
-        }
-        return checked(cls.model_validate(chosen(given, cls) | sides | follows))
+        pattern = _pattern(inputs)
+        width = line_width_of(inputs)
+        layer, lines = inputs.get("layer_height", LAYER_HEIGHT), inputs.get("fill_multiline", 1)
+        _check(inputs, width, layer, lines)
+        angle, one = _angle(inputs, pattern, along), line_of(inputs["slicer"], width, layer)
+        spread = pattern.period * spread_lines(inputs["slicer"], lines) * one
+        turned, block = _is_turned(angle, along), bool(inputs.get("perimeters"))
+        step = BLOCK if block else SHEETS[pattern.sheet].cut(turned).step
+        follows = {"wall_thickness": lines * one, "line_width": width}
 
-    def given(self) -> dict[str, Any]:
+        def draft(period: float) -> SlicedSheet:
+            if block:
+                sides = fitted_block(inputs, along, period)
+                _check_block(inputs, angle, one, sides)
+            else:
+                sides = fitted(pattern.sheet, inputs, along, period, turned)
+            share = {"infill": spread / sides["period"]}
+            return cls.model_validate(own_values(inputs, cls) | sides | follows | share)
+
+        wanted, height = spread / inputs["infill"], pressed_height(inputs, along)
+        lattice = checked(draft(wanted))
+        if lattice.misfit:
+            least, why = narrowest(lattice, draft, step)
+            if isinf(least):
+                raise _low(lattice, wanted, step)
+            most = f"at most {at_most(in_unit(spread / least, '%'), 3)} %"
+            raise RefusedError("lattice.infill", inputs["infill"], f"{most}, {why}")
+        if wanted > widest(height, step):
+            least = spread / widest(height, step)
+            allowed = f"at least {at_least(in_unit(least, '%'), 3)} %"
+            pressed = f"where {text_in(height, 'mm')} are pressed"
+            raise RefusedError("lattice.infill", inputs["infill"], f"{allowed} {pressed}")
+        return lattice
+
+    @classmethod
+    def sheet_clause(cls, inputs: Inputs) -> str:
+        """What makes walls of these values a sheet."""
+        return f'lattice.pattern is "{inputs["pattern"]}"'
+
+    def inputs(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
-        sides = {} if self.tied else {side: self.value(side) for side in SIDES}
-        return super().given() | sides
+        sides = {} if self.tied_sides else {side: self.value(side) for side in SIDES}
+        return super().inputs() | sides
+
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        if key == "sides" and not self.tied_sides:
+            return "lattice.perimeters hold the sides of a block"
+        why = super().why_idle(key)
+        return f"lattice.perimeters is 0: {why}" if key in ("sides", *SIDES) else why
 
     @property
-    def tied(self) -> bool:
+    def tied_sides(self) -> bool:
         """Whether its sides repeat: without perimeters."""
         return self.perimeters == 0
 
@@ -118,9 +155,9 @@ class SlicedSheet(Surface):
         return sheet * self.inside + self.framed
 
 
-def _pattern(given: Given) -> SheetPattern:
+def _pattern(inputs: Inputs) -> SheetPattern:
     """The pattern of the slicer; refused is what it does not print."""
-    slicer, name = given["slicer"], given["pattern"]
+    slicer, name = inputs["slicer"], inputs["pattern"]
     if slicer not in PROGRAMS:
         raise RefusedError("lattice.slicer", slicer, ", ".join(PROGRAMS))
     program = PROGRAMS[slicer]
@@ -141,11 +178,11 @@ def _is_turned(angle: float, along: bool) -> bool:
     return not along and not _parallel(angle, FILL_ANGLE)
 
 
-def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
+def _angle(inputs: Inputs, pattern: SheetPattern, along: bool) -> float:
     """The fill angle, rad; refused is one at which no period of the sheet fits the panel."""
-    angle: float = given.get("fill_angle", FILL_ANGLE)
+    angle: float = inputs.get("fill_angle", FILL_ANGLE)
     if not pattern.turns and not isclose(angle, FILL_ANGLE):
-        allowed = f"none: waves of {given['slicer']} lie along the sides of the part"
+        allowed = f"none: waves of {inputs['slicer']} lie along the sides of the part"
         raise RefusedError("lattice.fill_angle", angle, allowed)
     if not (along or any(_parallel(angle, other) for other in (0.0, FILL_ANGLE))):
         allowed = "0, 45 or 90 degrees, where it is pressed across the print axis"
@@ -153,24 +190,36 @@ def _angle(given: Given, pattern: SheetPattern, along: bool) -> float:
     return angle
 
 
-def _check_block(given: Given, angle: float, line: float, sides: Mapping[str, Any]) -> None:
+def _check_block(inputs: Inputs, angle: float, line: float, sides: Mapping[str, Any]) -> None:
     """Refuse perimeters that leave no room, and waves across the corners of a block."""
     if not _parallel(angle, FILL_ANGLE):
         allowed = "45 degrees, or lattice.perimeters = 0: the waves of a block lie along its sides"
         raise RefusedError("lattice.fill_angle", angle, allowed)
     most = int(0.5 * min(sides["width"], sides["height"]) / line)
-    if given["perimeters"] >= most:
-        raise RefusedError("lattice.perimeters", given["perimeters"], f"0 to {most - 1}")
+    if inputs["perimeters"] >= most:
+        raise RefusedError("lattice.perimeters", inputs["perimeters"], f"0 to {most - 1}")
 
 
-def _check(given: Given, width: float, layer: float, lines: int) -> None:
+def _low(lattice: SlicedSheet, wanted: float, step: float) -> RefusedError:
+    """The refusal of a height, or of a width, in which not even one step of the sheet fits."""
+    if lattice.misfit != NARROW:
+        return RefusedError("lattice.width", lattice.width, f"less, {lattice.misfit}")
+    key = "depth" if lattice.pressed == ALONG else "height"
+    least = step * max(lattice.wall_thickness / THICKEST, LEAST * wanted)
+    return RefusedError(
+        f"lattice.{key}", lattice.pressed_height, f"above {at_least(least)} m, {NARROW}"
+    )
+
+
+def _check(inputs: Inputs, width: float, layer: float, lines: int) -> None:
     """Refuse a share, a layer or lines that a slicer's sheet does not have; width, layer: m."""
-    if "infill" not in given:
+    if "infill" not in inputs:
         raise RefusedError("lattice.infill", None, 'a share such as "15 %"')
-    if given["infill"] < LEAST_SHARE:
-        raise RefusedError("lattice.infill", given["infill"], f"at least {100 * LEAST_SHARE:g} %")
+    if inputs["infill"] < LEAST_SHARE:
+        allowed = f"at least {text_in(LEAST_SHARE, '%')}"
+        raise RefusedError("lattice.infill", inputs["infill"], allowed)
     check_layer(layer, width)
-    if lines > PROGRAMS[given["slicer"]].lines:
+    if lines > PROGRAMS[inputs["slicer"]].lines:
         raise RefusedError(
             "lattice.fill_multiline", lines, '1; more with lattice.slicer "orca" or "cura"'
         )

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
-from sweep.config.kinds.table import Few, Given, Length, RefusedError, Size, Table
+from sweep.config.kinds.table import Few, Inputs, Length, RefusedError, Size, Table
 from sweep.config.structures.structure import Structure
 from sweep.design.geometry import Geometry
+from sweep.numbers import at_least, at_most
 
 if TYPE_CHECKING:
     from sweep.design.network import Network
@@ -35,13 +36,11 @@ class Specimen(Table):
     them. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed: of
     the shape of its imperfection; None: the shape in which equal walls buckle.
 
-    words: what `lattice.kind` may be. shells: whether its walls are shells in space anyway. across:
-    keys without effect where it is pressed across its cells, with their values there. aperiodic:
-    why no period of it is known, after its name.
+    words: what `lattice.kind` may be. across: keys without effect where it is pressed across its
+    cells, with their values there. aperiodic: why no period of it is known, after its name.
     """
 
     words: ClassVar[tuple[str, ...]] = ()
-    shells: ClassVar[bool] = False
     across: ClassVar[dict[str, Any]] = {
         "layers": None,
         "symmetry": "none",
@@ -72,16 +71,21 @@ class Specimen(Table):
     symmetry: Literal["none", "quarter"] = "none"
 
     @classmethod
-    def means(cls, given: Given) -> bool:
+    def means(cls, inputs: Inputs) -> bool:
         """Whether values mean this kind of lattice."""
-        return given.get("kind") in cls.words
+        return inputs.get("kind") in cls.words
 
     @classmethod
     @abstractmethod
-    def of(cls, given: Given, density: float, along: bool) -> Self:
+    def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The lattice of these values; density (kg/m^3): of the material. along: whether it is
         pressed along its cells.
         """
+
+    @classmethod
+    def sheet_clause(cls, inputs: Inputs) -> str:
+        """What makes walls of these values a sheet; empty if they are none."""
+        return ""
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
@@ -146,7 +150,7 @@ class Specimen(Table):
         return False
 
     @property
-    def tied(self) -> bool:
+    def tied_sides(self) -> bool:
         """Whether its left and right sides are tied to each other."""
         return False
 
@@ -167,7 +171,7 @@ class Specimen(Table):
         return self.width + sides, self.height + caps
 
 
-class Laid(Specimen):
+class WallLattice(Specimen):
     """A specimen whose walls follow from a few numbers, its `geometry`."""
 
     nodes_per_wall: Nodes
@@ -215,7 +219,12 @@ class Laid(Specimen):
         """Numbers of joints and of walls between joints."""
         from sweep.design.drawing import counts, sketch
 
-        return counts(sketch(self.geometry))
+        geometry = self.geometry
+        if geometry.drawing is not None:
+            return len(geometry.drawing.joints), len(geometry.drawing.walls)
+        if geometry.sliced is not None:
+            return len(self.network.points), len(self.network.walls)
+        return counts(sketch(geometry))
 
     @property
     def elements(self) -> int:
@@ -235,34 +244,42 @@ def check_proportion(specimen: Specimen) -> None:
         raise RefusedError(f"lattice.{key}", value, allowed)
 
 
-def check_size(specimen: Laid, causes: tuple[str, ...]) -> None:
-    """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest value of keys."""
+def check_size(specimen: WallLattice, inputs: Inputs, causes: tuple[str, ...]) -> None:
+    """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest of the given keys."""
     joints, walls = specimen.counts
     nodes = joints + specimen.elements - walls
     if nodes > MAX_NODES:
-        values = {key: getattr(specimen, key) for key in causes}
-        key = max(values, key=values.__getitem__)
-        allowed = f"at most {MAX_NODES:,} nodes in all, {nodes:,} here"
-        raise RefusedError(f"lattice.{key}", values[key], allowed)
+        key, value = cause(specimen, inputs, causes)
+        raise RefusedError(key, value, f"at most {MAX_NODES:,} nodes in all, {nodes:,} here")
 
 
-def thickness_of(made: Laid, mass: float, given: Given, density: float) -> float:
+def cause(specimen: Specimen, inputs: Inputs, keys: tuple[str, ...]) -> tuple[str, Any]:
+    """The greatest of some keys that are given, else the last one, dotted, with its value."""
+    values = {key: specimen.value(key) for key in keys if inputs.get(key) is not None}
+    numbers = {key: value for key, value in values.items() if not isinstance(value, str)}
+    key = max(numbers or values or keys[-1:], key=lambda key: numbers.get(key, 0.0))
+    return f"lattice.{key}", specimen.value(key)
+
+
+def thickness_of(lattice: WallLattice, mass: float, inputs: Inputs, density: float) -> float:
     """The wall thickness (m) of a mass (kg); refused if there is none, or another is given."""
     from sweep.design.sizing import thickness_for
 
-    thickness, light, heavy = thickness_for(made.geometry, mass, made.thickest, made.depth, density)
+    thickness, light, heavy = thickness_for(
+        lattice.geometry, mass, lattice.thickest, lattice.depth, density
+    )
     if isnan(thickness):
-        allowed = f"between {light:.4g} kg and {heavy:.4g} kg with these cells"
+        allowed = f"between {at_least(light)} kg and {at_most(heavy)} kg with these cells"
         raise RefusedError("lattice.mass", mass, allowed)
-    check_thickness(thickness, given)
+    check_thickness(thickness, inputs)
     return thickness
 
 
-def check_thickness(thickness: float, given: Given) -> None:
+def check_thickness(thickness: float, inputs: Inputs) -> None:
     """Refuse a wall thickness that is not the one (m) at the mass given."""
-    if not isclose(given.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
+    if not isclose(inputs.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
-        raise RefusedError("lattice.wall_thickness", given["wall_thickness"], allowed)
+        raise RefusedError("lattice.wall_thickness", inputs["wall_thickness"], allowed)
 
 
 def check_imperfection(specimen: Specimen, where: str) -> None:

@@ -2,10 +2,10 @@
 
 from typing import Any
 
+from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import Crush, steps_in
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.pressed import Pressed
 from sweep.config.kinds.solver import (
     ARCS,
     IN_TIME,
@@ -16,7 +16,7 @@ from sweep.config.kinds.solver import (
     Solver,
     Static,
 )
-from sweep.config.kinds.table import Given, Pairs, RefusedError, chosen, given_or
+from sweep.config.kinds.table import Inputs, Pairs, RefusedError, given_or, own_values
 
 BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
 BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
@@ -25,7 +25,7 @@ IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
 def solver(
-    values: Given | Pairs, material: Material, loading: Loading, pressed: Pressed, by_position: bool
+    values: Inputs | Pairs, material: Material, loading: Loading, body: Body, by_position: bool
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
@@ -35,42 +35,42 @@ def solver(
     an impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
     contact by position it is backward Euler.
     """
-    settings = given = dict(values)
-    if material.remembers and given.get("integrator") == ARCS:  # its unstable part is no motion
+    settings = inputs = dict(values)
+    if material.remembers and inputs.get("integrator") == ARCS:  # its unstable part is no motion
         allowed = f'"static" or {IN_TIME} if the material has a memory'
         raise RefusedError("solver.integrator", ARCS, allowed)
-    if pressed.shells:
-        settings = ALONG | {key: value for key, value in given.items() if key not in IDLE_ALONG}
+    if body.shells:
+        settings = ALONG | {key: value for key, value in inputs.items() if key not in IDLE_ALONG}
     arcs = settings.get("integrator") == ARCS
-    steps = settings, loading, pressed, material.modulus, by_position
-    made = _arcs(settings, pressed.diagonal) if arcs else _steps(*steps)
-    _check_count(made, loading, given.get("time_step"))
-    return made
+    steps = settings, loading, body, material.modulus, by_position
+    solver = _arcs(settings, body.diagonal) if arcs else _steps(*steps)
+    _check_count(solver, loading, inputs.get("time_step"))
+    return solver
 
 
 def _arcs(settings: dict[str, Any], diagonal: float) -> Arcs:
     usual = diagonal / settings.get("load_steps", LOAD_STEPS)
-    return Arcs.model_validate({"arc_length": usual} | chosen(settings, Arcs))
+    return Arcs.model_validate({"arc_length": usual} | own_values(settings, Arcs))
 
 
 def _steps(
-    settings: dict[str, Any], loading: Loading, pressed: Pressed, modulus: float, by_position: bool
+    settings: dict[str, Any], loading: Loading, body: Body, modulus: float, by_position: bool
 ) -> InTime | Static:
     if loading.quasi_static:
         by_accuracy = loading.driven and "load_steps" not in settings
-        steps = BY_ACCURACY_ALONG if pressed.shells else BY_ACCURACY
-        made = (steps if by_accuracy else {}) | chosen(settings, Static)
-        if "accuracy" in made and not loading.driven:
+        steps = BY_ACCURACY_ALONG if body.shells else BY_ACCURACY
+        solver = (steps if by_accuracy else {}) | own_values(settings, Static)
+        if "accuracy" in solver and not loading.driven:
             allowed = "none for loads of a file, which grow in equal load_steps"
-            raise RefusedError("solver.accuracy", made["accuracy"], allowed)
-        return Static.model_validate(made | {"integrator": "static"})
+            raise RefusedError("solver.accuracy", solver["accuracy"], allowed)
+        return Static.model_validate(solver | {"integrator": "static"})
     usual = "backward_euler" if by_position else loading.usual_integrator
-    timed = {"integrator": usual} | chosen(settings, InTime)
+    timed = {"integrator": usual} | own_values(settings, InTime)
     if isinstance(loading, Crush):
         time = loading.stroke / given_or(loading.speed, 1.0)
         count = settings.get("load_steps", steps_in(time, settings.get("time_step")))
         return InTime.model_validate(timed | {"time_step": time / count, "load_steps": count})
-    step = loading.usual_step(pressed, modulus)
+    step = loading.usual_step(body, modulus)
     return InTime.model_validate({"time_step": step} | timed | {"load_steps": None})
 
 
@@ -79,34 +79,34 @@ def count_of(loading: Loading, solver: Solver) -> float:
     return sum(ramp.steps_with(solver) for ramp in loading.ramps(solver)) * loading.cycles
 
 
-def _check_count(made: Solver, loading: Loading, time_step: float | None) -> None:
+def _check_count(solver: Solver, loading: Loading, time_step: float | None) -> None:
     """Refuse too many steps; `time_step` (s): the given one, if any."""
-    count, allowed = count_of(loading, made), f"at most {MAX_STEPS:,} steps in all"
+    count, allowed = count_of(loading, solver), f"at most {MAX_STEPS:,} steps in all"
     if count <= MAX_STEPS:
         return
-    if made.load_steps is not None and time_step is None:
-        raise RefusedError("solver.load_steps", made.load_steps, f"{allowed}, {count:,} here")
-    step = made.time_step if isinstance(made, InTime) else None
+    if solver.load_steps is not None and time_step is None:
+        raise RefusedError("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
+    step = solver.time_step if isinstance(solver, InTime) else None
     raise RefusedError("solver.time_step", given_or(time_step, step), allowed)
 
 
-def in_the_plane(made: Solver, material: Material, loading: Loading, shells: bool) -> Solver:
+def in_the_plane(solver: Solver, material: Material, loading: Loading, shells: bool) -> Solver:
     """The solver of a lattice in the plane, with its joints; what its bending lacks is refused.
 
     Joints are solid for cubic elements of a lattice.
     """
     if shells:
-        return made
-    if material.bend == "none" and not isinstance(made, InTime):
-        allowed = f'"linear", "section" or "fibres" if solver.integrator is "{made.integrator}"'
+        return solver
+    if material.bend == "none" and not isinstance(solver, InTime):
+        allowed = f'"linear", "section" or "fibres" if solver.integrator is "{solver.integrator}"'
         raise RefusedError("material.bend", "none", allowed)
-    if material.through_fibres and made.bend_measure != "angle":
+    if material.through_fibres and solver.bend_measure != "angle":
         allowed = f'"angle" if material.bend is "{material.bend}"'
-        raise RefusedError("solver.bend_measure", made.bend_measure, allowed)
-    solid = made.element == "cubic" and material.bend != "none"
-    if made.joints == "solid" and not solid:
-        cubic = made.element == "cubic"
+        raise RefusedError("solver.bend_measure", solver.bend_measure, allowed)
+    solid = solver.element == "cubic" and material.bend != "none"
+    if solver.joints == "solid" and not solid:
+        cubic = solver.element == "cubic"
         why = 'material.bend is "none"' if cubic else 'solver.element is "classical"'
         raise RefusedError("solver.joints", "solid", f'"points" if {why}')
     usual = "solid" if solid and loading.solid else "points"
-    return made.model_copy(update={"joints": made.joints or usual})
+    return solver.model_copy(update={"joints": solver.joints or usual})

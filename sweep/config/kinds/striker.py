@@ -13,7 +13,7 @@ from pydantic import Field
 
 from sweep.config.kinds.directed import Directed
 from sweep.config.kinds.direction import WHERE, is_along
-from sweep.config.kinds.table import Angle, Given, Length, RefusedError, given_or
+from sweep.config.kinds.table import Angle, Inputs, Length, RefusedError, given_or
 from sweep.numbers import text_in
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ class Struck(Directed):
     def _words(self, key: str) -> Iterator[str]:
         """The kind of the striker or the base, and its numbers."""
         yield str(getattr(self, key))
-        for name, value in _numbers(key, self.given()).items():
+        for name, value in _numbers(key, self.inputs()).items():
             if name == "striker_angle":
                 yield f"{degrees(value):.4g} deg"
             elif name == "striker_at":
@@ -92,7 +92,7 @@ class Struck(Directed):
         """
         from sweep.design.profile import circle, punch, rib, wedge
 
-        number, reach = _numbers(key, self.given()), REACH * (width + height)
+        number, reach = _numbers(key, self.inputs()), REACH * (width + height)
         x = left + number.get("striker_at", 0.5) * width
         match getattr(self, key):
             case "round":
@@ -107,37 +107,37 @@ class Struck(Directed):
         return ()
 
 
-def _numbers(key: str, given: Given) -> dict[str, float]:
+def _numbers(key: str, inputs: Inputs) -> dict[str, float]:
     """The numbers of the striker or the base of these values."""
-    usual = USUAL[given.get(key, "flat")]
-    if "base_span" in usual and "base_span" not in given:
+    usual = USUAL[inputs.get(key, "flat")]
+    if "base_span" in usual and "base_span" not in inputs:
         raise RefusedError("loading.base_span", None, "the distance of the ribs, axis to axis")
-    return {name: given.get(name, number) for name, number in usual.items()}
+    return {name: inputs.get(name, number) for name, number in usual.items()}
 
 
-def struck(given: Given, width: float, unending: str) -> dict[str, Any]:
+def struck(inputs: Inputs, width: float, unending: str) -> dict[str, Any]:
     """These values of a loading, with those of the striker and the base complete.
 
     Keys of other kinds of strikers are left out. width (m): of the lattice over centre lines.
     unending: the key that ties its sides, in words; empty if none does.
     """
-    shaped = {key for key in SHAPED if given.get(key, "flat") != "flat"}
-    if shaped and (is_along(given) or unending):
-        key, where = min(shaped), WHERE if is_along(given) else unending
-        raise RefusedError(f"loading.{key}", given[key], f'"flat" {where}')
-    own = {name: value for name, value in given.items() if name not in _OF_KINDS}
+    shaped = {key for key in SHAPED if inputs.get(key, "flat") != "flat"}
+    if shaped and (is_along(inputs) or unending):
+        key, where = min(shaped), WHERE if is_along(inputs) else unending
+        raise RefusedError(f"loading.{key}", inputs[key], f'"flat" {where}')
+    own = {name: value for name, value in inputs.items() if name not in _OF_KINDS}
     for key in SHAPED:
-        own |= _numbers(key, given)
+        own |= _numbers(key, inputs)
     if shaped:
-        own["platen"] = _standing(given)
+        own["platen"] = _standing(inputs)
     _check(own, width)
     return own
 
 
-def _standing(given: Given) -> str:
+def _standing(inputs: Inputs) -> str:
     """How the lattice stands on its base: glued, or loose, as always on ribs."""
-    ribs = given.get("base") == "ribs"
-    platen: str = given.get("platen", "contact" if ribs else "glued")
+    ribs = inputs.get("base") == "ribs"
+    platen: str = inputs.get("platen", "contact" if ribs else "glued")
     if ribs and platen != "contact":
         raise RefusedError("loading.platen", platen, '"contact" if loading.base is "ribs"')
     if platen not in ("contact", "glued"):
@@ -146,7 +146,7 @@ def _standing(given: Given) -> str:
     return platen
 
 
-def _check(own: Given, width: float) -> None:
+def _check(own: Inputs, width: float) -> None:
     """Refuse an edge that is no wedge, a tip wider than its punch, and ribs beside the lattice."""
     angle, tip, face = (own.get(f"striker_{key}") for key in ("angle", "tip", "width"))
     if angle is not None and not LEAST_ANGLE <= angle <= MOST_ANGLE:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from sweep.config.faults import MisfitError
 
 T = TypeVar("T")
-Given = Mapping[str, Any]
+Inputs = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
 Pairs = tuple[tuple[str, Any], ...]
 """The same as keys and values, which can be looked up."""
@@ -20,12 +20,12 @@ Pairs = tuple[tuple[str, Any], ...]
 class Tables(TypedDict, total=False):
     """The values of the tables of a case; None: its defaults."""
 
-    lattice: "Given | Table | None"
-    material: "Given | Table | None"
-    loading: "Given | Table | None"
-    contact: "Given | Table | None"
-    damping: "Given | Table | None"
-    solver: "Given | Table | None"
+    lattice: "Inputs | Table | None"
+    material: "Inputs | Table | None"
+    loading: "Inputs | Table | None"
+    contact: "Inputs | Table | None"
+    damping: "Inputs | Table | None"
+    solver: "Inputs | Table | None"
 
 
 TABLES = tuple(Tables.__annotations__)
@@ -79,6 +79,7 @@ class Table(BaseModel):
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {}
     needs: ClassVar[dict[str, str]] = {}
     fits: ClassVar[tuple[str, ...]] = ()
+    because: ClassVar[str] = ""
 
     @classmethod
     def replaced(cls, key: str) -> set[str]:
@@ -89,7 +90,7 @@ class Table(BaseModel):
         causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}
         return {*own, *causes, *cls.replaces.get(key, ())} - {key}
 
-    def given(self) -> dict[str, Any]:
+    def inputs(self) -> dict[str, Any]:
         """The values from which this table follows, by key."""
         values = {name: value for name, value in self if name not in self.derived}
         return {name: value for name, value in values.items() if value is not None}
@@ -99,11 +100,14 @@ class Table(BaseModel):
         fields = type(self).model_fields
         return getattr(self, key) if key in fields else self.constants.get(key)
 
-    @classmethod
-    def implies(cls, key: str, value: object) -> bool:
+    def why_idle(self, key: str) -> str:
+        """Why a key has no effect."""
+        return self.needs.get(key, self.because)
+
+    def implies(self, key: str, value: object) -> bool:
         """Whether a value of a key that a kind need not have says what is so anyway."""
-        implied = {**cls.neutral, **cls.constants}
-        return bool(implied.get(key, getattr(cls, key, None)) == value)
+        implied = {**self.neutral, **self.constants}
+        return bool(implied.get(key, getattr(self, key, None)) == value)
 
 
 class RefusedError(MisfitError):
@@ -125,7 +129,7 @@ class RefusedError(MisfitError):
         return self.key.split(".")[0]
 
 
-def chosen(values: Given, model: type[Table]) -> dict[str, Any]:
+def own_values(values: Inputs, model: type[Table]) -> dict[str, Any]:
     """The values of the keys that a model has."""
     return {key: value for key, value in values.items() if key in model.model_fields}
 

@@ -1,17 +1,34 @@
 """Keys without effect, and why: `grid` refuses a config with a key that none of its cases uses."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 from sweep.config.case import Case
+from sweep.config.keys import KINDS, one_of
 from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
 from sweep.config.kinds.contact import Barrier
+from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.damping import NoDamping
+from sweep.config.kinds.direction import ACROSS, ALONG
+from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS
+from sweep.config.kinds.specimen import Specimen
+from sweep.config.kinds.table import Table
 from sweep.config.materials.material_file import locate, read_record
 from sweep.config.structures.structure import Structure
 
+STILL = "the crush is quasi-static"
+SIDES = ("sides", "width")  # of sheets
+DRIVEN = ("solver.load_steps", "solver.accuracy")
+CHOICE = {
+    "lattice": "kind",
+    "loading": "mode",
+    "contact": "model",
+    "damping": "model",
+    "solver": "integrator",
+}
+"""The key of a table that chooses a kind."""
 IDLE_ALONG = (
     "loading.base_patch",
     *(f"material.{key}" for key in materials.IDLE_ALONG),
@@ -34,7 +51,34 @@ def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
     if key == "lattice.file" and case.lattice.loaded:
         return _unused_part(case.lattice.loaded, case)
     why = why_unused(key, given, case)
-    return f"has no effect, as {why}" if why else ""
+    return f"has no effect, as {why}{_needed(key, why, case)}" if why else ""
+
+
+def _needed(key: str, why: str, case: Case) -> str:
+    """A clause that says which kinds of a table take a key; empty if that of the case does."""
+    table, name = key.split(".")
+    if why == STILL:
+        moves = case.loading.driven and not case.lattice.endless
+        return "; needed: a loading.speed" if moves else ""
+    kinds = [kind for kind in KINDS[table] if name in kind.model_fields]
+    if key in DRIVEN and not case.loading.driven:
+        kinds, table = [Crush], "loading"
+    own = getattr(case, table)
+    shells = case.shells and table != "lattice" and why == _why_shells(case)
+    if isinstance(own, (*kinds, OfFile)) or shells or (case.lattice.sheet and name in SIDES):
+        return ""
+    words = [word for kind in kinds for word in _words(table, kind)]
+    slicer = [kind for kind in kinds if table == "lattice" and "slicer" in kind.model_fields]
+    needed = [f"{table}.{CHOICE[table]} = {one_of(dict.fromkeys(words))}"] if words else []
+    return f"; needed: {' or '.join([*needed, *(['a lattice.slicer'] if slicer else [])])}"
+
+
+def _words(table: str, kind: type[Table]) -> tuple[str, ...]:
+    """The values of the key of a table that choose a kind."""
+    if issubclass(kind, Specimen):
+        return kind.words
+    words: tuple[str, ...] = get_args(kind.model_fields[CHOICE[table]].annotation)
+    return words[:1] if kind is Barrier else words
 
 
 def _unused_part(structure: Structure, case: Case) -> str:
@@ -57,7 +101,7 @@ def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
         return _why_no_memory(given)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
-    if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied):
+    if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied_sides):
         return "the lattice repeats"
     if case.shells and key in IDLE_ALONG:
         return _why_shells(case)
@@ -77,7 +121,7 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     """
     table, name = key.split(".")
     if name in (kind := getattr(case, table)).fits:
-        return name in kind.given()
+        return name in kind.inputs()
     if key == "contact.model":
         return bool(given[key] == "auto")
     if key == "loading.mode":
@@ -104,12 +148,10 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     """Why the kinds of a case do not hold the value of a key."""
     table, name = key.split(".")
     kind = getattr(case, table)
-    if name in kind.needs:
-        return str(kind.needs[name])
     if key == "material.fibres":
         return f'material.bend is "{case.material.bend}"'
     if table == "lattice":
-        return _reason_in_lattice(key, case)
+        return _reason_in_lattice(name, case)
     if ARCS in (name, case.solver.integrator) and table in ("contact", "solver", "loading"):
         return f'solver.integrator is "{case.solver.integrator}"'
     if key == "solver.load_steps" or (key == "solver.accuracy" and not case.loading.driven):
@@ -121,13 +163,13 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     rubs = not case.loading.quasi_static and isinstance(kind, Barrier)
     if rubs and key == "contact.slip_speed" and kind.friction == 0.0:
         return "contact.friction is 0"
-    return str(kind.because)
+    return str(kind.why_idle(name))
 
 
 def _why_shells(case: Case) -> str:
     """Why the walls of a case are shells."""
     if case.lattice.sheet:
-        return case.lattice.because
+        return case.lattice.sheet_clause(case.lattice.inputs())
     return f'loading.direction is "{case.loading.direction}"'
 
 
@@ -135,20 +177,15 @@ def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
     if case.shells:
         return _why_shells(case)
     if case.loading.quasi_static:
-        return "the crush is quasi-static"
+        return STILL
     if "damping.model" not in given:
-        return 'damping.model is "none" by default if the material relaxes; give a damping.model'
+        return 'damping.model is "none" by default if the material relaxes'
     return NoDamping.because
 
 
-def _reason_in_lattice(key: str, case: Case) -> str:
-    if case.lattice.sheet and key != "lattice.imperfection_seed":
-        return case.lattice.because
-    if key.split(".")[1] in case.lattice.across and not case.shells:
-        return 'loading.direction is "in_plane"'
-    if key == "lattice.imperfection_seed":
+def _reason_in_lattice(name: str, case: Case) -> str:
+    if name in case.lattice.across and not case.shells:
+        return f'loading.direction is "{ACROSS}"; needed: "{ALONG}"'
+    if name == "imperfection_seed":
         return "lattice.imperfection is 0"
-    kind = case.lattice.given().get("kind")
-    if kind and key in ("lattice.file", "lattice.orientation"):
-        return f'lattice.kind is "{kind}"'
-    return case.lattice.because
+    return case.lattice.why_idle(name)

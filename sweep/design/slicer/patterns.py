@@ -198,8 +198,6 @@ NO_PRISMS = {
     "line": TURNS,
     "lines": TURNS,
     "zigzag": TURNS,
-    "zig-zag": TURNS,
-    "zig_zag": TURNS,
     "monotonic": TURNS,
     "tpmsfk": LEVELS,
     "3dhoneycomb": CELLS,
@@ -209,24 +207,53 @@ NO_PRISMS = {
     "adaptivecubic": CUBES,
     "supportcubic": CUBES,
     "quartercubic": CUBES,
-    "quarter_cubic": CUBES,
     "tetrahedral": CUBES,
     "lightning": TREES,
-    "cross_3d": TREES,
+    "cross3d": TREES,
     "concentric": LOOPS,
     "cross": PATHS,
     "hilbertcurve": PATHS,
     "archimedeanchords": PATHS,
     "octagramspiral": PATHS,
 }
-"""Patterns that no model here has: why, and the nearest prism."""
+"""Patterns that no model here has, by their `bare` names: why, and the nearest prism."""
+
+
+def bare(name: str) -> str:
+    """A name in small letters, without blanks, dashes and underscores."""
+    return "".join(letter for letter in name.lower() if letter not in " -_")
+
+
+class Lateral(NamedTuple):
+    """A pattern of prisms whose axis lies in the layers.
+
+    family: that is drawn like it. thickness: mean of its walls / s. width: of a cell x r / s, with
+    a share r of infill and lines s. walls: how its walls differ from those of the family, in words.
+    """
+
+    family: str
+    thickness: float
+    width: float
+    walls: str = ""
+
+
+LATTICE = Lateral("diamond", sqrt(0.5), 2.0)
+MEAN = ", the mean of upright walls and of inclined ones, which are half as thick"
+HONEYCOMB = Lateral("hex", 2.0 / 3.0, 4.0 / 3.0, MEAN)
 LATERAL = {
-    "lateral-lattice": "diamond",
-    "2dlattice": "diamond",
-    "lateral-honeycomb": "hex",
-    "2dhoneycomb": "hex",
+    "laterallattice": LATTICE,
+    "2dlattice": LATTICE,
+    "lateralhoneycomb": HONEYCOMB,
+    "2dhoneycomb": HONEYCOMB,
 }
-"""Patterns that are prisms, whose axis lies in the layers: the family that is drawn like them."""
+"""Patterns of OrcaSlicer that are prisms, whose axis lies in the layers, by their `bare` names.
+
+In every layer, at a height z, the lattice has lines at a distance of 2 s / r that are shifted by
+z tan 45 deg, and as many by -z tan 45 deg. The honeycomb has single lines over two thirds of its
+height, at 4/3 s / r, and pairs of lines over one third, that part by z tan 60 deg. A wall that is
+inclined by an angle from the print axis is s cos(angle) thick. (`FillLateralLattice`,
+`FillLateralHoneycomb` of libslic3r, with their default angles.)
+"""
 
 
 class Sliced(NamedTuple):

@@ -24,7 +24,7 @@ from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.modes import MODES
-from sweep.numbers import energy_text, in_unit, percent, three_digits, to_si
+from sweep.numbers import energy_text, in_unit, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
     PARTS,
@@ -55,6 +55,7 @@ ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its 
 LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
 FITS = 0.97  # of the planned scale of shapes: what the layout leaves them
 POWER = "$\\mathdefault{10^{"  # in labels of log axes
+SAME_ENERGY = 0.03  # relative difference of an area and the energy that it stands for
 TICKS = 3  # least number of labels of a log axis
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
 
@@ -90,10 +91,11 @@ def footnote(figure: Figure, words: str) -> None:
 
 
 def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """Force on the top over strain: loading, unloading, and the absorbed energy as an area.
+    """Force on the top over strain: loading, unloading, and the work below the curve as an area.
 
     history : from `read_history`; row : of the case in the summary. A dead load appears and
-    disappears within one step.
+    disappears within one step. Between loose platens it falls by more than the rows of nodes come
+    closer, as it presses the contact of both: then the absorbed energy is not the area.
     """
     strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     turn = released = last_loaded(history, row)
@@ -102,12 +104,14 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
         turn, released, ended = crushes(history)[0]
     down, pause, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead, absorbed = MODES[row["loading_mode"]].dead, row["absorbed_energy_J"]
-    returned = f"returns {percent(row['returned_energy_J'] / absorbed)} %"
+    returned = f"returns {tenths(row['returned_energy_J'] / absorbed)} %"
     words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{returned}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}
-    whole = f"absorbed in total\n{_energy(absorbed, row)}"
-    ax.fill_between(strain[down], force[down], label=whole, **sky)
+    whole, below = f"absorbed energy\n{_energy(absorbed, row)}", _below(history[down], dead)
+    is_whole = abs(below - absorbed) < SAME_ENERGY * absorbed
+    more = f"force x shortening\n{energy_text(below)}; {whole},\nwith contact at the platens"
+    ax.fill_between(strain[down], force[down], label=whole if is_whole else more, **sky)
     ax.plot(strain[down], force[down], drawstyle=style, color=BLUE, lw=2.2, label=words[0])
     if released > turn:
         ax.plot(strain[pause], force[pause], color=VERMILION, lw=1.6, label="hold")
@@ -131,6 +135,13 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     plain(ax, top=True)
 
 
+def _below(history: DataFrame, dead: bool) -> float:
+    """Work (J) of the force on the top over the displacement of the top."""
+    force, travel = history["reaction_top_N"].to_numpy(), history["top_displacement_m"].to_numpy()
+    mean = force[1:] if dead else 0.5 * (force[1:] + force[:-1])
+    return float(mean @ np.diff(travel))
+
+
 def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
     """The mean force until densification, with the energy; the area below is that energy.
 
@@ -139,13 +150,12 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
     strain, energy = row["packing_strain"], row["absorbed_energy_until_packed_J"]
     if not (MODES[row["loading_mode"]].driven and strain > 0.0):
         return
-    mean, end = energy / (strain * row["height_m"]), in_unit(strain, "%")
+    mean, end = energy / (strain * row["height_m"]), tenths(strain)
     densified = np.isfinite(row["densification_strain"])
-    until = f"densification at {end:.0f} %, until then"
-    at = until if densified else f"no densification; counted to {end:.0f} %:"
-    words = f"{at}\n{_energy(energy, row)}"
-    stairs = [0.0, end, end], [mean, mean, 0.0]
-    label = f"mean force {three_digits(mean)} N,\n{words}"
+    until = f"counted until densification\nat {end} %:"
+    at = until if densified else f"no densification; counted to {end} %:"
+    stairs = [0.0, *[in_unit(strain, "%")] * 2], [mean, mean, 0.0]
+    label = f"{at} {_energy(energy, row)},\nmean force {three_digits(mean)} N"
     ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)
 
 

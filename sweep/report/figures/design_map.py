@@ -98,7 +98,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
-        what = f"absorbed energy per gram{until(ranking)}, J/g"
+        what = f"energy absorbed{until(ranking)}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
         ax.set_title(titled(ax.get_title("left"), ranking), loc="left", fontsize="medium")
         round_ticks(ax.yaxis)

@@ -55,7 +55,7 @@ def pattern_bars(
             _draw(ax, [shapes[case_id] for case_id in ordered["case_id"]])
         ax.margins(y=0.5 / len(ordered))
         ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
-        ax.set_xlabel(f"absorbed energy per gram{until(ranking)}, J/g")
+        ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
 
 

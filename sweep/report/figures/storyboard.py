@@ -12,7 +12,7 @@ from pandas import DataFrame
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES
-from sweep.numbers import in_unit, percent, text_in
+from sweep.numbers import in_unit, text_in
 from sweep.ranking.scenes import scene_label
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     count = SHAPES - len(back) - (release is not None)
     down = sorted({*_even(strain[: turn + 1], count), turn})
     free = release is not None or strain[-1] < RELEASED
-    captions = {i: f"{percent(strain[i])} %" for i in [*down, *back]}
+    captions = {i: text_in(strain[i], "%", 2) for i in [*down, *back]}
     captions |= dict.fromkeys(back if free else [], "released")
     clock = "" if release is None else "\n{:.0f} ms"
     return [(i, text + clock.format(in_unit(time[i], "ms"))) for i, text in captions.items()]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from sweep.numbers import in_unit
+from sweep.ranking.budget import ROUND_OFF
 from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
@@ -163,7 +164,7 @@ def _moving(frames: Mapping[str, Any], position: Floats, forces: Sequence[Any]) 
     """Strain, time, force and platens of some frames, and positions (f, n, c) in m as 16-bit
     numbers in base 64: x = low x + step x number, in mm; frame after frame, node after node.
     """
-    chosen = _even(len(frames["strain"]))
+    chosen = _shown(np.asarray(frames["strain"]))
     position = in_unit(position[chosen], "mm")
     low = position.min((0, 1))
     step = float((position.max((0, 1)) - low).max()) / GRID or 1.0
@@ -185,9 +186,17 @@ def _points(outline: Floats) -> list[list[float]]:
     return [[float(f"{v:.4g}") for v in point] for point in outline]
 
 
-def _even(count: int) -> list[int]:
-    """At most `FRAMES` numbers of frames, evenly spaced from the first to the last."""
-    return sorted({*np.linspace(0, count - 1, min(count, FRAMES)).round().astype(int).tolist()})
+def _shown(strain: Floats) -> list[int]:
+    """At most `FRAMES` numbers of frames: the first, the last and those where the motion turns at
+    its greatest strain; others evenly spaced between them.
+    """
+    last = len(strain) - 1
+    if last < FRAMES:
+        return list(range(last + 1))
+    reached = strain >= (1.0 - ROUND_OFF) * np.fmax.reduce(strain)
+    first_of_each = np.flatnonzero(reached[1:last] & ~reached[: last - 1]) + 1
+    turns = first_of_each[: FRAMES - 2].tolist()
+    return sorted({*np.linspace(0, last, FRAMES - len(turns)).round().astype(int).tolist(), *turns})
 
 
 def _few(values: Any) -> list[float | None]:

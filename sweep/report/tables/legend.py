@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from pandas import Series
 
-from sweep.columns import ALONG
+from sweep.columns import ALONG, end_columns
 from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES, Mode, has
-from sweep.numbers import percent
+from sweep.numbers import tenths
 from sweep.ranking.merit import is_period, unequal_periods
 from sweep.ranking.unfinished import unloaded
 from sweep.report.tables.requirement_notes import (
@@ -23,8 +23,11 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
+LONG_SPAN = 0.1  # of strain
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
-CRUSHED = "peak: greatest force of {of}. Peak and energy are counted {until}."
+CRUSHED = """\
+{noun}: energy absorbed {until}; J/g is of it.
+peak: greatest force of {of} until then."""
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
 SECOND = (
@@ -44,8 +47,8 @@ SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""
 FIRST_LOADING = """\
-{}: of walls as drawn, at their first loading. Printed ones that have been pressed
-before may be several times softer."""
+Results {} are of walls as drawn, at their first loading. Printed ones that
+have been pressed before may be several times softer."""
 TIED = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
 =: a tie: the errors may reverse the order. Errors common to all designs do not count.
@@ -80,7 +83,7 @@ only unloading tells is not known (–)."""
 OTHER_BOW = """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 ONE_PERIOD = """\
-Sides are tied (lattice.sides): mass, force and energy are of one period of a wide panel; the
+Sides are tied: mass, force and energy are of one period of a wide panel; the
 Pareto front compares mass and energy per pressed area."""
 STRUCK_PERIODS = """\
 Periods differ in area, and a striker brings more energy per area to a smaller one: only forces of
@@ -98,14 +101,40 @@ backward Euler mostly too small. solver.integrator "bdf2" with a step_error of "
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     table, of = ranking.table, of_one(ranking.table)
-    lines = []
+    noun, lines = "panel" if "panel_mass_g" in table else "counted", []
     for mode in (MODES[name] for name in sorted(table["loading_mode"].unique())):
-        counted = [CRUSHED.format(until=ranking.until, of=of)] if mode.driven else []
+        counted = [CRUSHED.format(noun=noun, until=ranking.until, of=of)] if mode.driven else []
         whole = mode.notes and not (mode.driven and ranking.limited)
         lines += [*counted, *(meanings(table, mode) if whole else [])]
-    lines += panel_note(table) + column_notes(ranking)
+    lines += panel_note(table) + column_notes(ranking) + _notes(ranking)
     bars = [TIED] if "ranked_error" in table else []
     return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *bars]))
+
+
+def _notes(ranking: Ranking) -> list[str]:
+    """The meaning of what only some tables have: another mass, and marks."""
+    table = ranking.table
+    crushed = table[has(table, "driven")]
+    densified = crushed["densification_strain"].notna()
+    notes = {
+        printed_note(table): "counted_mass_g" in table,
+        **dict.fromkeys(mark_notes(table), True),
+        UNSURE: (is_unsure(crushed) & densified).any() and not ranking.limited,
+        TWICE: densifies_twice(crushed).any() and not ranking.limited,
+        EARLY: ranking.limited and table["ends_early"].any(),
+    }
+    return [note for note, is_needed in notes.items() if is_needed]
+
+
+def is_unsure(rows: DataFrame) -> Series:
+    """True for lattices that have nearly the greatest efficiency over a long span of strain."""
+    return rows["packing_span"] > LONG_SPAN
+
+
+def densifies_twice(rows: DataFrame) -> Series:
+    """True for lattices with nearly the greatest efficiency at two strains, in whole percent."""
+    low, high = (rows[name].map(tenths) for name in end_columns("densification_strain"))
+    return low != high
 
 
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
@@ -119,8 +148,8 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
 def _first_loading(rows: DataFrame) -> list[str]:
     """What holds of walls that are shells; nothing if there are none."""
     sheet, along = rows["lattice_kind"].map(is_sheet), rows["direction"] == ALONG
-    cells = ["Along the cells"] if (along & ~sheet).any() else []
-    named = " and ".join(cells + (["Sheets"] if sheet.any() else []))
+    cells = ["along the cells"] if (along & ~sheet).any() else []
+    named = " and ".join([*cells, *(["of sheets"] if sheet.any() else [])])
     return [FIRST_LOADING.format(named)] if named else []
 
 
@@ -146,7 +175,7 @@ def _not_densified(rows: DataFrame) -> list[str]:
     """What stands in place of the strain where a crush ends too early; nothing if none does."""
     crushed = rows[has(rows, "driven")]
     ends = crushed["peak_strain"][crushed["densification_strain"].isna()].dropna()
-    return [] if ends.empty else [NOT_DENSIFIED.format(percent(ends.iloc[0]))]
+    return [] if ends.empty else [NOT_DENSIFIED.format(tenths(ends.iloc[0]))]
 
 
 def _losses(rows: DataFrame) -> str:

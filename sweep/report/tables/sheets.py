@@ -10,20 +10,11 @@ from pandas import Series
 
 from sweep.columns import end_columns
 from sweep.modes import compared, mode_of
-from sweep.numbers import in_unit, numerals, percent, tenths
+from sweep.numbers import in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
-from sweep.report.tables.legend import (
-    EARLY,
-    OPEN,
-    PASSED_OVER,
-    TWICE,
-    UNSURE,
-    mark_notes,
-    marks,
-    printed_note,
-)
+from sweep.report.tables.legend import OPEN, PASSED_OVER, densifies_twice, is_unsure, marks
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
@@ -44,8 +35,6 @@ if TYPE_CHECKING:
 FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
 LOST = "No design is ranked here: all cases failed ({})."
-LONG_SPAN = 0.1  # of strain
-NO_TEXT = Series(dtype=str)
 
 
 SPARE = {
@@ -103,12 +92,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
             opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
             notes=(
-                *((printed_note(rows),) if "print g" in columns else ()),
-                *mark_notes(rows),
                 *_passed_over(rows),
-                *((UNSURE,) if "~" in "".join(columns.get("dens. %", ())) else ()),
-                *((TWICE,) if columns.get("dens. %", NO_TEXT).str.contains("-").any() else ()),
-                *(_early(placed) if ranking.limited else ()),
+                *(_open(placed) if ranking.limited else ()),
                 *narrow_note(ranking.narrow[scene]),
                 *_cut_off(rows),
                 *_not_shown(placed),
@@ -124,10 +109,8 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
         yield Sheet(scene, [], [], notes=(LOST.format(count),))
 
 
-def _early(placed: DataFrame) -> Iterator[str]:
-    """What it means that crushes ended before the allowed force was reached."""
-    if placed["ends_early"].any():
-        yield EARLY
+def _open(placed: DataFrame) -> Iterator[str]:
+    """That a crush which ended before the allowed force was reached may lead."""
     if (placed["ends_early"] & (placed["place"] > 1)).any():
         yield OPEN
 
@@ -253,12 +236,12 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
         **panel_column(rows),
         "strain %": numerals(in_unit(rows["peak_strain"], "%")),
         "left mm": numerals(in_unit(rows["stroke_left_m"], "mm")),
-        "rebound %": rows["rebound_share"].map(percent),
+        "rebound %": rows["rebound_share"].map(tenths),
     }
 
 
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "absorbed"
+    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "counted"
     unit = "mJ" if energy.max() < 1.0 else "J"
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})
@@ -272,19 +255,15 @@ def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 def crush_text(rows: DataFrame) -> dict[str, Series]:
     """Columns about the whole crush."""
     densified = rows["densification_strain"].notna() | rows["peak_strain"].isna()
-    unsure = _unsure(rows).map({True: "~", False: ""})
-    low, high = (rows[name].map(percent) for name in end_columns("densification_strain"))
-    strain = (rows["packing_strain"].map(percent) + unsure).where(low == high, low + "-" + high)
-    end = "> " + rows["peak_strain"].map(percent)
+    unsure = is_unsure(rows).map({True: "~", False: ""})
+    low, high = (rows[name].map(tenths) for name in end_columns("densification_strain"))
+    once = rows["packing_strain"].map(tenths) + unsure
+    strain = once.where(~densifies_twice(rows), low + "-" + high)
+    end = "> " + rows["peak_strain"].map(tenths)
     earlier = rows["lowest_densification_strain"] > 0.0
     end = (low + " or " + end).where(earlier, end)
     second = rows["second_cycle_share"]
     return {
         "dens. %": strain.where(densified, end),
-        "returned %": rows["returned_share"].map(percent),
-    } | ({"cycle 2 %": second.map(percent)} if second.notna().any() else {})
-
-
-def _unsure(rows: DataFrame) -> Series:
-    """True for lattices that have nearly the greatest efficiency over a long span of strain."""
-    return rows["packing_span"] > LONG_SPAN
+        "returned %": rows["returned_share"].map(tenths),
+    } | ({"cycle 2 %": second.map(tenths)} if second.notna().any() else {})

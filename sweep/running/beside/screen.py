@@ -41,7 +41,7 @@ ONE = 1, 1
 def has_column(design: Case) -> bool:
     """Whether one cell stands for a design: a crush along several equal cells without outline."""
     lattice, crushed = design.lattice, isinstance(design.loading, Crush)
-    if not (isinstance(lattice, Cells) and crushed and design.along) or lattice.tied:
+    if not (isinstance(lattice, Cells) and crushed and design.along) or lattice.tied_sides:
         return False
     several = (lattice.cells_x, lattice.cells_y) != ONE
     return several and lattice.grading == 1.0 and not any(lattice.outline)

@@ -17,7 +17,7 @@ from sweep.config.axis import Interval, Written, rounded_down
 from sweep.config.case import Case
 from sweep.config.grid import Config, Values, chosen_case
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import counted_area
 from sweep.design.panel import BEHIND, panel_of
 from sweep.ranking.budget import greatest_mass
@@ -82,7 +82,7 @@ class DesignSpace:
         match least.lattice:
             case Sliced():
                 return self._limited_of_slicer(size, least)
-            case Laid() if size.name != "lattice.infill":
+            case WallLattice() if size.name != "lattice.infill":
                 return self._limited_walls(size, least)
         return size
 
@@ -108,7 +108,7 @@ class DesignSpace:
         def count(thickness: float) -> float:
             return self._panels(_with_walls(least, thickness))
 
-        assert isinstance(least.lattice, Laid)
+        assert isinstance(least.lattice, WallLattice)
         low = least.lattice.wall_thickness
         high = min(inf if by_mass else size.high, OPEN * _widest(least.lattice))
         weighs = by_mass or self.budget < inf
@@ -135,7 +135,7 @@ class DesignSpace:
         return float(panel_of(self.panel, *case.footprint, gap).specimens)
 
 
-def _widest(lattice: Laid) -> float:
+def _widest(lattice: WallLattice) -> float:
     """Wall thickness (m) that leaves no openings, between walls or beside an outline."""
     beside = [lattice.opening - outline for outline in lattice.outline if outline]
     return min([lattice.thickest, *beside])

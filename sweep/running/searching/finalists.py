@@ -12,7 +12,7 @@ from typing import Any
 from sweep.config.case import Case
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
-from sweep.config.kinds.specimen import Laid
+from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.table import RefusedError
 from sweep.ranking.spread import FINE
 from sweep.running.beside.refinement import layers, mesh
@@ -54,7 +54,7 @@ def perturbed(design: Case) -> list[Corner]:
     fine = _with(design, _elements(design.lattice, 2))
     base = fine or _with(design, _elements(design.lattice, 1)) or design
     variants = {FINE: fine}
-    if isinstance(base.lattice, Laid):
+    if isinstance(base.lattice, WallLattice):
         count = (2 if fine else 1) * (design.lattice.layers or 0)
         for name, by in WALLS.items():
             height = layers(base.lattice, count, by) if count else {}
@@ -70,7 +70,7 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
     share.
     """
     change = mesh(lattice, ratio)
-    if not isinstance(lattice, Laid):
+    if not isinstance(lattice, WallLattice):
         return change
     return change | {
         "mass": None,

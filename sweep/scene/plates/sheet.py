@@ -84,7 +84,7 @@ class SheetMesh(ShellMesh):
 def mesh_of_sheet(lattice: Surface) -> SheetMesh:
     """The mesh of a sheet."""
     name, period, quads = lattice.sheet, lattice.period, lattice.quads_per_period
-    if lattice.tied:
+    if lattice.tied_sides:
         net = net_of(name, lattice.turned, period, lattice.pressed_height, quads)
     else:
         net = net_of_block(name, period, lattice.box, lattice.walled, quads)
@@ -105,10 +105,10 @@ def bowed(net: Net, lattice: Surface) -> Net:
     if lattice.imperfection == 0.0:
         return net
     drawn, share = np.random.default_rng(lattice.imperfection_seed), net.points / net.box.size
-    lateral = WAVES if lattice.tied else LAYERS
+    lateral = WAVES if lattice.tied_sides else LAYERS
     waves = np.stack(np.meshgrid(lateral, lateral, LAYERS, indexing="ij"), axis=-1).reshape(-1, 3)
     number = drawn.standard_normal(len(waves))
-    if lattice.tied:
+    if lattice.tied_sides:
         phase = 2.0 * np.pi * drawn.random(len(waves))
         across = np.cos(2.0 * np.pi * share[:, :2] @ waves[:, :2].T + phase)
         mean = 0.5

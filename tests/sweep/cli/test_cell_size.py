@@ -25,8 +25,8 @@ def test_the_share_of_a_sheet_and_the_sides_of_a_block_are_told():
     sheet = dict(slicer="orca", pattern="gyroid", infill=0.15, height=12.5e-3)
     loading = dict(mode="displacement")
     assert cell_sentences([Case.of(lattice=sheet, loading=loading)], 0.15) == [
-        "gyroid, 14.7 % for 15 %, pressed across the print axis: 1.75 x 7.143 mm, the period, in "
-        "12.5 mm"
+        "gyroid, 14.7 % for 15 %, pressed across the print axis: 1.75 periods of 7.143 mm in a "
+        "height of 12.5 mm"
     ]
     block = dict(sheet, width=20e-3, depth=10e-3, perimeters=2)
     (line,) = cell_sentences(

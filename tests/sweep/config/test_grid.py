@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from sweep.config.faults import ConfigError
-from sweep.config.grid import chosen_case, expand
+from sweep.config.grid import chosen_case, expand, sweep_of
 from sweep.config.materials import material_file
 
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
@@ -218,3 +218,12 @@ def test_searched_key_without_effect(lines):
     (line,) = lines('[search]\nlattice.orientation = ["flat", "pointy"]')
     told = '[search] lattice.orientation = ["pointy", "flat"]: has no effect, as lattice.kind is '
     assert line == f'{told}"square"'
+
+
+@pytest.mark.parametrize("source", ["smoke", None, 3, ["a"], {1: 2}, [None]])
+def test_what_is_no_sweep_is_a_fault_of_the_config(source):
+    for ask in (expand, sweep_of):
+        with pytest.raises(
+            ConfigError, match=r"is no sweep; needed: .*crumple\.load_config returns"
+        ):
+            ask(source)

@@ -9,7 +9,7 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.load import case, load_config
+from sweep.config.load import case, case_of, load_config
 from sweep.config.units import quantity
 from tests.support.readme import ROOT
 
@@ -77,7 +77,7 @@ def test_a_refused_config_loads_nothing_heavy(tmp_path):
 import sys
 from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.load import case, load_config
+from sweep.config.load import case, case_of, load_config
 try:
     load_config({str(path)!r})
 except ConfigError:
@@ -140,3 +140,15 @@ def test_a_case_of_keys():
 def test_what_is_no_key_of_a_case_is_refused(keys, told):
     with pytest.raises(ConfigError, match=told):
         case(**keys)
+
+
+@pytest.mark.parametrize("source", ["x", None, 3, ["a"], {1: 2}, {"a": 1}])
+def test_what_is_no_case_is_a_fault_of_the_config(source):
+    with pytest.raises(ConfigError, match=r"is no case;|is no text;|of no case;"):
+        case_of(source)
+
+
+def test_a_case_is_itself_and_a_dict_of_tables_is_the_case_of_them():
+    made = case(lattice={"kind": "hex"})
+    assert case_of(made) is made
+    assert case_of({"lattice": {"kind": "hex"}, "loading": None}) == made

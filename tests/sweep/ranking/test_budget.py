@@ -3,6 +3,7 @@
 import pytest
 
 from sweep.ranking.rank import rank, ranked
+from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import designs, ids, summary
 
@@ -37,7 +38,7 @@ def test_budgets_count_what_is_extruded():
         ["1.00", "–"],
         ["2.40", "–"],
     ]
-    assert any("print g: mass as the slicer extrudes it" in note for note in sheet.notes)
+    assert "print g: mass as the slicer extrudes it" in legend(ranked(table))
     found = ranked(table, panel=(0.130, 0.050)).table.set_index("mass_g")
     assert found.loc[2.0, "panel_mass_g"] == pytest.approx(50.0 * 2.5)
     per_gram = found["specific_absorption_until_packed_J_per_g"]

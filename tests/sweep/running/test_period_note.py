@@ -19,7 +19,7 @@ def tied(friction):
 def test_fixed_and_free_periods_are_told_apart():
     others = [Case.of(), tied(0.3), tied(0.0), tied(0.4)]
     fixed, free = sentences_on_periods(others)
-    assert fixed.startswith("2 of 4 cases are one period of a wide panel (lattice.sides)")
+    assert fixed.startswith("2 of 4 cases are one period of a wide panel")
     assert "its width is fixed" in fixed
     assert free.startswith("1 of 4 cases")
     assert "its width is free" in free

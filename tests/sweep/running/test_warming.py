@@ -5,6 +5,9 @@ import pytest
 from sweep.config.case import Case
 from sweep.running.warming import real_simulate, simulate_unloaded
 from sweep.simulation.retries import simulate_again
+from sweep.simulation.simulate import kernels_of
+
+ALONG = {"direction": "out_of_plane"}
 
 
 @pytest.fixture
@@ -22,8 +25,10 @@ def test_cold_kernels_are_announced_and_loaded(cold, capsys, monkeypatch):
     assert real_simulate([Case.of()]) is simulate_again
     assert cold == ["marches"]
     first, second = capsys.readouterr().err.splitlines()
-    assert first.startswith("compiling the kernels, once: this takes ")
+    assert first.startswith("compiling the kernels of walls in the plane, once: this takes ")
     assert second.startswith("for this run alone: ")
+    sheet, plate = ({"lattice": {"kind": kind}, "loading": ALONG} for kind in ("gyroid", "hex"))
+    assert kernels_of(Case.of(**sheet)) == kernels_of(Case.of(**plate)) == "plates"
     real_simulate([Case.of()])
     assert capsys.readouterr().err == ""
 

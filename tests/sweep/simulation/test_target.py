@@ -109,7 +109,7 @@ def test_momentum_and_book(platen, integrator, shape, monkeypatch):
 
     monkeypatch.setattr("kernels.solve.march.march", follow)
     result = simulate(case)
-    scene = build_tied(case) if case.lattice.tied else build_scene(case)
+    scene = build_tied(case) if case.lattice.tied_sides else build_scene(case)
     at_first = float(np.sum(scene.terms.coordinates.mass * scene.velocity))
     assert result.summary["status"] == "converged"
     assert len(states) > 5

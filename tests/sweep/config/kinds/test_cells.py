@@ -53,7 +53,7 @@ UNFIT = {
     ),
     'mass = "9 g"': ('lattice.mass = "9 g"', "between 2.975e-06 g and 2.479 g"),
     'kind = "triangle"\nwall_thickness = "1.3 mm"': (
-        *('lattice.wall_thickness = "1.3 mm"', "below", "1.288 mm"),
+        *('lattice.wall_thickness = "1.3 mm"', "below", "1.287 mm"),
     ),
     "perimeters = 9": ("lattice.perimeters = 9", "at most 8 here", "0.003367 m"),
     "solid_layers = 17": ("lattice.solid_layers = 17", "at most 16 here", "0.003367 m"),

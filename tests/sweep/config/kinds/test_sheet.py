@@ -36,7 +36,7 @@ def test_a_mass_sets_the_thickness():
     lattice = case(mass=1e-4, height=12 * MM).lattice
     density = case().material.density
     assert density * lattice.area * lattice.wall_thickness == pytest.approx(1e-4, rel=1e-12)
-    again = Case.of(lattice=lattice.given(), loading={})
+    again = Case.of(lattice=lattice.inputs(), loading={})
     assert again.lattice == lattice
 
 
@@ -60,7 +60,7 @@ def test_walls_are_shells_whichever_way_it_is_pressed():
 
 REFUSED = [
     ({"wall_thickness": 2 * MM}, {}, "below a fifth of the period"),
-    ({"cell_size": 200 * MM}, {}, "periods of at most"),
+    ({"cell_size": 200 * MM}, {}, "at most 0.08333 m where 0.0125 m are pressed"),
     ({"nodes_per_wall": 20}, {}, "1 to 11"),
     ({"nodes_per_wall": 0}, {}, "1 to 11"),
     ({"cell_size": 0.1 * MM, "wall_thickness": 0.01 * MM}, {}, "at most 20,000 quads"),
@@ -100,3 +100,16 @@ def test_keys_of_drawn_lattices_are_refused():
         with pytest.raises(RefusedError):
             case(**{key: value})
     assert case(sides="periodic") == case()
+
+
+@pytest.mark.parametrize(
+    ("lattice", "where"),
+    [
+        ('kind = "gyroid"', 'if lattice.kind is "gyroid"'),
+        ('slicer = "orca"\npattern = "tpmsd"\ninfill = "20 %"', 'if lattice.pattern is "tpmsd"'),
+        ('kind = "hex"\n[loading]\ndirection = "out_of_plane"', 'direction is "out_of_plane"'),
+    ],
+)
+def test_why_walls_are_plates_is_told_in_the_keys_that_are_given(refused, lattice, where):
+    text = f'[lattice]\n{lattice}\n[material]\nbend = "fibres"'
+    assert refused(text, 'material.bend = "fibres"', '"section" or "linear"', where)

@@ -9,6 +9,7 @@ from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.kinds.table import RefusedError
 from sweep.design.slicer.network import extruded_area
+from sweep.design.slicer.patterns import HONEYCOMB
 from tests.support.designs.tables import lattice_with
 
 SLICED = '[lattice]\nwidth = "20 mm"\nheight = "20 mm"\nslicer = "prusa"\n'
@@ -96,7 +97,7 @@ UNFIT = {
         *('lattice.pattern = "cubic"', "would need their joints", "the nearest is triangles"),
     ),
     SHARED.replace("prusa", "orca").replace("grid", "lateral-honeycomb"): (
-        *('lattice.pattern = "lateral-honeycomb"', "lies in the layers", 'lattice.kind "hex"'),
+        *('lattice.pattern = "lateral-honeycomb"', "lies in the layers", 'lattice.kind = "hex"'),
     ),
     SHARED.replace("grid", "stripes"): ('lattice.pattern = "stripes"', PATTERNS),
     f'{SHARED}kind = "hex"': ('lattice.kind = "hex"', *IDLE),
@@ -119,7 +120,7 @@ UNFIT = {
     f'{SHARED}mass = "2 g"': ('lattice.mass = "2 g"', "none where lattice.infill is given"),
     f"{SHARED}cells = 3": ("lattice.cells = 3", *IDLE),
     '[lattice]\npattern = "grid"': (
-        *('lattice.pattern = "grid"', "no effect", "lattice.slicer is not given"),
+        *('lattice.pattern = "grid"', "no effect", "needed: a lattice.slicer"),
     ),
 }
 
@@ -202,5 +203,24 @@ def test_several_lines_of_cura_stay_where_one_is():
     assert heavy.infill == 0.1
     laid = mass.geometry.sliced.share
     assert mass.infill == pytest.approx(0.5 * laid)
-    with pytest.raises(RefusedError, match=r"below 16\.7 %"):
+    with pytest.raises(RefusedError, match=r"below 16\.6 %"):
         Case.of(lattice=box | {"infill": 0.2, "fill_multiline": 6})
+
+
+@pytest.mark.parametrize("name", ["lateral-lattice", "Lateral Lattice", "2D lattice"])
+def test_a_prism_in_the_layers_is_told_as_cells_of_equal_mass(lines, load, name):
+    """Cells and walls of the message fill the share that the slicer counts, crossings twice."""
+    text = '[lattice]\nwidth = "40 mm"\nheight = "40 mm"\n'
+    (line,) = lines(f'{text}slicer = "orca"\npattern = "{name}"\ninfill = "18 %"\n')
+    size, thickness = re.search(r'size = "(\S+ mm)", wall_thickness = "(\S+ mm)"', line).groups()
+    cells = f'kind = "diamond"\ncell_size = "{size}"\nwall_thickness = "{thickness}"\n'
+    lattice = load(text + cells).cases[0].lattice
+    side = math.sqrt(0.5) * lattice.width / lattice.cells_x
+    assert 2.0 * lattice.wall_thickness / side == pytest.approx(0.18, rel=0.05)
+
+
+def test_the_walls_of_a_lateral_honeycomb_fill_its_share():
+    line, share = 0.4, 0.2
+    size = HONEYCOMB.width * line / share  # of a hexagon, from flat to flat
+    walls = math.sqrt(3.0) * size * HONEYCOMB.thickness * line
+    assert walls / (0.5 * math.sqrt(3.0) * size * size) == pytest.approx(share)

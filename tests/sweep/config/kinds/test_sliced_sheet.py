@@ -100,7 +100,7 @@ def test_the_sides_of_a_block_are_whole_halves_of_the_period(pattern, direction)
     assert case.height == (12 * MM if case.along else 11 * MM)
     assert made.width == pytest.approx(14 * MM, abs=0.25 * made.period)
     assert made.outer_size == pytest.approx((made.width + 2 * LINE, made.height + 2 * LINE))
-    assert not made.tied
+    assert not made.tied_sides
     assert made.cells_x == round(0.5 * halves[0])
     assert Case.from_json(case.to_json()).case_id == case.case_id
 
@@ -118,7 +118,7 @@ def test_a_block_is_its_perimeters_and_the_sheet_between_them():
     [
         ({"fill_angle": 0.0}, "45 degrees"),
         ({"perimeters": 20}, "0 to 13"),
-        ({"infill": 0.02}, "periods of at most"),
+        ({"infill": 0.02}, "at least 2.63 % where 12 mm are pressed"),
     ],
 )
 def test_a_block_that_does_not_fit_is_refused(values, words):

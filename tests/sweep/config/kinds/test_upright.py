@@ -132,6 +132,8 @@ def test_what_does_not_go_along_the_cells_is_refused(refused, text):
 
 
 def test_clamped_platens_are_for_plates(refused):
+    dead = '"none", "contact", "glued" or "sliding"'
+    assert refused('[loading]\nplaten = "clamped"', 'loading.platen = "clamped"', dead)
     text = '[loading]\nmode = "displacement"\nplaten = "clamped"'
     allowed = '"contact", "glued" or "sliding" if loading.direction is "in_plane"'
     assert refused(text, 'loading.platen = "clamped"', allowed)
@@ -151,7 +153,8 @@ IDLE = {
 def test_key_of_the_other_direction_has_no_effect(lines, text):
     direction = "out_of_plane" if text.startswith(ALONG) else "in_plane"
     why = f'has no effect, as loading.direction is "{direction}"'
-    assert lines(text) == [f"{IDLE[text]}: {why}"]
+    needed = '; needed: "out_of_plane"' if direction == "in_plane" else ""
+    assert lines(text) == [f"{IDLE[text]}: {why}{needed}"]
 
 
 def test_a_draw_of_no_imperfection_has_no_effect(lines):

@@ -11,11 +11,17 @@ from tests.support.designs.structures import BEAM, ROD
 
 BOTH = '[grid]\nloading.mode = ["force", "displacement"]\n'
 PRESSED = '[loading]\nmode = "displacement"\n'
-STATIC = "as the crush is quasi-static"
-LOADED = 'as loading.mode is "force"'
+STATIC = "as the crush is quasi-static; needed: a loading.speed"
+DRIVEN = '; needed: loading.mode = "displacement"'
+LOADED = f'as loading.mode is "force"{DRIVEN}'
+TOUCHES = 'as contact.model is "none"; needed: contact.model = "barrier"'
+PLATEN = 'as loading.mode is "displacement"; needed: loading.mode = "force"'
+
+SHEET = 'slicer = "orca"\npattern = "gyroid"\ninfill = "20 %"\n'
+BLOCK = SHEET + 'perimeters = 2\nwidth = "14 mm"\n'
 
 IDLE = {
-    PRESSED + 'force = "3 N"': 'loading.force = "3 N": as loading.mode is "displacement"',
+    PRESSED + 'force = "3 N"': f'loading.force = "3 N": {PLATEN}',
     '[loading]\nforce = "3 N"\nload_steps = 9': f"loading.load_steps = 9: {LOADED}",
     '[loading]\nhold_time = "3 s"': (
         'loading.hold_time = "3 s": as the stress of the material does not depend on time:'
@@ -25,13 +31,14 @@ IDLE = {
         'loading.striker_radius = "3 mm": as loading.striker is not "round"'
     ),
     '[loading]\nmode = "impact"\nhold_time = "3 s"': (
-        'loading.hold_time = "3 s": as loading.mode is "impact"'
+        f'loading.hold_time = "3 s": as loading.mode is "impact"{DRIVEN}'
     ),
     '[loading]\nmode = "impact"\n[solver]\naccuracy = "1 %"': (
-        'solver.accuracy = "1 %": as loading.mode is "impact"'
+        f'solver.accuracy = "1 %": as loading.mode is "impact"{DRIVEN}'
     ),
     PRESSED + 'speed = "1 m/s"\n[solver]\nintegrator = "newmark"\naccuracy = 0.01': (
-        'solver.accuracy = 0.01: as solver.integrator is "newmark"'
+        'solver.accuracy = 0.01: as solver.integrator is "newmark"; '
+        'needed: solver.integrator = "static"'
     ),
     PRESSED + '[damping]\nmass = "5 1/s"': f'damping.mass = "5 1/s": {STATIC}',
     PRESSED + '[solver]\ntime_step = "1 ms"': f'solver.time_step = "1 ms": {STATIC}',
@@ -42,17 +49,16 @@ IDLE = {
     '[contact]\nslip_speed = "1 mm/s"\nfriction = 0.0': (
         'contact.slip_speed = "1 mm/s": as contact.friction is 0'
     ),
-    '[contact]\nmodel = "none"\nfriction = 0.2': (
-        'contact.friction = 0.2: as contact.model is "none"'
-    ),
+    '[contact]\nmodel = "none"\nfriction = 0.2': (f"contact.friction = 0.2: {TOUCHES}"),
     '[damping]\nrelaxation_time = "1 ms"': (
-        'damping.relaxation_time = "1 ms": as damping.model is "rayleigh"'
+        'damping.relaxation_time = "1 ms": as damping.model is "rayleigh"; '
+        'needed: damping.model = "kelvin_voigt"'
     ),
     '[loading]\nspeed = "1 m/s"\n[solver]\nload_steps = 9\ntime_step = "1 ms"': (
         'solver.time_step = "1 ms": as solver.load_steps sets it'
     ),
     PRESSED + '[grid]\nloading.force = ["1 N", "2 N"]': (
-        '[grid] loading.force = ["1 N", "2 N"]: as loading.mode is "displacement"'
+        f'[grid] loading.force = ["1 N", "2 N"]: {PLATEN}'
     ),
     "[[zip]]\nlattice.cells = [2, 3]\nloading.load_steps = [9, 8]": (
         f"[[zip]] loading.load_steps = [9, 8]: {LOADED}"
@@ -61,12 +67,12 @@ IDLE = {
         '[grid] material.poisson = [0.3, 0.4]: as material.plane is "stress"'
     ),
     '[[zip]]\nloading.mode = ["displacement", "displacement"]\nloading.force = ["", "5 N"]': (
-        '[[zip]] loading.force = ["", "5 N"]: as loading.mode is "displacement"'
+        f'[[zip]] loading.force = ["", "5 N"]: {PLATEN}'
     ),
     BOTH + f"contact.stiffness = {[0.1 + 0.01 * i for i in range(20)]}\n"
-    '[contact]\nmodel = "none"': '[grid] contact.stiffness = [...]: as contact.model is "none"',
+    '[contact]\nmodel = "none"': f"[grid] contact.stiffness = [...]: {TOUCHES}",
     BOTH + '[[exclude]]\nloading.mode = "force"\n[loading]\nforce = "3 N"': (
-        'loading.force = "3 N": as loading.mode is "displacement"'
+        f'loading.force = "3 N": {PLATEN}'
     ),
 }
 
@@ -81,8 +87,9 @@ NEEDED = [
     '[contact]\nmodel = "none"\nfriction = 0.2\n[loading]\nplaten = "contact"',
     PRESSED + '[damping]\nmodel = "none"\n[solver]\nintegrator = "static"',
     "[lattice]\ncells = 3\n[grid]\nlattice.cells = [2, 3]",
-    '[lattice]\nslicer = "orca"\npattern = "gyroid"\ninfill = "20 %"\n'
-    'perimeters = 2\nwidth = "14 mm"',  # the nearest that fits
+    f"[lattice]\n{BLOCK}",  # the nearest width that fits
+    f'[lattice]\n{BLOCK}sides = "free"',
+    f'[lattice]\n{SHEET}sides = "periodic"',
 ]
 
 
@@ -108,7 +115,36 @@ def test_a_key_that_some_case_needs_is_fine(load, text):
             *('perimeters = 1\nlayer_height = "0.5 mm"', 'layer_height = "0.5 mm"'),
             "lattice.solid_layers is 0",
         ),
-        ('kind = "gyroid"\nwidth = "20 mm"', 'width = "20 mm"', "lattice.kind is a sheet"),
+        (
+            *('kind = "gyroid"\nwidth = "20 mm"', 'width = "20 mm"'),
+            'one period of a panel is computed, of which loading.direction "in_plane" presses '
+            "lattice.height",
+        ),
+        (
+            *('kind = "gyroid"\ndepth = "20 mm"', 'depth = "20 mm"'),
+            'loading.direction "in_plane" presses lattice.height',
+        ),
+        (
+            *(f'{BLOCK}sides = "periodic"', 'sides = "periodic"'),
+            "lattice.perimeters hold the sides of a block",
+        ),
+        (
+            *(SHEET + 'sides = "free"', 'sides = "free"'),
+            "lattice.perimeters is 0: one period of a panel is computed",
+        ),
+        (
+            *('kind = "gyroid"\ncells = 3', "cells = 3"),
+            'as lattice.kind is "gyroid"; needed: lattice.kind = "brick", "circle"',
+        ),
+        (
+            'kind = "hex"\nfile_unit = "1 mm"',
+            'file_unit = "1 mm"',
+            'needed: lattice.kind = "drawn"',
+        ),
+        (
+            *('fill_angle = "45 deg"', 'fill_angle = "45 deg"'),
+            'as lattice.kind is "square"; needed: a lattice.slicer',
+        ),
     ],
 )
 def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):
@@ -117,7 +153,7 @@ def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):
 
 def test_all_idle_keys_are_told_at_once_and_after_a_misspelt_one_none(load):
     text = PRESSED + '[damping]\nmass = "5 1/s"\n[solver]\ntime_step = "1 ms"\n'
-    with pytest.raises(ConfigError, match=r"(?s)damping\.mass.*\n.*time_step.*quasi-static$"):
+    with pytest.raises(ConfigError, match=r"(?s)damping\.mass.*\n.*time_step.*quasi-static"):
         load(text)
     with pytest.raises(ConfigError, match=r"^lattice\.cels [^\n]*$"):
         load(text + "[lattice]\ncels = 3")
@@ -178,9 +214,9 @@ def test_damping_that_a_material_that_relaxes_has_not_by_default(load, lines):
     asked = '[material]\nloss = 0.3\n[loading]\nmode = "impact"\n[damping]\nmass = "5 1/s"\n'
     (line,) = lines(asked)
     assert line.endswith(
-        'has no effect, as damping.model is "none" by default if the material relaxes; give a '
-        "damping.model"
+        'has no effect, as damping.model is "none" by default if the material relaxes; needed: '
+        'damping.model = "rayleigh"'
     )
     assert load(f'{asked}model = "rayleigh"').cases[0].damping.mass == 5.0
     (line,) = lines(f'{asked}model = "none"')
-    assert line.endswith('has no effect, as damping.model is "none"')
+    assert 'has no effect, as damping.model is "none"; needed' in line

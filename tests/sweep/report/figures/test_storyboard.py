@@ -26,6 +26,10 @@ def test_even_strains_on_the_way_down_then_the_end():
     assert [text for _, text in chosen] == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
 
 
+def test_small_strains_have_two_digits():
+    assert captions((10.0, 9.955, 9.84)) == ["0 %", "0.45 %", "1.6 %"]
+
+
 def test_only_what_is_let_go_is_released():
     assert captions((10.0, 5.0, 7.0)) == ["0 %", "50 %", "30 %"]
     assert captions((10.0, 5.0)) == ["0 %", "50 %"]

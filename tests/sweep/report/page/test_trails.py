@@ -88,6 +88,17 @@ def test_many_frames_become_few_from_the_first_to_the_last():
     assert shape["plates"][0] == [None, None]
 
 
+@pytest.mark.parametrize("down", [20, 37, 55])
+def test_a_motion_keeps_the_frames_at_which_it_turns(down):
+    """Down and up twice: neither turn is among the evenly spaced frames."""
+    way = np.append(np.linspace(0.0, 6.0, down), np.linspace(6.0, 0.5, 41)[1:])
+    shape = moving_shape(squeezed_cell(heights=10.0 - np.append(way, way)), [None] * (2 * len(way)))
+    strain = np.array(shape["strain"])
+    assert len(strain) <= FRAMES
+    assert strain[[0, -1]].tolist() == [0.0, 5.0]
+    assert (strain == 60.0).sum() == 2
+
+
 def test_path_of_a_drawing_holds_only_numbers():
     cell = squeezed_cell()
     (wall,) = drawing(cell["position_m"][5], cell["edges"], cell["edge_thickness_m"])["walls"]

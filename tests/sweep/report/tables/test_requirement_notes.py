@@ -91,7 +91,7 @@ def test_along_the_cells_it_is_said_that_walls_are_at_their_first_loading():
     assert "at their first loading" in legend(ranked(CRUSHES.assign(direction="out_of_plane")))
     assert "first loading" not in legend(ranked(CRUSHES))
     sheets = legend(ranked(CRUSHES.assign(lattice_kind="gyroid")))
-    assert "Sheets: of walls as drawn, at their first loading" in sheets
+    assert "of sheets are of walls as drawn, at their first loading" in sheets
     assert "long the cells" not in sheets
 
 

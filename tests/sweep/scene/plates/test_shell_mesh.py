@@ -110,7 +110,7 @@ def test_both_platens_bear_the_same_force(made):
             lattice=dict(
                 kind="gyroid", depth=PITCH, cell_size=PITCH, nodes_per_wall=2, wall_thickness=T
             ),
-            material=dict(of.material.given()),
+            material=dict(of.material.inputs()),
             loading=dict(strain=0.1, direction="out_of_plane", unload=False),
             solver=dict(load_steps=4),
         )

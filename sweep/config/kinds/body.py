@@ -8,17 +8,18 @@ from sweep.config.kinds.specimen import ENDLESS, TIED
 from sweep.config.structures.structure import Structure
 
 
-class Pressed(NamedTuple):
+class Body(NamedTuple):
     """What a loading presses: its height (m), whether along the cells; the structure of a file with
-    loads; whether it is endless, whether its sides are tied to each other; its width (m); the name
-    of a sheet; the diagonal of its drawing (m) and the volume of its box (m^3).
+    loads; whether it is endless, whether its sides are tied to each other; its width (m); what
+    makes its walls a sheet, as a clause; the diagonal of its drawing (m), the volume of its box
+    (m^3).
     """
 
     height: float
     along: bool
     structure: Structure | None = None
     endless: bool = False
-    tied: bool = False
+    tied_sides: bool = False
     width: float = inf
     sheet: str = ""
     diagonal: float = 1.0
@@ -32,14 +33,14 @@ class Pressed(NamedTuple):
     @property
     def where(self) -> str:
         """Why they are, as part of a sentence."""
-        return f'if lattice.kind is "{self.sheet}"' if self.sheet else WHERE
+        return f"if {self.sheet}" if self.sheet else WHERE
 
     @property
     def unending(self) -> str:
         """Why there is no middle of the lattice to strike; nothing if there is one."""
         if self.sheet:
             return self.where
-        return ENDLESS if self.endless else TIED if self.tied else ""
+        return ENDLESS if self.endless else TIED if self.tied_sides else ""
 
     def compliance(self, modulus: float) -> float:
         """Compliance (m/N) of a solid block of a modulus (Pa): c = h^2 / (Y V)."""
