@@ -67,6 +67,7 @@ def _needed(key: str, why: str, case: Case) -> str:
     shells = case.shells and table != "lattice" and why == _why_shells(case)
     if isinstance(own, (*kinds, OfFile)) or shells or (case.lattice.sheet and name in SIDES):
         return ""
+    kinds = [kind for kind in kinds if name not in kind.derived]
     words = [word for kind in kinds for word in _words(table, kind)]
     slicer = [kind for kind in kinds if table == "lattice" and "slicer" in kind.model_fields]
     needed = [f"{table}.{CHOICE[table]} = {one_of(dict.fromkeys(words))}"] if words else []

@@ -185,8 +185,8 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
 
 
 def until(ranking: Ranking) -> str:
-    """Up to which force energy is counted, on a line of its own; "" without an allowed force."""
-    return f"\n{ranking.until}" if ranking.limited else ""
+    """Up to which point energy is counted, on a line of its own."""
+    return f"\n{ranking.until}"
 
 
 def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:

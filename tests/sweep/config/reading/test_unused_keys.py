@@ -151,6 +151,12 @@ def test_what_the_infill_does_not_use_is_refused(refused, text, key, why):
     assert refused(f"[lattice]\n{text}", f"lattice.{key}", "has no effect", why)
 
 
+def test_a_kind_whose_key_follows_from_others_is_not_needed(lines):
+    """Cells of a slicer follow from its share."""
+    (line,) = lines('[lattice]\nkind = "gyroid"\ncells_x = 3')
+    assert line.endswith('"square" or "triangle"')
+
+
 def test_all_idle_keys_are_told_at_once_and_after_a_misspelt_one_none(load):
     text = PRESSED + '[damping]\nmass = "5 1/s"\n[solver]\ntime_step = "1 ms"\n'
     with pytest.raises(ConfigError, match=r"(?s)damping\.mass.*\n.*time_step.*quasi-static"):

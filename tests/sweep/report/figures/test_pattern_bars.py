@@ -20,6 +20,7 @@ def test_several_patterns_are_drawn_side_by_side(tmp_path):
     labels = [label.get_text() for label in ax.get_yticklabels()]
     assert labels == ["square", "hex, orientation flat"]
     assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]
+    assert ax.get_xlabel() == "energy absorbed\nuntil densification, J/g"
 
 
 @pytest.mark.parametrize("aspect", [1.0, 2.5, 8.0])
