@@ -464,12 +464,12 @@ RANKING_COLUMNS: dict[str, Column] = {
     "panel_specimens": Column("1", "number of specimens, or of periods, that fill the panel"),
     "panel_force_N": Column(
         "N",
-        "greatest force of all specimens of the panel together while the counted energy is "
+        "greatest force of all specimens of the panel together while the usable energy is "
         "absorbed; in an impact, on the support",
         "less",
     ),
-    "passed_on_N": Column("N", "greatest force while the counted energy is absorbed", "less"),
-    "counted_stroke_m": Column("m", "stroke in which the counted energy is absorbed", "less"),
+    "passed_on_N": Column("N", "greatest force while the usable energy is absorbed", "less"),
+    "counted_stroke_m": Column("m", "stroke in which the usable energy is absorbed", "less"),
     "absorbed_energy_at_allowed_J": Column(
         "J", "work done until the allowed force of the panel is exceeded", "more"
     ),

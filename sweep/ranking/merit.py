@@ -1,4 +1,4 @@
-"""The merit of a design: its counted energy, in all, per gram, and for a panel of specimens.
+"""The merit of a design: its usable energy, in all, per gram, and for a panel of specimens.
 
 Energy is counted until densification, or until the force exceeds the allowed force. A
 packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
@@ -209,7 +209,7 @@ def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
 def _counted(
     finished: DataFrame, question: Question, count: Series | None
 ) -> tuple[str, Series, str]:
-    """The column of the counted energy, the greatest force meanwhile (N), and `Compared.until`.
+    """The column of the usable energy, the greatest force meanwhile (N), and `Compared.until`.
 
     count: specimens of a panel, if there is one.
     """
@@ -246,7 +246,7 @@ def _counted_of_panel(
 
 
 def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
-    """Stroke (m) in which the counted energy of a crush is absorbed; elsewhere, the greatest.
+    """Stroke (m) in which the usable energy of a crush is absorbed; elsewhere, the greatest.
 
     NaN in a crush up to an allowed force, unless `curves` has added it.
     """
@@ -262,7 +262,7 @@ def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
 
 
 def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) -> Series:
-    """True for crushes that absorb more than the counted energy if they are longer: they ended
+    """True for crushes that absorb more than the usable energy if they are longer: they ended
     before the allowed force was exceeded, or before densification.
     """
     crushed = has(finished, "driven")

@@ -124,12 +124,12 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, in
         parts if they are periods, and the true lengths of that panel.
     panel_mass_g, panel_energy_J, panel_force_N : of these together.
-    passed_on_N, counted_stroke_m : greatest force while the counted energy is absorbed, and the
+    passed_on_N, counted_stroke_m : greatest force while the usable energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
     ends_early : True if a crush ended before the allowed force was exceeded or before the lattice
-        had packed: in a longer one it absorbs more than the counted energy.
-    beyond_model : True if an element is too short or a wall breaks while the counted energy is
+        had packed: in a longer one it absorbs more than the usable energy.
+    beyond_model : True if an element is too short or a wall breaks while the usable energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
     coarse : True if the time integrator took a large part of the energy of an impact or dead load.

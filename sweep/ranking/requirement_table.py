@@ -54,7 +54,7 @@ MEASURES = {
         noun="force",
         none="None transmits less than {}; the least is {}",
         example="60 N",
-        about="required, while the counted energy is absorbed",
+        about="required, while the usable energy is absorbed",
     ),
     "max_deceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
@@ -98,7 +98,7 @@ MEASURES = {
         *("J", "J", "ENERGY"),
         shared=True,
         asked_of=asked_of("min_absorbed"),
-        noun="counted energy",
+        noun="usable energy",
         none="None absorbs as much as {}; the most is {}",
         example="1.5 J",
         least=True,

@@ -152,8 +152,8 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
         return
     mean, end = energy / (strain * row["height_m"]), tenths(strain)
     densified = np.isfinite(row["densification_strain"])
-    until = f"counted until densification\nat {end} %:"
-    at = until if densified else f"no densification; counted to {end} %:"
+    until = f"usable until densification\nat {end} %:"
+    at = until if densified else f"no densification; usable to {end} %:"
     stairs = [0.0, *[in_unit(strain, "%")] * 2], [mean, mean, 0.0]
     label = f"{at} {_energy(energy, row)},\nmean force {three_digits(mean)} N"
     ax.plot(*stairs, color="black", lw=1.0, ls=":", label=label)

@@ -429,7 +429,7 @@ function columns() {
     const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
     const unit = energyUnit(most);
     const more = (row) => (row.early ? "> " : "");
-    found.push(number(`${asked.panel ? "panel" : "counted"} ${unit}`, (row) => more(row) + digits(inUnits(row.energy, unit)), (row) => row.energy));
+    found.push(number(`${asked.panel ? "panel" : "usable"} ${unit}`, (row) => more(row) + digits(inUnits(row.energy, unit)), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
     if (crushed()) {
       found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));

@@ -101,7 +101,7 @@ backward Euler mostly too small. solver.integrator "bdf2" with a step_error of "
 def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     table, of = ranking.table, of_one(ranking.table)
-    noun, lines = "panel" if "panel_mass_g" in table else "counted", []
+    noun, lines = "panel" if "panel_mass_g" in table else "usable", []
     for mode in (MODES[name] for name in sorted(table["loading_mode"].unique())):
         counted = [CRUSHED.format(noun=noun, until=ranking.until, of=of)] if mode.driven else []
         whole = mode.notes and not (mode.driven and ranking.limited)

@@ -122,7 +122,7 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         "case": rows["case_id"].str[:8] + marks(rows),
         **design_text(rows, summary),
         "mass g" if "panel_mass_g" not in rows else "panel g": numerals(rows[ranking.mass]),
-        f"{'panel' if 'panel_mass_g' in rows else 'counted'} J": numerals(rows[ranking.energy]),
+        f"{'panel' if 'panel_mass_g' in rows else 'usable'} J": numerals(rows[ranking.energy]),
         "peak N": numerals(rows["passed_on_N"]),
         **panel_column(rows),
         "stroke mm": numerals(in_unit(rows["counted_stroke_m"], "mm")),

@@ -241,7 +241,7 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
 
 
 def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "counted"
+    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "usable"
     unit = "mJ" if energy.max() < 1.0 else "J"
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})

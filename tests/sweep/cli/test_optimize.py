@@ -149,7 +149,7 @@ def test_requirements_are_those_of_the_config_or_of_options(capsys, config):
     assert "--max-mass '20 g'" in out
     command = shlex.split(out.splitlines()[-1].partition("; to rank them: crumple ")[2])
     _, told, _ = crumple(capsys, *command)
-    assert "mass at most 20 g, counted energy at least 500 mJ." in told
+    assert "mass at most 20 g, usable energy at least 500 mJ." in told
 
 
 def test_that_none_fulfils_is_told_with_the_nearest(capsys, config):

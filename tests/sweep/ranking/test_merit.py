@@ -84,7 +84,7 @@ def test_energy_counts_up_to_the_allowed_force():
 
     assert list(ranking.table["passed_on_N"]) == [20.0, 20.0]
     (sheet,) = ranking_sheets(ranking, table)
-    assert sheet.heads == ["#", "mass g", "counted mJ", "J/g", "peak N"]
+    assert sheet.heads == ["#", "mass g", "usable mJ", "J/g", "peak N"]
     assert not {"dens.", "returned"} & {
         line.partition(":")[0] for line in legend(ranking).splitlines()
     }

@@ -90,14 +90,14 @@ def test_the_area_below_the_mean_force_is_the_energy_until_packed(row):
     dotted = next(line for line in ax.get_lines() if line.get_linestyle() == ":")
     assert dotted.get_xdata()[-1] == pytest.approx(30.0)
     assert dotted.get_ydata()[0] == pytest.approx(0.066 / (0.3 * HEIGHT))
-    counted = "counted until densification\nat 30 %: 66.0 mJ, 0.0660 J/g,\nmean force 22.0 N"
+    counted = "usable until densification\nat 30 %: 66.0 mJ, 0.0660 J/g,\nmean force 22.0 N"
     assert labels(ax)[-1] == counted
 
 
 def test_what_has_not_packed_is_told(row):
     never = row | {"densification_strain": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), never)
-    counted = "no densification; counted to 30 %: 66.0 mJ, 0.0660 J/g,\nmean force 22.0 N"
+    counted = "no densification; usable to 30 %: 66.0 mJ, 0.0660 J/g,\nmean force 22.0 N"
     assert labels(ax)[-1] == counted
     older = row | {"packing_strain": np.nan, "absorbed_energy_until_packed_J": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), older)

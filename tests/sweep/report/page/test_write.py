@@ -108,7 +108,7 @@ def test_tables_are_readable_without_scripts(tmp_path):
 def test_tables_have_only_what_is_required(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
     read = Reader(tables(table, Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})))
-    assert "counted energy at least 200 mJ" in read.text["p"]
+    assert "usable energy at least 200 mJ" in read.text["p"]
     assert "1 of 3 designs fulfil this" in " ".join(read.text["p"].split())
     assert [tag for tag, _ in read.elements].count("tr") == 2
 

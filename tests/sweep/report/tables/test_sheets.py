@@ -53,7 +53,7 @@ def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
     given = {"absorbed_energy_at_50N_J": 0.2, "loading.allowed_forces": 50.0}
     table = summary(CRUSHED_SOLID | given, SPARSE | given)
     (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
-    energy = sheet.heads.index("counted mJ")
+    energy = sheet.heads.index("usable mJ")
     assert sorted(row[energy] for row in sheet.rows) == ["200", "> 200"]
     assert EARLY in legend(ranked(table, allowed_force=50.0))
     (sheet,) = ranking_sheets(ranked(table), table)
