@@ -6,6 +6,7 @@ alone see that.
 """
 
 from collections.abc import Mapping
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,9 @@ from kernels.solve import outcomes
 from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import Arcs
-from sweep.numbers import percent, with_unit
+from sweep.numbers import percent, short, with_unit
 from sweep.result import Status
 from sweep.simulation.time_resolution import resolving_step
 
@@ -133,6 +135,17 @@ def momentum_unresolved(case: Case, share: float) -> Failure:
     """The support has not borne the momentum of an impact, as rows are too far apart."""
     what = "the steps are too long for the contact: the impulse on the support differs from the"
     return Status.UNRESOLVED, f"{what} momentum of the impact by {percent(share)} %; {_finer(case)}"
+
+
+def faster_than_sound(case: Case) -> str:
+    """Why an impact fails whose striker is faster than c = (modulus / density)^(1/2); empty if it
+    is slower. Its wave front strains walls of linear law by v / c.
+    """
+    if not isinstance(case.loading, Impact):
+        return ""
+    ratio = case.loading.striker_speed / sqrt(case.material.modulus / case.material.density)
+    what = f"the striker moves at {short(ratio)} times the speed of sound in the walls"
+    return f"; {what}: its wave front would press them to no length" if ratio > 1.0 else ""
 
 
 def _finer(case: Case) -> str:

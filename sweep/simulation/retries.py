@@ -22,6 +22,7 @@ from sweep.config.kinds.solver import MAX_STEPS, TIME_STEP, Arcs, InTime
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status
+from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import EXPIRED, simulate
 from sweep.simulation.time_resolution import resolving_step
 
@@ -99,6 +100,8 @@ def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:
         what, _, advice = message.partition("; try ")
         repeats = any(words.split(" = ")[0] in advice for words in tried)
         message = f"{what if repeats else message} (tried without success: {'; '.join(tried)})"
+    if best.status is not Status.CONVERGED:
+        message += faster_than_sound(case)
     own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
     return replace(best, case=case, message=message, summary={**best.summary, **own})
 
