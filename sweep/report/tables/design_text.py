@@ -40,6 +40,8 @@ SHOWN_BY_NAME = {
     "material.name",
 }
 """Grid keys whose values are in a fixed column of the summary."""
+PLAIN = {"grading": "1", "perimeters": "0"}
+"""Values that change nothing, by their heads: texts leave them out, tables have them."""
 
 
 def named_case(row: DataFrame, among: DataFrame) -> str:
@@ -125,10 +127,15 @@ def describe_case(row: Series, among: DataFrame) -> str:
 def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
     """The columns of `design_text` as one text per design: "cells 3 x 3, wall 0.8 mm, cheetah"."""
     columns = design_text(frame, among) or {"material": frame["material"].astype(str)}
-    return [
-        ", ".join(_with_noun(head, text) for head, text in zip(columns, texts, strict=True) if text)
-        for texts in zip(*columns.values(), strict=True)
-    ]
+    rows = (dict(zip(columns, texts, strict=True)) for texts in zip(*columns.values(), strict=True))
+    return [_label(row) for row in rows]
+
+
+def _label(texts: dict[str, str]) -> str:
+    """A design in words, from its texts by their heads."""
+    shown = {head: text for head, text in texts.items() if text}
+    telling = {head: text for head, text in shown.items() if PLAIN.get(head) != text}
+    return ", ".join(_with_noun(head, text) for head, text in (telling or shown).items())
 
 
 def _with_noun(head: str, text: str) -> str:

@@ -36,6 +36,16 @@ def test_a_grid_key_that_does_not_vary_has_no_column():
     assert "loss %" not in sheet.heads
 
 
+def test_a_label_leaves_out_what_changes_nothing_if_the_rest_tells_the_design():
+    keys = ("lattice.grading", "lattice.perimeters", "wall_thickness_m")
+    rows = (1.0, 0, 4e-4), (2.0, 0, 5e-4), (1.0, 1, 6e-4)
+    table = summary(*(dict(zip(keys, row, strict=True)) for row in rows))
+    labels = ["wall 0.4 mm", "wall 0.5 mm, grading 2", "wall 0.6 mm, perimeters 1"]
+    assert design_labels(table, table) == labels
+    table = summary({"lattice.grading": 1.0}, {"lattice.grading": 2.0})
+    assert design_labels(table, table) == ["grading 1", "grading 2"]
+
+
 def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     table = summary({"infill_share": 0.2, "cells_x": 5}, {"infill_share": 0.3}, {"cells_x": 4})
     assert list(design_text(table, table)["infill %"]) == ["20", "30", ""]
