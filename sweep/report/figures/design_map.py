@@ -15,6 +15,7 @@ from sweep.numbers import in_unit
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.figures.design_style import (
+    WORDS,
     budget_winners,
     errors_of,
     looks,
@@ -61,7 +62,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
     for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = mode_of(rows).least
-        by_style = rows[::-1].groupby(["pareto", "lattice_kind", "material"])
+        by_style = rows[::-1].groupby(["pareto", *WORDS])
         for _, points in by_style:  # the best are drawn last, on top
             _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
         front = rows[rows["pareto"]].sort_values(mass)

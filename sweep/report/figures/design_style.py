@@ -1,9 +1,9 @@
 """Designs in charts: their style, their merit, and the winners of budgets.
 
-The same in every panel: colour = cells; sign = pattern, or material if there is only one pattern;
-size = wall thickness; open and dashed = doubtful. If patterns and materials vary, the colour
-stands for cells and material; if the direction varies, also for that. Where all of this follows
-from the pattern, as of cells of one size, the colour stands for the pattern too.
+The same in every panel: size = wall thickness; open and dashed = doubtful. Of several patterns the
+colour stands for what has most choices among pattern, material and direction, the sign for the next
+of them, or for the same if the others do not vary. Of one pattern the colour stands for the cells,
+and for the direction if that varies, the sign for the material.
 """
 
 from __future__ import annotations
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
 
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
+WORDS = {"lattice_kind": "pattern", "material": "material", "direction": "pressed"}
+HUES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#5a5a5a")
+"""Colours that a colour-blind reader tells apart (M. Okabe and K. Ito, 2008), and two more."""
 SIGNS = "o^sDvP*Xh<>pd"
 OF_FAMILY = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
 OF_FAMILY |= {"kagome": "*"}
@@ -44,9 +47,8 @@ class Looks(NamedTuple):
     """The style of all designs of a ranking.
 
     colors: values of the columns `tint` -> colour. signs: values of the column `sign` -> marker.
-    areas: wall thickness (m) -> area of a marker (points^2). tint: `cells_x`, `cells_y` and, if the
-    sign stands for the pattern, `material`; `direction` if that varies; the pattern alone if these
-    follow from it. doubtful: True if some designs are doubtful.
+    areas: wall thickness (m) -> area of a marker (points^2). doubtful: True if some designs are
+    doubtful.
     """
 
     tint: list[str]
@@ -57,7 +59,7 @@ class Looks(NamedTuple):
     doubtful: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
-        """Keywords of a scatter plot for designs of one pattern and material."""
+        """Keywords of a scatter plot for designs of one sign."""
         return {
             "c": [self.colors[values] for values in _rows(points, self.tint)],
             "s": points["wall_thickness_m"].map(self.areas).to_numpy(),
@@ -76,7 +78,7 @@ class Looks(NamedTuple):
         walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
         whose width is that of the walls.
         """
-        noun = "pattern" if self.sign == "lattice_kind" else self.sign
+        noun = WORDS[self.sign]
         signs: dict[str, dict[str, Any]] = {n: {"marker": s} for n, s in self.signs.items()}
         tints: dict[str, dict[str, dict[str, Any]]] = {}
         if self.tint == [self.sign]:
@@ -87,7 +89,7 @@ class Looks(NamedTuple):
             tints = {heading: {word: {"color": color} for word, color in colors}}
         groups: dict[str, dict[str, dict[str, Any]]] = {
             **tints,
-            noun: signs,
+            noun: {WAYS.get(name, name): look for name, look in signs.items()},
             "wall": {
                 text_in(t, "mm", 3): LINE | {"lw": self.width(t)} if lines else {"ms": area**0.5}
                 for t, area in self.areas.items()
@@ -107,28 +109,21 @@ class Looks(NamedTuple):
 
 def looks(designs: DataFrame) -> Looks:
     """The style of all designs of a ranking."""
-    patterned = len(designs["lattice_kind"].unique()) > 1
-    turned = len(designs["direction"].unique()) > 1
-    tint = ["cells_x", "cells_y", *(["material"] * patterned), *(["direction"] * turned)]
-    sign = "lattice_kind" if patterned else "material"
-    if patterned and not _vary_alone(designs, tint, sign):
-        tint = [sign]
+    choices = {name: designs[name].nunique() for name in WORDS}
+    varied = sorted((name for name in WORDS if choices[name] > 1), key=choices.__getitem__)[::-1]
+    tint, sign = ["cells_x", "cells_y", *(["direction"] * (choices["direction"] > 1))], "material"
+    if choices["lattice_kind"] > 1:
+        tint, sign = [*varied[:1], *varied[2:]], [*varied, *varied][1]
     values = sorted(set(_rows(designs, tint)))
     walls = sorted(designs["wall_thickness_m"].unique())
     return Looks(
         tint,
-        dict(zip(values, _ramp(len(values)), strict=True)),
+        dict(zip(values, _colors(tint, len(values)), strict=True)),
         sign,
         _signs(sorted(designs[sign].unique())),
         dict(zip(walls, np.linspace(*AREAS, len(walls)), strict=True)),
         bool(doubtful(designs).any()),
     )
-
-
-def _vary_alone(designs: DataFrame, tint: list[str], sign: str) -> bool:
-    """Whether the columns ``tint`` are the same for all designs, or vary among those of a sign."""
-    values = designs[[sign, *tint]].drop_duplicates()
-    return len(values[tint].drop_duplicates()) == 1 or bool(values[sign].duplicated().any())
 
 
 def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
@@ -147,11 +142,13 @@ def _signs(names: list[str]) -> dict[str, str]:
 def _tint_words(tint: list[str], values: list[tuple[Any, ...]]) -> tuple[str, list[str]]:
     """Heading and entries of the legend of colours, with only the values that vary."""
     columns = dict(zip(tint, zip(*values, strict=True), strict=True))
-    cells = [f"{x} x {y}" for x, y, *_ in values]
-    parts = {"cells": cells, "material": columns.get("material", ())}
-    parts["pressed"] = [WAYS[way] for way in columns.get("direction", ())]
-    shown = {name: words for name, words in parts.items() if len({*words}) > 1} or {"cells": cells}
-    return ", ".join(shown), [", ".join(words) for words in zip(*shown.values(), strict=True)]
+    parts = {WORDS[name]: [*columns[name]] for name in tint if name in WORDS}
+    if "cells_x" in columns:
+        pairs = zip(columns["cells_x"], columns["cells_y"], strict=True)
+        parts = {"cells": [f"{x} x {y}" for x, y in pairs]} | parts
+    shown = {name: words for name, words in parts.items() if len({*words}) > 1} or parts
+    rows = zip(*shown.values(), strict=True)
+    return ", ".join(shown), [", ".join(WAYS.get(word, word) for word in row) for row in rows]
 
 
 def _some(entries: dict[str, Any], count: int) -> dict[str, Any]:
@@ -249,6 +246,11 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
     count = int((places_by(ordered, name) == 1).sum())
     share = f" ± {tenths(error / abs(won[name].item()))} %"
     return f"{share}, a tie of {count}" if count > 1 else share
+
+
+def _colors(tint: list[str], count: int) -> list[str]:
+    """Colours that differ for words, or as few as that; from dark to light for numbers and many."""
+    return list(HUES[:count]) if tint[0] in WORDS and count <= len(HUES) else _ramp(count)
 
 
 def _ramp(count: int) -> list[str]:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas
 import pytest
 
 from sweep.ranking.rank import ranked
@@ -72,39 +73,36 @@ def test_materials_have_signs(table):
     assert len({*signs.values()}) == 2
 
 
-def test_patterns_have_signs_where_there_are_several(table):
+def test_patterns_have_colours_and_signs_where_there_are_several(table):
     kinds = table.assign(lattice_kind=["brick", "hex", "hex", "square"])
     look = looks(kinds)
-    assert entries(kinds)[4:8] == ["pattern", "brick", "hex", "square"]
+    assert (look.tint, look.sign) == (["lattice_kind"], "lattice_kind")
+    assert entries(kinds)[:4] == ["pattern", "brick", "hex", "square"]
     assert (look.signs["hex"], look.signs["square"]) == ("h", "s")
-    assert len({*look.signs.values()}) == 3
+    assert len({*look.signs.values()}) == len({*look.colors.values()}) == 3
     assert [look.of(kinds[k : k + 1])["marker"] for k in (1, 3)] == ["h", "s"]
-    assert look.colors.keys() == {(n, n, "ninjaflex") for n in (2, 3, 10)}
-    assert entries(kinds)[:4] == entries(table)[:4]
+    named = {entry["label"]: entry for entry in look.legend()}
+    assert (named["hex"]["color"], named["hex"]["marker"]) == (look.colors["hex",], "h")
+    assert "cells" not in named
 
 
-def test_of_several_patterns_colours_tell_the_material_too(table):
+def test_the_words_with_most_choices_have_colours_and_the_next_ones_signs(table):
     materials = ["cheetah", "ninjaflex", "ninjaflex", "cheetah"]
-    both = table.assign(lattice_kind=["hex", "square"] * 2, material=materials)
-    colours = ["2 x 2, cheetah", "2 x 2, ninjaflex", "3 x 3, ninjaflex", "10 x 10, cheetah"]
-    assert entries(both)[:5] == ["cells, material", *colours]
-    assert entries(both.assign(cells_x=3, cells_y=3))[:3] == ["material", "cheetah", "ninjaflex"]
+    both = table.assign(lattice_kind=["hex", "square", "kagome", "hex"], material=materials)
+    assert (looks(both).tint, looks(both).sign) == (["lattice_kind"], "material")
+    words = ["pattern", "hex", "kagome", "square", "material", "cheetah", "ninjaflex"]
+    assert entries(both)[:7] == words
+    more = both.assign(lattice_kind=["hex", "square"] * 2, material=["a", "b", "c", "a"])
+    assert (looks(more).tint, looks(more).sign) == (["material"], "lattice_kind")
+    ways = ["in_plane", "in_plane", "out_of_plane", "in_plane"]
+    turned = looks(both.assign(direction=ways))
+    assert turned.tint[0] == "lattice_kind"
+    assert {turned.tint[1], turned.sign} == {"material", "direction"}
 
 
-def test_where_cells_follow_from_the_pattern_colours_tell_the_pattern(table):
-    kinds = ["hex", "hex", "square", "square"]
-    one_size = table.assign(lattice_kind=kinds, cells_x=[16, 16, 17, 17], cells_y=3)
-    look = looks(one_size)
-    assert look.colors.keys() == {("hex",), ("square",)}
-    entries = {entry["label"]: entry for entry in look.legend()}
-    assert "cells" not in entries
-    for name in ("hex", "square"):
-        assert (entries[name]["color"], entries[name]["marker"]) == (
-            look.colors[name,],
-            look.signs[name],
-        )
-    other = looks(one_size.assign(cells_x=[16, 20, 17, 17]))
-    assert other.tint[:2] == ["cells_x", "cells_y"]
+def test_of_many_words_colours_are_a_ramp(table):
+    many = pandas.concat([table.iloc[:1]] * 12).assign(lattice_kind=[f"p{k}" for k in range(12)])
+    assert len({*looks(many).colors.values()}) == 12
 
 
 def test_colours_tell_the_direction_where_there_are_both(table):
