@@ -1,10 +1,11 @@
-"""Charts of a sweep, in colours of viridis: merit over mass (absorption.png, sink.png,
+"""Charts of a sweep: merit over mass (absorption.png, sink.png,
 passed_on.png) and over the wall thickness (wall_thickness.png).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import inf
 from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from sweep.modes import mode_of
 from sweep.numbers import in_unit
+from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.figures.design_style import (
@@ -27,6 +29,7 @@ from sweep.report.tables.requirement_notes import titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.collections import PathCollection
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
 
@@ -34,6 +37,8 @@ if TYPE_CHECKING:
 
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
+HEAVY = (*[int(GREY[1:3], 16) / 255.0] * 3, 1.0)  # of what is above all budgets: `GREY`
+PALE = 0.45  # of the colour of a design that is not on the Pareto front
 VARIANT = [
     "lattice_kind",
     "cells_x",
@@ -53,18 +58,20 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
     load, or force on the support under a striker, with its error bar. The stairs are the Pareto
-    front, the best merit up to every mass; its designs are drawn on top. The winner of a budget is
-    the last design of the front within it.
+    front, the best merit up to every mass; its designs are drawn on top, others pale, and grey if
+    they are heavier than all budgets. The winner of a budget is the last design of the front within
+    it.
     """
     designs, mass, energy = ranking.table, ranking.mass, ranking.energy
     noun = "panel" if mass == "panel_mass_g" else "part"
-    look = looks(designs)
+    look, most = looks(designs), greatest_mass(max(ranking.budgets_g, default=inf))
     for ax, rows in scene_axes(fig, designs.round({mass: 9})):  # without round-off
         merit, error = merits(rows, energy), merit_errors(rows, energy)
         least = mode_of(rows).least
         by_style = rows[::-1].groupby(["pareto", *WORDS])
         for _, points in by_style:  # the best are drawn last, on top
-            _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+            dots = _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
+            _fade(dots, (points[mass] > most).to_numpy(), bool(points["pareto"].iloc[0]))
         front = rows[rows["pareto"]].sort_values(mass)
         stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
         _line(ax, front[mass], merit.loc[front.index], stairs, front)
@@ -138,13 +145,30 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
         ax.plot(x, y, zorder=1, ls="--", **style)
 
 
-def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one pattern and material as dots; open if doubtful."""
+def _dots(
+    ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame
+) -> PathCollection:
+    """Designs of one sign as dots; open if doubtful."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, WHITE, colors)
     dots.set(edgecolor=colors, facecolor=faces)
+    return dots
+
+
+def _fade(dots: PathCollection, heavy: np.ndarray, best: bool) -> None:
+    """Draw ``heavy`` dots (n,) grey, and all pale unless they are the best."""
+    share = 1.0 if best else PALE
+    for paint, drawn in (
+        (dots.set_edgecolor, dots.get_edgecolor()),
+        (dots.set_facecolor, dots.get_facecolor()),
+    ):
+        colors: Any = np.asarray(drawn)
+        white = (colors == WHITE).all(axis=1)
+        colors = np.where((heavy & ~white)[:, None], HEAVY, colors)
+        colors[:, :3] = share * colors[:, :3] + (1.0 - share)
+        paint(colors)
 
 
 def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:

@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_hex, to_rgb
 
 from sweep.ranking.rank import ranked
-from sweep.report.figures.case_plots import TICKS, blank, round_ticks
-from sweep.report.figures.design_map import design_map, has_trends, thickness_trends
+from sweep.report.figures.case_plots import GREY, TICKS, blank, round_ticks
+from sweep.report.figures.design_map import PALE, design_map, has_trends, thickness_trends
+from sweep.report.figures.design_style import looks
 from sweep.report.figures.pattern_bars import pattern_bars
 from tests.support.results.specimens import designs, summary
 
@@ -112,6 +114,23 @@ def test_designs_beyond_the_model_are_open(ranking):
     for dots in figure.axes[0].collections[:2]:
         is_open = (dots.get_facecolor() == 1.0).all(axis=1)
         np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
+
+
+def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking):
+    figure = blank(8, 4)
+    design_map(figure, replace(ranking, budgets_g=(2.5,)))
+    colors = {}
+    for dots in figure.axes[0].collections[:2]:
+        at, faces = dots.get_offsets()[:, 0], dots.get_facecolor()
+        colors |= {x: to_hex(face) for x, face in zip(at, faces, strict=True)}
+    look = looks(ranking.table)
+    (own,) = look.colors.values()
+    assert colors[1.0] == colors[2.0] == own  # of the front
+    pale = PALE * np.array(to_rgb(GREY)) + (1.0 - PALE)
+    assert colors[3.0] == to_hex(pale)
+    design_map(figure := blank(8, 4), ranking)
+    dots = figure.axes[0].collections[0]
+    assert to_hex(dots.get_facecolor()[0]) == to_hex(PALE * np.array(to_rgb(own)) + (1.0 - PALE))
 
 
 def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
