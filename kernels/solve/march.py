@@ -44,6 +44,8 @@ SMALLEST_SHARE = 2.0**-24  # share of a step
 DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
 MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than `Stage.fall`
+MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: one
+# that takes more goes on in very short shares, and may snap into another shape than longer steps
 LONGEST = 4  # rows that a static step may span
 SHORTEST = 0.125  # of a row: first step where steps may span rows, as it has no friction yet
 REJECTED_ERROR = 4.0  # of the allowed error: a step that spans rows is accepted below it
@@ -406,6 +408,8 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
     Return (outcome, rows completed).
     """
     while progress.row < stage.steps:
+        if not stage.dynamic and progress.row_iterations > MOST_OF_ROW * tolerance.iterations:
+            return ITERATIONS, progress.row
         if progress.corrections == NOT_STARTED:
             if not problem.covers(state.x, 0.0):  # after a rejected share
                 descent.travel_bound = 0.0
