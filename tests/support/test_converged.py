@@ -29,7 +29,7 @@ def test_what_stops_ends_a_study(tmp_path):
     with pytest.raises(SystemExit, match=named):
         converged(STOPPED)
     file = tmp_path / "some.h5"
-    with pytest.raises(SystemExit, match=rf"^case {STOPPED.case_id}.*: stopped while unloading"):
+    with pytest.raises(SystemExit, match=rf"^case {STOPPED.case_id}.*: stopped while loading"):
         swept([PRESSED, STOPPED], file)
     assert len(read_summary(file)) == 2
     assert list(swept([PRESSED], file)["case_id"]) == [PRESSED.case_id]
