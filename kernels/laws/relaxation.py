@@ -31,8 +31,8 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact, jit_owning
 
-# Places in a state: the last three before the branches are the elastic law's at the strain; from
-# BRANCHES on all s_i, then all e_i. A tangent of zero: of a point that was never strained.
+# Places in a state. ENERGY, STRESS and TANGENT are the response of the elastic law at STRAIN; from
+# BRANCHES on there are all s_i, then all e_i. TANGENT is zero if the point was never strained.
 STRAIN, STORED, MOST, ENERGY, STRESS, TANGENT, BRANCHES = range(7)
 SMALL = 1e-2  # of dt / tau: below it `_square` is a series
 NEAR = 1e-4  # difference of two strains between which a curve is straight: its energy is then

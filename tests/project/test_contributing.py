@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
-
 from tests.project.test_architecture import FLOORS
 
 ROOT = Path(__file__).parents[2]
@@ -47,31 +45,3 @@ def test_every_kind_of_addition_is_told():
     assert len(re.findall(r"^## Add ", TEXT, re.MULTILINE)) == 15
     assert len(PATHS) > 40
     assert len(NAMES) > 20
-
-
-SHORTEST = re.findall(r"`([\w/]+\.py)`(?:,| is) the shortest", TEXT)
-PEERS = {
-    "diamond.py": r"^def draw\(",
-    "custom_structure.py": r"^class \w+\((Specimen|WallLattice|Surface)\):",
-    "dead_load.py": r"^class \w+\((Struck|Directed)\):(?s:.)*^    def ramps\(",
-    "dxf.py": r"^def \w+\((?s:[^)]*)\) -> Lines:",
-    "spring.py": r"^class \w+\(NamedTuple\):(?s:.)*^def hessian\(",
-    "base_plots.py": r"^def \w+\(\s*(ax: Axes|figure: Figure)",
-}
-"""What the files have in common of which one is called the shortest."""
-
-
-@pytest.mark.parametrize("path", SHORTEST)
-def test_the_shortest_is_the_shortest(path):
-    peers = {
-        other.name: len(other.read_text("utf-8").splitlines())
-        for other in (ROOT / path).parent.glob("*.py")
-        if re.search(PEERS[Path(path).name], other.read_text("utf-8"), re.MULTILINE)
-    }
-    assert len(peers) > 1
-    assert min(peers, key=peers.__getitem__) == Path(path).name
-
-
-def test_every_shortest_file_is_found():
-    assert {Path(path).name for path in SHORTEST} == set(PEERS)
-    assert TEXT.count("shortest") == len(PEERS)

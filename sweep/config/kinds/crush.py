@@ -166,8 +166,8 @@ def _stroke_and_strain(inputs: Inputs, height: float) -> tuple[float, float]:
     stroke = inputs["stroke"]
     strain = inputs.get("strain", stroke / height)
     if stroke >= height:
-        body = "depth" if is_along(inputs) else "height"
-        allowed = f"below the {body} of the lattice, {height:g} m"
+        pressed = "depth" if is_along(inputs) else "height"
+        allowed = f"below the {pressed} of the lattice, {height:g} m"
         raise RefusedError("loading.stroke", stroke, allowed)
     if not isclose(stroke, strain * height, rel_tol=1e-9):
         allowed = f"{strain * height:g} m at the strain given; give one of them"

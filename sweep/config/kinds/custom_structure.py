@@ -132,8 +132,8 @@ class CustomStructure(Specimen):
 
 def _scaled(structure: Structure, thickness: float) -> Structure:
     """A structure whose walls are as thick on average as `thickness` (m)."""
-    lattice = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
-    if wrong := next(faults(lattice), None):
+    scaled = structure.with_thickness(float(f"{TO_MM * thickness:.15g}"))
+    if wrong := next(faults(scaled), None):
         allowed = f"one that fits the structure ({wrong})"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
-    return lattice
+    return scaled

@@ -91,7 +91,18 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         ax.set_ylabel(own or f"energy absorbed by the {noun}{until(ranking)}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
-    legend(fig, look.legend(barred=bool(merit_errors(designs, energy).notna().any())))
+    barred = bool(merit_errors(designs, energy).notna().any())
+    legend(fig, [*look.legend(barred=barred), *_marks(ranking)])
+
+
+def _marks(ranking: Ranking) -> list[dict[str, Any]]:
+    """Entries of the legend for what budgets and the Pareto front change in the look of designs."""
+    ring = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "mew": 1.4}
+    front = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
+    if not ranking.budgets_g:
+        return [front, ring | {"label": "best"}]
+    heavy = {**ring, "ms": 6.0, "mfc": GREY, "mec": GREY, "label": "above all budgets"}
+    return [front, ring | {"label": "best within a budget"}, heavy]
 
 
 def thickness_trends(fig: Figure, ranking: Ranking) -> None:

@@ -182,7 +182,7 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
 
 
 def until(ranking: Ranking) -> str:
-    """Up to which point energy is counted, on a line of its own."""
+    """Where the usable energy ends, on a line of its own."""
     return f"\n{ranking.until}"
 
 

@@ -95,7 +95,7 @@ all others."""
 COARSE = """\
 i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact, or 30 %
 of the work of a dead load (integrator_share: how much). Forces and overshoot are uncertain, by
-backward Euler mostly too small. solver.integrator "bdf2" with a step_error of "1 um" errs less."""
+backward Euler mostly too small. Shorter steps err less (solver.step_error, or time_step)."""
 
 
 def legend(ranking: Ranking) -> str:
