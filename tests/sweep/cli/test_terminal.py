@@ -101,12 +101,12 @@ def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(tmp_p
     file = write(tmp_path / "trial.h5", summary(*(row | long for row in varied), {}))
     shown = {
         columns: started("rank", file, stdout=subprocess.PIPE, env=env).stdout
-        for columns, env in ((200, {"COLUMNS": "200"}), (None, {}), (81, {"COLUMNS": "81"}))
+        for columns, env in ((200, {"COLUMNS": "200"}), (None, {}), (80, {"COLUMNS": "80"}))
     }
     tables = {columns: text.split("\n\n")[1] for columns, text in shown.items()}
     assert "Hidden" not in tables[200] + tables[None]
-    assert "Hidden in this narrow terminal: dens. %, returned %. A wider" in tables[81]
-    assert max(map(len, tables[81].splitlines())) <= 81
+    assert "Hidden in this narrow terminal: dens. %, returned %. A wider" in tables[80]
+    assert max(map(len, tables[80].splitlines())) <= 80
     for table in tables.values():
         assert "…" not in table
         assert table.count("12345") == 2
