@@ -359,7 +359,7 @@ def _upright(lateral: Lateral, inputs: Inputs) -> str:
 def _no_prism(pattern: str, patterns: dict[str, str], inputs: Inputs) -> str:
     """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
     if lateral := LATERAL.get(bare(pattern)):
-        return f"; {pattern} is {_upright(lateral, inputs)}"
+        return f"; {pattern} of OrcaSlicer is {_upright(lateral, inputs)}"
     why, nearest = NO_PRISMS.get(bare(pattern), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""

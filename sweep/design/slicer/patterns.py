@@ -238,7 +238,7 @@ class Lateral(NamedTuple):
 
 
 LATTICE = Lateral("diamond", sqrt(0.5), 2.0)
-MEAN = ", the mean of upright walls and of inclined ones, which are half as thick"
+MEAN = " (a mean: upright walls are twice as thick as inclined ones)"
 HONEYCOMB = Lateral("hex", 2.0 / 3.0, 4.0 / 3.0, MEAN)
 LATERAL = {
     "laterallattice": LATTICE,

@@ -33,7 +33,7 @@ SHOWN = 30.0  # greatest / least value of an axis, seen from its interesting end
 BEST: dict[str, Any] = {"s": 34.0, "edgecolor": "white", "lw": 0.6, "zorder": 3}
 RING: dict[str, Any] = {"facecolor": "none", "zorder": 4}
 ENVELOPE: dict[str, Any] = {"color": "black", "lw": 1.0, "ls": ":"}
-MOST = {"marker": "", "label": "most below a stress"}
+MOST = {"marker": "", "label": "envelope: most energy"}
 
 
 def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Crush]) -> None:
@@ -158,4 +158,4 @@ def _rings(ax: Axes, x: Any, y: Any, style: dict[str, Any]) -> None:
 
 def _entry(words: str) -> dict[str, Any]:
     """An entry of the legend for what signs mark."""
-    return PLAIN | {"label": f"{words} at the sign", "marker": ""}
+    return PLAIN | {"label": f"sign: {words}", "marker": ""}
