@@ -20,7 +20,7 @@ def column(clamped, slenderness, share):
         "nodes_mm": [[0, 0], [LENGTH, 0]],
         "walls": [[0, 1]],
         "wall_thickness_mm": slenderness * LENGTH,
-        "supports": [{"node": node, "fix": fix} for node in (0, 1)],
+        "supports": _held((0, 1), fix, (1,), "x"),
     } | _moved([1], "x", displacement_mm=-share * LENGTH)
 
 
@@ -37,7 +37,7 @@ def cell(slenderness, share):
         "nodes_mm": corners.tolist(),
         "walls": [[0, 1], [1, 2], [2, 3], [3, 0]],
         "wall_thickness_mm": slenderness * LENGTH,
-        "supports": [{"node": node, "fix": HINGED} for node in range(4)],
+        "supports": _held(range(4), HINGED, (2, 3), "y"),
     } | _moved([2, 3], "y", displacement_mm=-share * LENGTH)
 
 
@@ -48,7 +48,7 @@ def on_corner(slenderness, share):
         "nodes_mm": [[0, 0], [half, half], [0, 2 * half], [-half, half]],
         "walls": [[0, 1], [1, 2], [2, 3], [3, 0]],
         "wall_thickness_mm": slenderness * LENGTH,
-        "supports": [{"node": node, "fix": CLAMPED} for node in (0, 2)],
+        "supports": _held((0, 2), CLAMPED, (2,), "y"),
     } | _moved([2], "y", displacement_mm=-share * 2 * half)
 
 
@@ -73,8 +73,16 @@ def _glued(lattice, thickness, share):
         "nodes_mm": points.tolist(),
         "walls": [wall for wall in network.walls.tolist() if not set(wall) <= held],
         "wall_thickness_mm": thickness,
-        "supports": [{"node": node, "fix": CLAMPED} for node in sorted(held)],
+        "supports": _held(sorted(held), CLAMPED, rows[1], "y"),
     } | _moved(rows[1], "y", displacement_mm=-share * np.ptp(points[:, 1]))
+
+
+def _held(nodes, fix, moved, direction):
+    """Supports of nodes, but for the ``direction`` in which some are moved."""
+    return [
+        {"node": node, "fix": [way for way in fix if node not in moved or way != direction]}
+        for node in nodes
+    ]
 
 
 def _moved(nodes, direction, **move):
