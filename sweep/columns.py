@@ -154,6 +154,12 @@ COLUMNS: dict[str, Column] = {
         "measure of the error of the time steps; NaN in statics",
         "less",
     ),
+    "path_error": Column(
+        "1",
+        "greatest local error of the time steps in the path of the top down under a dead load, or "
+        "solver.step_error, / the length of that path; NaN of other loadings",
+        "less",
+    ),
     "lost_energy_J": Column(
         "J",
         "absorbed energy - returned energy, if that is positive; of an impact, energy of the "
@@ -277,8 +283,8 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_force_N": Column(
         "N",
-        "greatest force on a platen or support, in an impact on the support; for dead loads it "
-        "depends on the time step",
+        "greatest force on a platen or support, in an impact on the support; NaN for a dead load "
+        "whose rows are too far apart in time for its peak",
         "less",
     ),
     "peak_force_at_densification_N": Column(
@@ -293,7 +299,7 @@ COLUMNS: dict[str, Column] = {
     "peak_base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, on ribs, of a lattice that repeats and of a custom structure",
+        "cells, on ribs, of a lattice that repeats and of a custom structure, and as peak_force_N",
         "less",
     ),
     "peak_base_pressure_x_m": Column(

@@ -59,10 +59,10 @@ class Mode(NamedTuple):
     travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the
     energy. probed: curves of probes, without platens and strain.
 
-    least: what is compared instead of energy. coarse: greatest `integrator_share` of a result that
-    is not marked; above it, errors of the compared column are common that exceed the differences
-    of similar designs (`sweep.simulation.time_resolution`); a crush may lose what snaps to the
-    integrator.
+    least: what is compared instead of energy. coarse: measure of the error of time steps, and its
+    greatest value of a result that is not marked; above it, errors of the compared column are
+    common that exceed the differences of similar designs (`sweep.simulation.time_resolution`); a
+    crush may lose what snaps to the integrator.
 
     In words: turn, the end of its loading; total, the sum of all energies; energy and path, what
     accuracy is measured of. notes: what columns of tables mean. picture: name of the chart of merit
@@ -81,7 +81,7 @@ class Mode(NamedTuple):
     struck: bool = False
     probed: bool = False
     least: Least | None = None
-    coarse: float = float("inf")
+    coarse: tuple[str, float] | None = None
     turn: str = "standstill"
     total: str = "work done"
     energy: str = "absorbed energy"
@@ -96,7 +96,9 @@ LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
 force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
 closed. rebound: energy of the striker, relative to the base, at rebound / at first contact."""
-DENSIFIED = "dens.: densification strain, at which energy / greatest force is greatest."
+DENSIFIED = """\
+dens.: densification strain, at which energy / greatest force is greatest: the mean of the strains
+at which it is nearly as great. Energy and peak until then are means over the same strains."""
 
 
 def _struck(row: Row) -> str:
@@ -145,7 +147,7 @@ MODES: Mapping[str, Mode] = {
             order="least force on the support",
             head="force N",
         ),
-        coarse=0.05,
+        coarse=("integrator_share", 0.05),
         total="brought by the striker",
         notes=(STRUCK,),
         picture="passed_on",
@@ -166,7 +168,7 @@ MODES: Mapping[str, Mode] = {
             order="least peak strain",
             head="strain %",
         ),
-        coarse=0.3,
+        coarse=("path_error", 0.005),
         turn="load removed",
         notes=(LOADED,),
         picture="sink",
@@ -200,9 +202,14 @@ def has(rows: DataFrame, trait: Literal["driven", "dead", "struck", "probed"]) -
     return rows["loading_mode"].isin([name for name, mode in MODES.items() if getattr(mode, trait)])
 
 
-def greatest_share(rows: DataFrame) -> Series:
-    """`Mode.coarse`, row by row."""
-    return rows["loading_mode"].map({name: mode.coarse for name, mode in MODES.items()})
+def is_coarse(rows: DataFrame) -> Series:
+    """Whether time steps are too long by `Mode.coarse`, row by row."""
+    coarse = rows["loading_mode"] == ""
+    for name, mode in MODES.items():
+        if mode.coarse is not None:
+            column, most = mode.coarse
+            coarse |= (rows["loading_mode"] == name) & (rows[column] > most)
+    return coarse
 
 
 def asked_of(requirement: str) -> tuple[str, ...]:

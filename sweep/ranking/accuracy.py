@@ -258,8 +258,12 @@ def energy(row: Series, history: DataFrame) -> float:
 
 
 def peak(row: Series, history: DataFrame) -> float:
-    """Greatest force (N); of a custom structure, the greatest reaction at a probe."""
+    """Greatest force (N), of a dead load also where its rows are too far apart to know it; of a
+    custom structure, the greatest reaction at a probe.
+    """
     if not MODES[row["loading_mode"]].probed:
+        if np.isnan(row["peak_force_N"]):
+            return float(history[["reaction_top_N", "reaction_bottom_N"]].max(axis=None))
         return float(row["peak_force_N"])
     across, along = (history.filter(regex=f"_reaction_{way}_N$").to_numpy() for way in "xy")
     return float(np.hypot(across, along).max()) if across.size else np.nan

@@ -23,7 +23,7 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
-from sweep.modes import greatest_share, has
+from sweep.modes import has, is_coarse
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import RankError, in_si
 from sweep.result import sides_of
@@ -84,7 +84,7 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "ends_early": _ends_early(finished, energy, force, limited),
         "beyond_model": (finished[energy] > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
-        "coarse": finished["integrator_share"] > greatest_share(finished),
+        "coarse": is_coarse(finished),
         "beyond_curve": finished["stretch_over_curve"] > 1.0,
     }
     for k, end in enumerate([] if limited else _ends(finished, energy)):

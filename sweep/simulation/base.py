@@ -10,6 +10,7 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
 from sweep.simulation.striker import rebound
+from sweep.simulation.time_resolution import peak_row
 
 OF_A_HIT = ("base_impulse_Ns", "target_speed_m_per_s", "peak_target_acceleration_m_per_s2")
 
@@ -23,10 +24,10 @@ def patch_width(case: Case) -> float:
 def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
     """The columns of the base: greatest pressure and its place, impulse, motion of the target."""
     loading, pressure = case.loading, history["base_pressure_Pa"]
-    row = 0 if np.isnan(pressure).any() else int(pressure.argmax())
+    row = None if np.isnan(pressure).any() else peak_row(loading, pressure)
     columns = {
-        "peak_base_pressure_Pa": float(pressure[row]),
-        "peak_base_pressure_x_m": float(history["base_pressure_x_m"][row]),
+        "peak_base_pressure_Pa": nan if row is None else float(pressure[row]),
+        "peak_base_pressure_x_m": nan if row is None else float(history["base_pressure_x_m"][row]),
         "indentation_m": float(history["top_displacement_m"].max()),
     } | dict.fromkeys(OF_A_HIT, nan)
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})

@@ -292,6 +292,8 @@ class _Run:
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
         if not self._balances(self.done):
+            if self._left(self.done) <= self.done * self.noise:
+                return self._failed(outcomes.UNRESOLVED, phase.name)
             self.curable = True
             return unbalanced(self.where())
         return Status.CONVERGED, ""
@@ -316,12 +318,15 @@ class _Run:
 
     def _balances(self, count: int) -> bool:
         """True if in ``count`` rows the residual of the energy book is below a share `GAP` of its
-        greatest entry.
+        greatest entry; round-off is no excuse.
         """
         rows = self.rows[:count]
-        left = np.abs(rows["residual"]).max()
         size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
-        return bool(left <= GAP * size + count * self.noise)
+        return self._left(count) <= GAP * size
+
+    def _left(self, count: int) -> float:
+        """Greatest residual of the energy book in ``count`` rows, J."""
+        return float(np.abs(self.rows["residual"][:count]).max())
 
     def _is_over(self) -> bool:
         """True if the striker is back where it started, or has stopped again under its weight.

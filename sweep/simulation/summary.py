@@ -47,7 +47,7 @@ from sweep.simulation.striker import (
     striker_curves,
     work_on_lattice,
 )
-from sweep.simulation.time_resolution import integrator_share
+from sweep.simulation.time_resolution import integrator_share, path_error, peak_row
 from sweep.simulation.until import absorbed_until
 
 BOOK = {
@@ -148,6 +148,8 @@ def summarise(
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
+    force = transmitted(case, history)
+    peak = peak_row(case.loading, force)
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
     return {
@@ -161,15 +163,16 @@ def summarise(
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
         "integrator_share": integrator_share(case.loading, history),
+        "path_error": path_error(case, history),
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
-        "peak_force_N": float(transmitted(case, history).max()),
+        "peak_force_N": np.nan if peak is None else float(force[peak]),
         "peak_strain": float(history["strain"].max()),
         "solid_joint_share": scene.solid_joint_share if case.solver.joints == "solid" else np.nan,
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
-        **columns_of_cycles(cycles, history["work_in_J"], transmitted(case, history)),
+        **columns_of_cycles(cycles, history["work_in_J"], force),
         **striker_columns(case, scene, history),
         **base_columns(case, history),
         **crush_columns(case, loading),
@@ -249,6 +252,8 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     if isinstance(case.loading, Crush):
         row, share, columns = packing_columns(case, loading)
     peak = np.maximum.accumulate(force)
+    if peak_row(case.loading, force) is None:
+        peak = np.full_like(force, np.nan)
     columns |= {
         "absorbed_energy_at_densification_J": float(work[row]),
         "absorbed_energy_until_packed_J": float(share @ work),

@@ -3,8 +3,12 @@
 Energy: what the integrator itself removes vanishes with its steps. Its share of the work done is a
 measure of the error of all integrators: in 13 impacts with 3 to 1000 steps each, below 5 % force
 and strain err by 3 % in the median, from 5 to 20 % by 2 to 15 %, above it by up to 98 %.
-Under a dead load the integrator damps the swing that follows the load: above 30 %, the greatest
-force errs by 10 to 80 %, the greatest strain by 2 to 16 %.
+
+A dead load excites waves in which the integrator may take much or little without an error of the
+greatest strain. That errs by the local errors of the path on which the top goes down, C h^(p+1)
+times its derivative of order p + 1 (Hairer, Norsett and Wanner, Solving Ordinary Differential
+Equations I, sections II.2 and III.2), relative to its length. The measurements are in
+docs/accuracy.md.
 
 A lattice without damping vibrates, and what the integrator takes from its vibrations is no error of
 the striker: with a share of 27 %, force and strain err by 1 % where 900 steps are one contact. So
@@ -23,6 +27,7 @@ from math import nan, sqrt
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime
@@ -32,6 +37,10 @@ from sweep.simulation.striker import closing_speed, kinetic
 Curves = Mapping[str, Floats]
 LARGEST = 0.2  # share of energy or momentum that an impact may lose to its steps
 LONG = 0.05  # share of the energy that steps of a striker may lose by backward Euler
+LOCAL = {"backward_euler": (1, 1 / 2), "newmark": (2, 1 / 12), "bdf2": (2, 2 / 9)}
+"""Order p and constant C of the local error of each integrator."""
+TYPICAL = 0.1  # of `step_error`: steps are lengthened where their error is smaller
+BESIDE = 0.9  # of a peak that is resolved: the greater force of the rows before and after it
 
 
 def integrator_share(loading: Loading, history: Curves) -> float:
@@ -40,6 +49,31 @@ def integrator_share(loading: Loading, history: Curves) -> float:
     if loading.quasi_static or work == 0.0:
         return nan
     return float(np.abs(history["dissipated_integrator_J"]).max()) / work
+
+
+def path_error(case: Case, history: Curves) -> float:
+    """Greatest local error of the path of the top under a dead load until its greatest strain /
+    the length of that path; NaN of other loadings and in statics.
+    """
+    loading, solver, strain = case.loading, case.solver, history["strain"]
+    turn = int(strain.argmax())
+    if not isinstance(loading, DeadLoad) or not isinstance(solver, InTime) or turn == 0:
+        return nan
+    if solver.step_error is not None:  # steps are shorter than rows
+        return TYPICAL * solver.step_error / (float(strain[turn]) * case.height)
+    order, constant = LOCAL[solver.integrator]
+    jumps = np.abs(np.diff(strain[: turn + 2], order + 1))
+    return constant * float(jumps.max(initial=0.0)) / float(strain[turn])
+
+
+def peak_row(loading: Loading, force: Floats) -> int | None:
+    """Row of the greatest of forces or pressures (rows,); None under a dead load if no row beside
+    it has nearly the same, so that the true peak may lie in between.
+    """
+    row = int(force.argmax())
+    beside = np.append(force[max(row - 1, 0) : row], force[row + 1 : row + 2])
+    alone = isinstance(loading, DeadLoad) and beside.max(initial=0.0) < BESIDE * force[row]
+    return None if alone else row
 
 
 def striker_share(history: Curves) -> float:

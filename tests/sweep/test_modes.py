@@ -6,7 +6,7 @@ from pandas import DataFrame
 from sweep.columns import COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case
 from sweep.config.kinds.loading import KINDS as LOADINGS
-from sweep.modes import MODES, asked_of, compared, greatest_share, has, mode_of
+from sweep.modes import MODES, asked_of, compared, has, is_coarse, mode_of
 from sweep.numbers import FACTORS
 from sweep.ranking.requirement_table import MEASURES
 from sweep.result import LOADED
@@ -50,7 +50,17 @@ def test_each_trait_row_by_row():
     for trait, row in expected.items():
         assert list(has(ROWS, trait)) == [k == row for k in range(4)]
     assert has(ROWS[:0], "driven").dtype == bool
-    assert list(greatest_share(ROWS)) == [float("inf"), 0.05, 0.3, float("inf")]
+
+
+@pytest.mark.parametrize("much", [False, True])
+def test_time_steps_are_long_by_the_measure_of_the_mode(much):
+    measured = dict.fromkeys(("integrator_share", "path_error"), 0.9)
+    for name, (column, most) in ((name, m.coarse) for name, m in MODES.items() if m.coarse):
+        rows = ROWS.assign(**measured | {column: most * (1.01 if much else 0.99)})
+        assert list(is_coarse(rows)[ROWS["loading_mode"] == name]) == [much]
+        assert not is_coarse(rows)[[0, 3]].any()
+    unknown = ROWS.assign(**dict.fromkeys(measured, float("nan")))
+    assert not is_coarse(unknown).any()
 
 
 def test_the_mode_of_a_scene_is_the_one_of_its_rows():

@@ -27,6 +27,7 @@ from sweep.modes import MODES
 from sweep.numbers import energy_text, in_unit, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
+    INTEGRATOR,
     PARTS,
     crushes,
     headline,
@@ -168,18 +169,22 @@ def _energy(joules: float, row: Mapping[str, Any]) -> str:
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     """The parts of the work done, stacked, in mJ: stored, kinetic, dissipated.
 
-    Over the path of a driven platen, down and back; otherwise over time.
+    Over the path of a driven platen, down and back; otherwise over time. What time integration has
+    gained is no part of the work: it is added to that.
     """
-    work = in_unit(history["work_in_J"], "mJ")
+    parts, mode = parts_of(history), MODES[row["loading_mode"]]
+    gain = in_unit(-history[INTEGRATOR].clip(upper=0.0), "mJ")
+    gains = INTEGRATOR in parts and bool(gain.any())
+    total = mode.total + (" + gained in time integration" if gains else "")
+    work = in_unit(history["work_in_J"], "mJ") + gain
     place, words = path_of(history, row)
     ax.set_xlabel(words)
     for at, words in turns(history, row).items():
         mark(ax, place[at], words, after=words.startswith("cycle"))
-    parts = parts_of(history)
     colors = [COLORS[name] for name in parts]
-    values = [in_unit(history[name], "mJ") for name in parts]
+    values = [in_unit(history[name].clip(lower=0.0), "mJ") for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
-    ax.plot(place, work, color="black", lw=1.4, label=MODES[row["loading_mode"]].total)
+    ax.plot(place, work, color="black", lw=1.4, label=total)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)

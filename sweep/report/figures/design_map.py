@@ -20,6 +20,7 @@ from sweep.report.figures.design_style import (
     WORDS,
     budget_winners,
     errors_of,
+    faded,
     looks,
     merit_errors,
     merits,
@@ -29,7 +30,6 @@ from sweep.report.tables.requirement_notes import titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import PathCollection
     from matplotlib.figure import Figure
     from pandas import DataFrame, Series
 
@@ -37,7 +37,9 @@ if TYPE_CHECKING:
 
 TITLE = 72  # letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
-HEAVY = (*[int(GREY[1:3], 16) / 255.0] * 3, 1.0)  # of what is above all budgets: `GREY`
+FRONT = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
+RING = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "label": "best"}
+HEAVY = {"ls": "", "marker": "o", "ms": 6.0, "color": GREY, "label": "above all budgets"}
 PALE = 0.45  # of the colour of a design that is not on the Pareto front
 VARIANT = [
     "lattice_kind",
@@ -70,8 +72,10 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         least = mode_of(rows).least
         by_style = rows[::-1].groupby(["pareto", *WORDS])
         for _, points in by_style:  # the best are drawn last, on top
-            dots = _dots(ax, points[mass], merit.loc[points.index], look.of(points), points)
-            _fade(dots, (points[mass] > most).to_numpy(), bool(points["pareto"].iloc[0]))
+            style, share = look.of(points), 1.0 if points["pareto"].iloc[0] else PALE
+            heavy = zip(style["c"], points[mass] > most, strict=True)
+            style["c"] = [faded(GREY if above else color, share) for color, above in heavy]
+            _dots(ax, points[mass], merit.loc[points.index], style, points)
         front = rows[rows["pareto"]].sort_values(mass)
         stairs: dict[str, Any] = {"color": "black", "lw": 0.9, "drawstyle": "steps-post"}
         _line(ax, front[mass], merit.loc[front.index], stairs, front)
@@ -92,17 +96,8 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     barred = bool(merit_errors(designs, energy).notna().any())
-    legend(fig, [*look.legend(barred=barred), *_marks(ranking)])
-
-
-def _marks(ranking: Ranking) -> list[dict[str, Any]]:
-    """Entries of the legend for what budgets and the Pareto front change in the look of designs."""
-    ring = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "mew": 1.4}
-    front = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
-    if not ranking.budgets_g:
-        return [front, ring | {"label": "best"}]
-    heavy = {**ring, "ms": 6.0, "mfc": GREY, "mec": GREY, "label": "above all budgets"}
-    return [front, ring | {"label": "best within a budget"}, heavy]
+    entries = [*look.legend(barred=barred), FRONT, RING]
+    legend(fig, entries + [HEAVY] * bool((designs[mass] > most).any()))
 
 
 def thickness_trends(fig: Figure, ranking: Ranking) -> None:
@@ -156,30 +151,13 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
         ax.plot(x, y, zorder=1, ls="--", **style)
 
 
-def _dots(
-    ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame
-) -> PathCollection:
+def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
     """Designs of one sign as dots; open if doubtful."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, WHITE, colors)
     dots.set(edgecolor=colors, facecolor=faces)
-    return dots
-
-
-def _fade(dots: PathCollection, heavy: np.ndarray, best: bool) -> None:
-    """Draw ``heavy`` dots (n,) grey, and all pale unless they are the best."""
-    share = 1.0 if best else PALE
-    for paint, drawn in (
-        (dots.set_edgecolor, dots.get_edgecolor()),
-        (dots.set_facecolor, dots.get_facecolor()),
-    ):
-        colors: Any = np.asarray(drawn)
-        white = (colors == WHITE).all(axis=1)
-        colors = np.where((heavy & ~white)[:, None], HEAVY, colors)
-        colors[:, :3] = share * colors[:, :3] + (1.0 - share)
-        paint(colors)
 
 
 def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:

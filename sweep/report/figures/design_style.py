@@ -253,6 +253,12 @@ def _colors(tint: list[str], count: int) -> list[str]:
     return list(HUES[:count]) if tint[0] in WORDS and count <= len(HUES) else _ramp(count)
 
 
+def faded(color: str, share: float) -> str:
+    """A colour mixed with white, of which it keeps a ``share``."""
+    channels = (int(color[at : at + 2], 16) for at in (1, 3, 5))
+    return "#" + "".join(f"{round(share * c + (1.0 - share) * 255.0):02x}" for c in channels)
+
+
 def _ramp(count: int) -> list[str]:
     """Evenly spaced colours from dark to light."""
     at = np.linspace(0.0, len(RAMP) - 1.0, count)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from pandas import Series
 
+INTEGRATOR = "dissipated_integrator_J"
 PARTS = {
     "stretch_J": "stretching",
     "bend_J": "bending",
@@ -26,7 +27,7 @@ PARTS = {
     "kinetic_J": "motion",
     "dissipated_material_J": "lost in the material",
     "dissipated_friction_J": "lost to friction",
-    "dissipated_integrator_J": "lost in time integration",
+    INTEGRATOR: "lost in time integration",
 }
 """Columns of a history that add up to the work done, in words."""
 

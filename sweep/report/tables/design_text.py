@@ -40,7 +40,7 @@ SHOWN_BY_NAME = {
     "material.name",
 }
 """Grid keys whose values are in a fixed column of the summary."""
-PLAIN = {"grading": "1", "perimeters": "0"}
+NEUTRAL = {"grading": "1", "perimeters": "0"}
 """Values that change nothing, by their heads: texts leave them out, tables have them."""
 
 
@@ -134,7 +134,7 @@ def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:
 def _label(texts: dict[str, str]) -> str:
     """A design in words, from its texts by their heads."""
     shown = {head: text for head, text in texts.items() if text}
-    telling = {head: text for head, text in shown.items() if PLAIN.get(head) != text}
+    telling = {head: text for head, text in shown.items() if NEUTRAL.get(head) != text}
     return ", ".join(_with_noun(head, text) for head, text in (telling or shown).items())
 
 

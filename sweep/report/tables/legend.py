@@ -93,9 +93,10 @@ x: walls cross one another, as no contact stops them. Do not trust this result; 
 all others."""
 
 COARSE = """\
-i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact, or 30 %
-of the work of a dead load (integrator_share: how much). Forces and overshoot are uncertain, by
-backward Euler mostly too small. Shorter steps err less (solver.step_error, or time_step)."""
+i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact
+(integrator_share), or erred by more than 0.5 % of the path of a dead load in one step (path_error).
+Forces and strains are uncertain, by 2 to 8 % or more. Shorter steps err less (solver.step_error, or
+time_step)."""
 
 
 def legend(ranking: Ranking) -> str:

@@ -19,9 +19,9 @@ def struck(force, energy, **other):
     return hit | speed | {"peak_force_N": force, "absorbed_energy_J": energy} | other
 
 
-def test_steps_are_coarse_by_what_the_integrator_takes():
+def test_steps_are_coarse_by_the_measure_of_their_loading():
     """A crush may lose what snaps, and statics has no share."""
-    loads = [{"loading_mode": "force", "force_N": 5.0, "integrator_share": s} for s in (0.2, 0.4)]
+    loads = [{"loading_mode": "force", "force_N": 5.0, "path_error": e} for e in (0.004, 0.006)]
     blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
     crushed = [{"integrator_share": share} for share in (0.9, NAN)]
     table = ranked(summary(*loads, *blows, *crushed)).table

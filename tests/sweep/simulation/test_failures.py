@@ -138,6 +138,17 @@ def test_a_book_that_does_not_close_is_no_result():
     )
 
 
+@pytest.mark.parametrize(("newton", "status"), [(1e-7, Status.STOPPED), (1e-2, Status.CONVERGED)])
+def test_a_load_of_which_round_off_is_left_over_is_too_small(newton, status):
+    """The book of no converged case is open, however small its load."""
+    loading = {"mode": "force", "platen": "contact", "force": newton}
+    hexagons = {"kind": "hex", "cells_x": 3, "cells_y": 3, "wall_thickness": 8e-4}
+    tpu = {"name": "cheetah", "loss": 0.3}
+    result = simulate(Case.of(lattice=hexagons, material=tpu, loading=loading))
+    assert result.status == status
+    assert ("the forces are too small" in result.message) == (status == Status.STOPPED)
+
+
 def test_every_end_of_the_solver_has_its_advice():
     """But for those after which the march goes on, or calls the solver again."""
     known = {value for name, value in vars(outcomes).items() if name.isupper()}

@@ -7,7 +7,14 @@ from sweep.config.case import Case
 from sweep.config.units import in_si
 from sweep.result import Status
 from sweep.simulation.simulate import simulate
-from sweep.simulation.time_resolution import integrator_share, momentum_share, striker_share
+from sweep.simulation.time_resolution import (
+    LOCAL,
+    integrator_share,
+    momentum_share,
+    path_error,
+    peak_row,
+    striker_share,
+)
 from tests.support.designs.scenes import is_sound, pressed
 
 CELLS = {"cells_x": 2, "cells_y": 2}
@@ -120,6 +127,50 @@ def test_shares_of_a_half_wave():
     swings = half_wave(1001, 0.9)
     swings["kinetic_J"] = swings["kinetic_J"] + 0.1
     assert momentum_share(loading, swings, 5e-4) == pytest.approx(0.1, rel=1e-3)
+
+
+def loaded(**solver):
+    return Case.of(loading={"mode": "force", "platen": "contact", "force": 10.0}, solver=solver)
+
+
+@pytest.mark.parametrize("integrator", LOCAL)
+def test_local_errors_of_a_path_fall_with_the_order_of_the_integrator(integrator):
+    """Of u = 1 - cos t until t = pi: C h^(p+1) max |u^(p+1)| / 2."""
+    order, constant = LOCAL[integrator]
+    case = loaded(integrator=integrator)
+    for rows in (100, 400):
+        time = np.linspace(0.0, 2.0 * np.pi, rows + 1)
+        error = path_error(case, {"strain": 0.5 * (1.0 - np.cos(time))})
+        assert error == pytest.approx(0.5 * constant * time[1] ** (order + 1), rel=0.05)
+
+
+def test_a_stated_error_of_steps_is_compared_with_the_path():
+    case = loaded(step_error=1e-6)
+    error = path_error(case, {"strain": np.array([0.0, 0.1, 0.05])})
+    assert error == pytest.approx(0.1e-6 / (0.1 * case.height))
+
+
+def test_only_dead_loads_have_a_path_and_one_that_does_not_move_has_none():
+    history = {"strain": np.array([0.0, 0.1, 0.05])}
+    assert np.isnan(path_error(struck(), history))
+    assert np.isnan(path_error(pressed(2, 0.1, 5), history))
+    assert np.isnan(path_error(loaded(), {"strain": np.zeros(3)}))
+
+
+@pytest.mark.parametrize(
+    ("force", "row"),
+    [([0, 5, 9.5, 10, 2], 3), ([0, 5, 10], None), ([10, 9.5, 1], 0), ([0, 8, 10, 8.5], None)],
+)
+def test_the_peak_of_a_dead_load_needs_a_row_beside_it(force, row):
+    assert peak_row(loaded().loading, np.array(force)) == row
+    assert peak_row(struck().loading, np.array(force)) == int(np.argmax(force))
+
+
+def test_the_force_of_a_blow_between_two_rows_is_not_known():
+    """Of the load on its plate, which backward Euler softens."""
+    hard, soft = (simulate(loaded(integrator=each)).summary for each in ("bdf2", "backward_euler"))
+    assert np.isnan([hard["peak_force_N"], hard["peak_force_at_densification_N"]]).all()
+    assert soft["peak_force_N"] == soft["peak_force_at_densification_N"] >= 10.0
 
 
 def test_static_steps_have_no_share():

@@ -5,7 +5,7 @@ import pandas
 import pytest
 
 from sweep.numbers import energy_text
-from sweep.report.figures import case_plots
+from sweep.report.figures import case_plots, storyboard
 from tests.support.results.specimens import (
     HEIGHT,
     T,
@@ -136,6 +136,19 @@ def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     turn, work = ax.get_lines()
     assert turn.get_xdata()[0] == pytest.approx(4.0)
     assert work.get_xdata()[-1] == pytest.approx(8.0)
+
+
+def test_what_time_integration_gains_is_added_to_the_work(dead):
+    history = under_dead_load()
+    history = history.assign(**dict.fromkeys(storyboard.PARTS, 0.0))
+    history["stretch_J"] = 1.1 * history["work_in_J"]
+    history["dissipated_integrator_J"] = -0.1 * history["work_in_J"]
+    ax = axes_of(case_plots.energies, history, dead)
+    line = ax.get_lines()[-1]
+    np.testing.assert_allclose(line.get_ydata(), 1.1e3 * history["work_in_J"])
+    assert line.get_label().endswith(" + gained in time integration")
+    top = max(stack.get_paths()[0].vertices[:, 1].max() for stack in ax.collections)
+    assert top == pytest.approx(line.get_ydata().max())
 
 
 def test_every_turn_of_the_platen_is_marked(row):

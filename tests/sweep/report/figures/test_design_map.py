@@ -116,6 +116,10 @@ def test_designs_beyond_the_model_are_open(ranking):
         np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
 
 
+def _entries(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
 def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking):
     figure = blank(8, 4)
     design_map(figure, replace(ranking, budgets_g=(2.5,)))
@@ -128,7 +132,9 @@ def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking
     assert colors[1.0] == colors[2.0] == own  # of the front
     pale = PALE * np.array(to_rgb(GREY)) + (1.0 - PALE)
     assert colors[3.0] == to_hex(pale)
+    assert _entries(figure)[-3:] == ["Pareto front; others pale", "best", "above all budgets"]
     design_map(figure := blank(8, 4), ranking)
+    assert _entries(figure)[-2:] == ["Pareto front; others pale", "best"]
     dots = figure.axes[0].collections[0]
     assert to_hex(dots.get_facecolor()[0]) == to_hex(PALE * np.array(to_rgb(own)) + (1.0 - PALE))
 

@@ -2,8 +2,9 @@
 
 import pytest
 
+from sweep.config.kinds.cells import Cells
 from sweep.ranking.rank import ranked
-from sweep.report.tables.design_text import about_direction, design_labels, design_text
+from sweep.report.tables.design_text import NEUTRAL, about_direction, design_labels, design_text
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import summary
 
@@ -44,6 +45,12 @@ def test_a_label_leaves_out_what_changes_nothing_if_the_rest_tells_the_design():
     assert design_labels(table, table) == labels
     table = summary({"lattice.grading": 1.0}, {"lattice.grading": 2.0})
     assert design_labels(table, table) == ["grading 1", "grading 2"]
+
+
+def test_what_changes_nothing_is_the_default_of_cells():
+    fields = Cells.model_fields
+    usual = {"grading": fields["grading"].default, "perimeters": fields["perimeters"].default}
+    assert {name: f"{value:g}" for name, value in usual.items()} == NEUTRAL
 
 
 def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
