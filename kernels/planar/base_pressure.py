@@ -16,11 +16,11 @@ from kernels.terms.contact import platen_force
 
 
 @jit_exact
-def force_on_base(problem, x, found, p):
+def force_on_base(problem, x, evaluation, p):
     """Return the force of node ``p`` on the base, N, positive in compression."""
     scene, y = problem.scene, 2 * p + 1
     if scene.layout.leader[y] != y:
-        return found.g[y]
+        return evaluation.g[y]
     return platen_force(scene.contact, p, x[y] - x[scene.contact.low])
 
 
@@ -44,14 +44,14 @@ def share_on_patch(x, thickness, centre, width):
 
 
 @jit_exact
-def _gather(problem, x, found, nodes, pressing):
+def _gather(problem, x, evaluation, nodes, pressing):
     """Fill ``pressing`` (k, 3) with x, thickness and force of the ``nodes`` (k,) that have a force,
     by x; return their number and the greatest thickness.
     """
     thickness, count, thickest = problem.scene.contact.node_thickness, 0, 0.0
     sort_along(x, nodes)
     for p in nodes:
-        force = force_on_base(problem, x, found, p)
+        force = force_on_base(problem, x, evaluation, p)
         if force != 0.0:
             pressing[count, 0] = x[2 * p]
             pressing[count, 1] = thickness[p]
@@ -77,11 +77,11 @@ def _on_patch(pressing, first, centre, width, reach):
 
 
 @jit_exact
-def greatest_on_patch(problem, x, found, nodes, pressing, width):
+def greatest_on_patch(problem, x, evaluation, nodes, pressing, width):
     """Return the greatest force (N) of ``nodes`` (k,) on a patch of ``width`` m, at least 0, and
     the centre of the forces on it, x in m; NaN without a force. pressing (k, 3): scratch.
     """
-    count, thickest = _gather(problem, x, found, nodes, pressing)
+    count, thickest = _gather(problem, x, evaluation, nodes, pressing)
     pressing, greatest, at, first = pressing[:count], 0.0, np.nan, 0
     for k in range(count):
         place, thickness = pressing[k, 0], pressing[k, 1]
@@ -97,10 +97,10 @@ def greatest_on_patch(problem, x, found, nodes, pressing, width):
 
 
 @jit_exact
-def write(problem, out, k, state, found):
+def write(problem, out, k, state, evaluation):
     """Write row ``k`` of the history as `rows.write`, and its greatest force on a patch."""
-    rows.write(problem, out, k, state, found)
+    rows.write(problem, out, k, state, evaluation)
     row = out.rows[k]
     row.patch_force, row.patch_at = greatest_on_patch(
-        problem, state.x, found, out.standing, out.pressing, out.patch
+        problem, state.x, evaluation, out.standing, out.pressing, out.patch
     )

@@ -11,7 +11,7 @@ LENGTHS = 2  # x and y, the first slots of a block
 
 
 @jit_exact
-def factor(problem, x, step, found, projected, through):
+def factor(problem, x, step, evaluation, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     scene, neighbours = problem.scene, problem.neighbours
     matrix = neighbours.system.matrix
@@ -19,7 +19,7 @@ def factor(problem, x, step, found, projected, through):
     fold.hessian(x, scene.fold, matrix, projected)
     spring.hessian(x, scene.spring, matrix, projected)
     contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
-    friction.hessian(found.u, neighbours.lagged_contacts, slip_of(problem, step), matrix)
+    friction.hessian(evaluation.u, neighbours.lagged_contacts, slip_of(problem, step), matrix)
     if step.dynamic:
         inertia.hessian(scene.coordinates.mass, step.h, matrix.diagonal)
         damping.hessian(scene, step.h, matrix.diagonal)

@@ -29,33 +29,40 @@ LEAST = np.dtype(
 
 
 @jit_exact
-def evaluate(problem, x, step, found, projected):
-    """Return E in J; fill ``found`` and the walls' part of the Hessian, ``projected`` or exact."""
+def evaluate(problem, x, step, evaluation, projected):
+    """Return E in J; fill ``evaluation`` and the walls' part of the Hessian, ``projected`` or
+    exact.
+    """
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
-    moves.begin(x, step.y, found)
-    store_walls(problem, x, found, projected)
-    found.stored[CONTACT] = contact.evaluate(
-        x, scene.contact, neighbours.pairs, drift(problem, x), neighbours.touching, found.elastic
+    moves.begin(x, step.y, evaluation)
+    store_walls(problem, x, evaluation, projected)
+    evaluation.stored[CONTACT] = contact.evaluate(
+        x,
+        scene.contact,
+        neighbours.pairs,
+        drift(problem, x),
+        neighbours.touching,
+        evaluation.elastic,
     )
-    total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
-    copy(found.elastic, found.g)
-    total += loads.evaluate(found.u, coordinates.load, step.factor, found.g)
+    total = evaluation.stored[STRETCH] + evaluation.stored[BEND] + evaluation.stored[CONTACT]
+    copy(evaluation.elastic, evaluation.g)
+    total += loads.evaluate(evaluation.u, coordinates.load, step.factor, evaluation.g)
     if step.dynamic:
-        total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
-        total += _damping(problem, step, found, projected)
-    total += lagging.friction(problem, step, found)
-    return moves.end(found, total)
+        total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, evaluation.g)
+        total += _damping(problem, step, evaluation, projected)
+    total += lagging.friction(problem, step, evaluation)
+    return moves.end(evaluation, total)
 
 
 @jit_exact
-def store(problem, x, step, found):
-    """Fill the stored energies of the walls at ``x``; add their gradient to ``found.elastic``.
+def store(problem, x, step, evaluation):
+    """Fill the stored energies of the walls at ``x``; add their gradient to ``evaluation.elastic``.
 
     The duration is zero: the step is accepted, and its time has passed. Scenes with a projection
     have no E_c.
     """
     recall(problem, 0.0)
-    store_walls(problem, x, found, True)
+    store_walls(problem, x, evaluation, True)
 
 
 @jit_exact
@@ -70,36 +77,36 @@ def recall(problem, duration):
 
 
 @jit_exact
-def store_walls(problem, x, found, projected):
+def store_walls(problem, x, evaluation, projected):
     """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
-    gradient to ``found.elastic``.
+    gradient to ``evaluation.elastic``.
     """
     scene, buffers = problem.scene, problem.buffers
     shape, stiffness, resultants = buffers.shape, buffers.stiffness, buffers.resultants
     memory, least = buffers.memory, buffers.least[0]
     least.length = elements.measure(x, scene.walls, buffers.before.frame, shape)
-    found.stored[STRETCH] = stretch.evaluate(
+    evaluation.stored[STRETCH] = stretch.evaluate(
         scene.stretch, scene.law, memory, shape, resultants, projected
     )
-    found.stored[BEND] = bend.evaluate(
+    evaluation.stored[BEND] = bend.evaluate(
         scene.bend, scene.stretch, memory, shape, resultants, projected
     )
     elements.clear(shape, stiffness)
     elements.add(resultants, scene.stretch.geometric, projected, shape, stiffness)
-    elements.gather(scene.walls, shape, found.elastic)
-    found.stored[STRETCH] += spring.evaluate(x, scene.spring, found.elastic)
-    folding, least.opening = fold.evaluate(x, scene.fold, found.elastic)
-    found.stored[BEND] += folding
+    elements.gather(scene.walls, shape, evaluation.elastic)
+    evaluation.stored[STRETCH] += spring.evaluate(x, scene.spring, evaluation.elastic)
+    folding, least.opening = fold.evaluate(x, scene.fold, evaluation.elastic)
+    evaluation.stored[BEND] += folding
 
 
 @jit_exact
-def _damping(problem, step, found, projected):
-    """Return D in J; fill ``found.material`` and add it to the gradient."""
+def _damping(problem, step, evaluation, projected):
+    """Return D in J; fill ``evaluation.material`` and add it to the gradient."""
     buffers = problem.buffers
     zero_rows(buffers.shape.slope)
     total = damping.evaluate(
-        found.u, problem.scene, buffers.before, step.h,
-        buffers.shape, buffers.resultants, buffers.stiffness, projected, found.material,
+        evaluation.u, problem.scene, buffers.before, step.h,
+        buffers.shape, buffers.resultants, buffers.stiffness, projected, evaluation.material,
     )  # fmt: skip
-    add(found.material, found.g)
+    add(evaluation.material, evaluation.g)
     return total

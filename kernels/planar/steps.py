@@ -20,16 +20,16 @@ def begin(problem, step, ahead, scratch):
 
 
 @jit_exact
-def commit(problem, x, step, found):
+def commit(problem, x, step, evaluation):
     """Commit the state of the laws; correct stored energies, add the dissipation of the step."""
     scene, memory, shape = problem.scene, problem.buffers.memory, problem.buffers.shape
     if scene.law.state_size() > 0:
         released, dissipated = stretch.commit(scene.stretch, scene.law, memory, shape)
-        found.stored[STRETCH] -= released
-        found.sums[0].dissipated += dissipated
+        evaluation.stored[STRETCH] -= released
+        evaluation.sums[0].dissipated += dissipated
         released, dissipated = bend.commit(scene.bend, scene.stretch, memory, shape)
-        found.stored[BEND] -= released
-        found.sums[0].dissipated += dissipated
+        evaluation.stored[BEND] -= released
+        evaluation.sums[0].dissipated += dissipated
 
 
 @jit_exact

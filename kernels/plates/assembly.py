@@ -93,7 +93,7 @@ def _subtract(part, projected):
 
 
 @jit
-def add_contacts(problem, x, step, found):
+def add_contacts(problem, x, step, evaluation):
     """Add the second derivatives of contact at ``x``, of friction and of contact with platens."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull, part = neighbours.matrix, scene.layout, buffers.pull, buffers.part
@@ -103,7 +103,7 @@ def add_contacts(problem, x, step, found):
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
     slip = slip_of(problem, step)
     for k in range(lagged.count[0]):
-        count = friction.block(found.u, lagged, slip, k, part)
+        count = friction.block(evaluation.u, lagged, slip, k, part)
         add_stencil(matrix, layout, pull, lagged.nodes[k], count, POSITION, part)
     for i in range(scene.contact.low_nodes.size):
         _add_platen(problem, x, False, i)

@@ -25,7 +25,7 @@ MOST_SHIFT = 1e3
 
 
 @jit_exact
-def _assemble(problem, x, step, found):
+def _assemble(problem, x, step, evaluation):
     """Fill the matrix with the exact Hessian, and the pull of the driven coordinate."""
     scene, buffers = problem.scene, problem.buffers
     matrix, layout, pull = problem.neighbours.matrix, scene.layout, buffers.pull
@@ -39,7 +39,7 @@ def _assemble(problem, x, step, found):
         assembly.add_stencil(
             matrix, layout, pull, scene.shell.quads[e], 4, PER_NODE, buffers.second
         )
-    assembly.add_contacts(problem, x, step, found)
+    assembly.add_contacts(problem, x, step, evaluation)
     if step.dynamic:
         zero(buffers.diagonal)
         inertia.hessian(scene.coordinates.mass, step.h, buffers.diagonal)
@@ -62,13 +62,13 @@ def _shifted(problem):
 
 
 @jit_exact
-def factor(problem, x, step, found, projected, through):
+def factor(problem, x, step, evaluation, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
     if projected:  # the matrix has the exact one, which is not positive
         assembly.project_contacts(problem, x)
         return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
-    _assemble(problem, x, step, found)
+    _assemble(problem, x, step, evaluation)
     if matrix.missing[0] != 0:
         return NO_ROOM, 0.0
     rounded = THROUGH if through else ROUNDED

@@ -19,28 +19,28 @@ from kernels.terms import inertia, loads
 
 
 @jit_exact
-def evaluate(problem, x, step, found, projected):
-    """Return E in J; fill ``found``."""
+def evaluate(problem, x, step, evaluation, projected):
+    """Return E in J; fill ``evaluation``."""
     coordinates = problem.scene.coordinates
-    moves.begin(x, step.y, found)
-    _store(problem, x, found)
-    total = found.stored[STRETCH] + found.stored[BEND] + found.stored[CONTACT]
-    copy(found.elastic, found.g)
-    total += loads.evaluate(found.u, coordinates.load, step.factor, found.g)
+    moves.begin(x, step.y, evaluation)
+    _store(problem, x, evaluation)
+    total = evaluation.stored[STRETCH] + evaluation.stored[BEND] + evaluation.stored[CONTACT]
+    copy(evaluation.elastic, evaluation.g)
+    total += loads.evaluate(evaluation.u, coordinates.load, step.factor, evaluation.g)
     if step.dynamic:
-        total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, found.g)
-    total += lagging.friction(problem, step, found)
-    return moves.end(found, total)
+        total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, evaluation.g)
+    total += lagging.friction(problem, step, evaluation)
+    return moves.end(evaluation, total)
 
 
 @jit_exact
-def store(problem, x, step, found):
-    """Fill the stored energies at ``x``; add their gradient to ``found.elastic``.
+def store(problem, x, step, evaluation):
+    """Fill the stored energies at ``x``; add their gradient to ``evaluation.elastic``.
 
     The duration is zero: the step is accepted, and its time has passed.
     """
     recall(problem, x, 0.0)
-    _store(problem, x, found)
+    _store(problem, x, evaluation)
 
 
 @jit_exact
@@ -53,17 +53,19 @@ def recall(problem, x, duration):
 
 
 @jit_exact
-def _store(problem, x, found):
-    """Fill the energies of walls and contact; add their gradient to ``found.elastic``."""
+def _store(problem, x, evaluation):
+    """Fill the energies of walls and contact; add their gradient to ``evaluation.elastic``."""
     scene, buffers = problem.scene, problem.buffers
     zero(buffers.parts)
     total = shell.evaluate(
-        x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell, found.elastic,
-        buffers.parts,
+        x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell,
+        evaluation.elastic, buffers.parts,
     )  # fmt: skip
-    found.stored[STRETCH], found.stored[BEND] = buffers.parts[0], total - buffers.parts[0]
-    found.stored[CONTACT] = contact.evaluate(
+    evaluation.stored[STRETCH], evaluation.stored[BEND] = buffers.parts[0], total - buffers.parts[0]
+    evaluation.stored[CONTACT] = contact.evaluate(
         x, scene.contact, problem.neighbours.pairs, drift(problem, x),
-        problem.neighbours.touching, found.elastic,
+        problem.neighbours.touching, evaluation.elastic,
     )  # fmt: skip
-    found.stored[CONTACT] += mirror.evaluate(x, scene.contact, scene.mirror, found.elastic)
+    evaluation.stored[CONTACT] += mirror.evaluate(
+        x, scene.contact, scene.mirror, evaluation.elastic
+    )

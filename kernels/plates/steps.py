@@ -14,7 +14,7 @@ def begin(problem, step, ahead, scratch):
 
 
 @jit_exact
-def commit(problem, x, step, found):
+def commit(problem, x, step, evaluation):
     """Commit the state of the law; correct stored energies, and add the dissipation of the step.
 
     The rotations of the nodes are passed on to their frames: the coordinates of rotations become
@@ -23,11 +23,11 @@ def commit(problem, x, step, found):
     scene, buffers = problem.scene, problem.buffers
     if scene.law.state_size() > 0:
         released = buffers.parts
-        found.sums[0].dissipated += shell.commit(
+        evaluation.sums[0].dissipated += shell.commit(
             x, buffers.committed, scene.shell, scene.law, buffers.memory, buffers.shell, released
         )
-        found.stored[STRETCH] -= released[0]
-        found.stored[BEND] -= released[1] + released[2]
+        evaluation.stored[STRETCH] -= released[0]
+        evaluation.stored[BEND] -= released[1] + released[2]
     rotation.rebase(buffers.committed, x)
 
 

@@ -38,35 +38,37 @@ def slip_of(problem, step):
 
 
 @jit_exact
-def exchange(problem, step, found):
-    """Replace D_f and its gradient in ``found`` by those of the present forces; return E in J."""
-    sums = found.sums[0]
+def exchange(problem, step, evaluation):
+    """Replace D_f and its gradient in ``evaluation`` by those of the present forces; return E."""
+    sums = evaluation.sums[0]
     if problem.scene.friction.mu == 0.0:
         return sums.potential
-    for i in range(found.g.size):
-        found.g[i] -= found.friction[i]
-        found.friction[i] = 0.0
+    for i in range(evaluation.g.size):
+        evaluation.g[i] -= evaluation.friction[i]
+        evaluation.friction[i] = 0.0
     before = sums.friction
-    sums.potential += friction(problem, step, found) - before
+    sums.potential += friction(problem, step, evaluation) - before
     return sums.potential
 
 
 @jit_exact
-def friction(problem, step, found):
-    """Return D_f in J; fill ``found.friction``, zero on entry, and add it to ``found.g``."""
-    sums = found.sums[0]
+def friction(problem, step, evaluation):
+    """Return D_f in J; fill ``evaluation.friction``, zero on entry, and add it to the gradient."""
+    sums = evaluation.sums[0]
     sums.friction = 0.0
     if problem.scene.friction.mu != 0.0:
         eps, lagged_contacts = slip_of(problem, step), problem.neighbours.lagged_contacts
-        sums.friction = lagged_contacts.evaluate(found.u, eps, found.friction)
-        add(found.friction, found.g)
+        sums.friction = lagged_contacts.evaluate(evaluation.u, eps, evaluation.friction)
+        add(evaluation.friction, evaluation.g)
     return sums.friction
 
 
 @jit_exact
-def follow(problem, dx, share, step, found):
+def follow(problem, dx, share, step, evaluation):
     """Update the duals of friction in a ``share`` of ``dx``; see `solve.problem.Problem.follow`."""
-    return problem.neighbours.lagged_contacts.follow(found.u, dx, share, slip_of(problem, step))
+    return problem.neighbours.lagged_contacts.follow(
+        evaluation.u, dx, share, slip_of(problem, step)
+    )
 
 
 @jit_exact

@@ -15,20 +15,20 @@ MOVE_MARGIN = 2.2  # least margin of a list made for a move, as a multiple of th
 
 
 @jit_exact
-def begin(x, y, found):
-    """Fill the move u = ``x`` - ``y`` of a `solve.problem.Found`; set the parts of the gradient to
-    zero.
+def begin(x, y, evaluation):
+    """Fill the move u = ``x`` - ``y`` of a `solve.problem.Evaluation`; set the parts of its
+    gradient to zero.
     """
     for i in range(x.size):
-        found.u[i] = x[i] - y[i]
-    for part in (found.elastic, found.material, found.friction):
+        evaluation.u[i] = x[i] - y[i]
+    for part in (evaluation.elastic, evaluation.material, evaluation.friction):
         zero(part)
 
 
 @jit_exact
-def end(found, potential):
+def end(evaluation, potential):
     """Enter the ``potential`` in J of a step that is not committed; return it."""
-    sums = found.sums[0]
+    sums = evaluation.sums[0]
     sums.potential, sums.dissipated = potential, 0.0
     return potential
 

@@ -77,7 +77,7 @@ def _enter(row, state):
 
 
 @jit_exact
-def write(problem, out, k, state, found):
+def write(problem, out, k, state, evaluation):
     """Write row ``k`` of the history, and its frame if one is asked for."""
     row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
     _enter(row, state)
@@ -86,16 +86,16 @@ def write(problem, out, k, state, found):
     row.reaction_bottom = 0.0
     low = problem.scene.contact.low
     for c in out.bottom:
-        row.reaction_bottom += found.g[c]
+        row.reaction_bottom += evaluation.g[c]
     if problem.scene.coordinates.mass[low] > 0.0:  # a base that moves: g has its inertia
         parts = state.gradients
-        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - found.g[low]
+        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - evaluation.g[low]
     row.reaction_top = -totals.reaction
     if coordinates.driven < 0:
         row.reaction_top = -totals.factor * total(coordinates.load)
     for p in range(out.probes.size):
         out.probed[k, 0, p] = state.x[out.probes[p]]
-        out.probed[k, 1, p] = found.g[out.probes[p]]
+        out.probed[k, 1, p] = evaluation.g[out.probes[p]]
     row.speed, row.base_speed = state.v[problem.scene.contact.high], state.v[low]
     row.gap = problem.least_gap(state.x)
     if out.frame_of[k] >= 0:

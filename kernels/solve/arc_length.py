@@ -136,7 +136,7 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
 
     The first move is ``work.dx`` with ``progress.increment``, the predictor.
     """
-    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
+    evaluation, work, coordinates = workspace.evaluation, workspace.work, problem.scene.coordinates
     r, v = work.direction, work.escape
     while True:
         if not progress.longest_move < np.inf:
@@ -156,21 +156,21 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
         progress.increment, progress.longest_move = 0.0, 0.0
         progress.iterations += 1
         step = _step(workspace, stage, progress, progress.load)
-        problem.evaluate(x, step, found, False)
-        problem.reduce(found.g, work.residual)
+        problem.evaluate(x, step, evaluation, False)
+        problem.reduce(evaluation.g, work.residual)
         size = largest_residual(work.residual, coordinates)
         if not size < np.inf:
             return NOT_FINITE
-        result, _ = problem.factor(x, step, found, False, True)
+        result, _ = problem.factor(x, step, evaluation, False, True)
         if result == NO_ROOM:
             return OUTGROWN
         for i in range(x.size):
-            r[i], v[i] = -found.g[i], coordinates.load[i]
+            r[i], v[i] = -evaluation.g[i], coordinates.load[i]
         problem.solve(r)
         problem.solve(v)
-        increment, on_constraint = _load_increment(found.u, r, v, arc, progress)
+        increment, on_constraint = _load_increment(evaluation.u, r, v, arc, progress)
         if on_constraint and size <= tolerance.force:
-            progress.decrement = abs(0.5 * dot(found.g, r))
+            progress.decrement = abs(0.5 * dot(evaluation.g, r))
             if progress.decrement <= tolerance.decrement:
                 return CONVERGED
         if progress.iterations > min(CORRECTIONS, tolerance.iterations):
@@ -214,7 +214,9 @@ def _return_to_full_load(problem, stage, state, workspace, progress):
     copy(workspace.x0, state.x)
     problem.roll_back(_step(workspace, stage, progress, totals.factor))
     zero(work.residual)
-    progress.longest_move = _combine(work.residual, share, workspace.found.u, coordinates, work.dx)
+    progress.longest_move = _combine(
+        work.residual, share, workspace.evaluation.u, coordinates, work.dx
+    )
     progress.load, progress.increment = totals.factor, 1.0 - totals.factor
     totals.iterations += progress.iterations
     progress.length, progress.target_load, progress.iterations = 0.0, 1.0, 0
@@ -226,14 +228,14 @@ def _judge(problem, tolerance, state, step, load, workspace, arc, heading, progr
 
     load: `resolution.largest_load` of the step.
     """
-    found, tangent = workspace.found, heading.tangent
+    evaluation, tangent = workspace.evaluation, heading.tangent
     if progress.row >= 0:
         sign = -1.0 if _inner(tangent, heading.last_move, arc.weight) < 0.0 else 1.0
-        if sign * _cosine(found.u, tangent, arc.weight) < LEAST_COSINE:
+        if sign * _cosine(evaluation.u, tangent, arc.weight) < LEAST_COSINE:
             return STALLED
     decrement = progress.decrement
     if not resolution.is_resolved(
-        problem, step, tolerance, state, found, workspace.work, load, decrement
+        problem, step, tolerance, state, evaluation, workspace.work, load, decrement
     ):
         return UNRESOLVED
     return CONVERGED
@@ -245,23 +247,23 @@ def _accept(problem, step, state, workspace, load, heading, progress):
 
     load: `resolution.largest_load` of the step.
     """
-    found, totals = workspace.found, state.totals[0]
-    problem.commit(state.x, step, found)
-    enter_step(problem, step, state, found, workspace.work)
-    totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
+    evaluation, totals = workspace.evaluation, state.totals[0]
+    problem.commit(state.x, step, evaluation)
+    enter_step(problem, step, state, evaluation, workspace.work)
+    totals.force = resolution.largest_force(problem.scene.coordinates, state, evaluation, load)
     copy(workspace.work.escape, heading.tangent)
     if progress.row >= 0:
-        copy(found.u, heading.last_move)
+        copy(evaluation.u, heading.last_move)
         progress.done += progress.share
         totals.steps += 1
 
 
 @jit_exact
-def _end_row(problem, stage, state, out, control, found, arc, progress):
+def _end_row(problem, stage, state, out, control, evaluation, arc, progress):
     """Write the row whose arc is complete, and go on to the next one."""
     if progress.row >= 0:
         state.totals[0].time += stage.duration
-        problem.write(out, progress.row, state, found)
+        problem.write(out, progress.row, state, evaluation)
         control[1] += 1
     progress.row, progress.done, progress.share = progress.row + 1, 0.0, 1.0
     arc.path[progress.row].factor = progress.load
@@ -306,7 +308,7 @@ def _follow_path(problem, tolerance, stage, state, out, control, workspace, arc,
         if progress.row >= 0 and progress.done < 1.0 and progress.load != 1.0:
             progress.share *= 2.0
             continue
-        _end_row(problem, stage, state, out, control, workspace.found, arc, progress)
+        _end_row(problem, stage, state, out, control, workspace.evaluation, arc, progress)
         if progress.load == 1.0:
             break
     return CONVERGED, progress.row

@@ -40,18 +40,18 @@ def mean_speed(v, mass):
 
 
 @jit_exact
-def _works(found, last, theta):
-    """Return the work against elastic forces, damping and friction along ``found.u``; copy their
-    gradients to ``last``, which has those of the last step.
+def _works(evaluation, last, theta):
+    """Return the work against elastic forces, damping and friction along ``evaluation.u``; copy
+    their gradients to ``last``, which has those of the last step.
     """
-    u, elastic, material, friction, before = found.u, 0.0, 0.0, 0.0, 1.0 - theta
+    u, elastic, material, friction, before = evaluation.u, 0.0, 0.0, 0.0, 1.0 - theta
     for i in range(u.size):
-        elastic += (theta * found.elastic[i] + before * last.elastic[i]) * u[i]
-        material += (theta * found.material[i] + before * last.material[i]) * u[i]
-        friction += (theta * found.friction[i] + before * last.friction[i]) * u[i]
-    copy(found.elastic, last.elastic)
-    copy(found.material, last.material)
-    copy(found.friction, last.friction)
+        elastic += (theta * evaluation.elastic[i] + before * last.elastic[i]) * u[i]
+        material += (theta * evaluation.material[i] + before * last.material[i]) * u[i]
+        friction += (theta * evaluation.friction[i] + before * last.friction[i]) * u[i]
+    copy(evaluation.elastic, last.elastic)
+    copy(evaluation.material, last.material)
+    copy(evaluation.friction, last.friction)
     return elastic, material, friction
 
 
@@ -74,80 +74,80 @@ def impose_speed(state, problem, speed, led):
 
 
 @jit_exact
-def energy_gain(scheme, problem, step, state, found):
+def energy_gain(scheme, problem, step, state, evaluation):
     """Return the energy that the integrator generates in a step, and the largest energy, in J.
 
     The generated energy is the negative of the integrator's loss, which here contains what the
     material dissipates. Where it is positive the step is too long: for backward Euler where the
-    potential is not convex, for the trapezoidal rule where forces are not linear. found: of the
-    end of the step, before `integrators.update`.
+    potential is not convex, for the trapezoidal rule where forces are not linear. evaluation: of
+    the end of the step, before `integrators.update`.
     """
     loss, largest, coordinates = 0.0, state.book[0].kinetic, problem.scene.coordinates
     last, theta, before = state.gradients.elastic, step.theta, 1.0 - step.theta
     if step.dynamic:
-        loss = integrators.kinetic_loss(scheme, state, step, coordinates, found.u)
+        loss = integrators.kinetic_loss(scheme, state, step, coordinates, evaluation.u)
     for i in range(last.size):
-        loss += (theta * found.elastic[i] + before * last[i]) * (state.x[i] - step.x0[i])
-    for k in range(found.stored.size):
-        loss -= found.stored[k] - state.stored[k]
-        largest += max(found.stored[k], state.stored[k])
+        loss += (theta * evaluation.elastic[i] + before * last[i]) * (state.x[i] - step.x0[i])
+    for k in range(evaluation.stored.size):
+        loss -= evaluation.stored[k] - state.stored[k]
+        largest += max(evaluation.stored[k], state.stored[k])
     return -loss, max(largest, abs(state.book[0].work))
 
 
 @jit_exact
-def largest_energy(problem, step, state, found):
+def largest_energy(problem, step, state, evaluation):
     """Return the largest energy in the book and in a step that is not entered yet, J."""
     book, coordinates = state.book[0], problem.scene.coordinates
     largest = max(abs(book.work), abs(book.kinetic), abs(book.material), abs(book.friction))
     largest = max(largest, abs(book.integrator), abs(book.injected))
-    for k in range(found.stored.size):
-        largest = max(largest, abs(state.stored[k]), found.stored[k])
+    for k in range(evaluation.stored.size):
+        largest = max(largest, abs(state.stored[k]), evaluation.stored[k])
     work = 0.0
     for i in range(coordinates.load.size):
         work += step.factor * coordinates.load[i] * (state.x[i] - step.x0[i])
     if step.dynamic:
-        largest = max(largest, kinetic(found.u, coordinates.mass) / step.h**2)
+        largest = max(largest, kinetic(evaluation.u, coordinates.mass) / step.h**2)
     return max(largest, abs(work))
 
 
 @jit_exact
-def unbalanced(problem, step, tolerance, state, found, work):
+def unbalanced(problem, step, tolerance, state, evaluation, work):
     """Return whether the work of the residual in a step is too large.
 
     Where positions cannot resolve very small elements or openings, the admissible residual
     (`residual.allowed`) has no bound; this test bounds its work.
     """
     imbalance, noise, coordinates = 0.0, 0.0, problem.scene.coordinates
-    problem.reduce(found.g, work.residual)
+    problem.reduce(evaluation.g, work.residual)
     for i in range(state.x.size):
         if coordinates.role[i] == FREE:
             move = state.x[i] - step.x0[i]
             imbalance += work.residual[i] * move
             noise += tolerance.force * abs(move) * coordinates.scale[i]
-    limit = LARGEST_IMBALANCE * largest_energy(problem, step, state, found) + noise
+    limit = LARGEST_IMBALANCE * largest_energy(problem, step, state, evaluation) + noise
     return not abs(imbalance) <= limit
 
 
 @jit_exact
-def enter_step(problem, step, state, found, work):
-    """Enter a converged step into the book. found: of its end, after `Problem.commit`."""
+def enter_step(problem, step, state, evaluation, work):
+    """Enter a converged step into the book. evaluation: of its end, after `Problem.commit`."""
     book, totals, theta = state.book[0], state.totals[0], step.theta
     reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven
     if driven >= 0:
-        problem.reduce(found.g, work.residual)
-        reaction, move = work.residual[driven], found.u[driven]
+        problem.reduce(evaluation.g, work.residual)
+        reaction, move = work.residual[driven], evaluation.u[driven]
     factor = theta * step.factor + (1.0 - theta) * totals.factor
-    book.work += factor * dot(problem.scene.coordinates.load, found.u)
+    book.work += factor * dot(problem.scene.coordinates.load, evaluation.u)
     book.work += (theta * reaction + (1.0 - theta) * totals.reaction) * move
-    dissipated = found.sums[0].dissipated
-    elastic, material, friction = _works(found, state.gradients, theta)
+    dissipated = evaluation.sums[0].dissipated
+    elastic, material, friction = _works(evaluation, state.gradients, theta)
     book.material += material + dissipated
     book.friction += friction
     loss, total = elastic - dissipated, 0.0
-    for k in range(found.stored.size):
-        loss -= found.stored[k] - state.stored[k]
-        total += found.stored[k]
-        state.stored[k] = found.stored[k]
+    for k in range(evaluation.stored.size):
+        loss -= evaluation.stored[k] - state.stored[k]
+        total += evaluation.stored[k]
+        state.stored[k] = evaluation.stored[k]
     book.integrator += loss
     totals.reaction, totals.factor = reaction, step.factor
     book.residual = book.work + book.injected - book.kinetic - total
@@ -166,7 +166,7 @@ def _add_velocity(x, start, h, load, v):
 
 
 @jit_exact
-def project(problem, step, state, found, start):
+def project(problem, step, state, evaluation, start):
     """Let the problem correct positions or data (`Problem.project`), and book the energy injected.
 
     Return whether it has. start (n,): scratch.
@@ -175,13 +175,13 @@ def project(problem, step, state, found, start):
     copy(state.x, start)
     if not problem.project(state.x):
         return False
-    problem.store(state.x, step, found)
+    problem.store(state.x, step, evaluation)
     gained = -book.kinetic
     for energy in state.stored:
         gained -= energy
     load_work = step.factor * _add_velocity(state.x, start, step.h, coordinates.load, state.v)
     book.kinetic = kinetic(state.v, coordinates.mass)
-    copy(found.stored, state.stored)
+    copy(evaluation.stored, state.stored)
     gained += book.kinetic
     for energy in state.stored:
         gained += energy

@@ -14,27 +14,27 @@ from kernels.compile.jit import jit_exact
 
 
 @jit_exact
-def _of_friction(state, found):
+def _of_friction(state, evaluation):
     """Return |(r1 - r0) . u| / 2 in J, with the gradients r of friction after two steps."""
     before, work = state.gradients.friction, 0.0
-    for i in range(found.u.size):
-        work += (found.friction[i] - before[i]) * found.u[i]
+    for i in range(evaluation.u.size):
+        work += (evaluation.friction[i] - before[i]) * evaluation.u[i]
     return 0.5 * abs(work)
 
 
 @jit_exact
-def ratio(problem, state, found, work, progress):
+def ratio(problem, state, evaluation, work, progress):
     """Return the error of the work in a step as a share of that work, 0 where nothing is driven.
 
-    found: of the end of the step, before `energy_book.enter_step`. progress: see `keep`.
+    evaluation: of the end of the step, before `energy_book.enter_step`. progress: see `keep`.
     """
     driven = problem.scene.coordinates.driven
-    move = found.u[driven] if driven >= 0 else 0.0
+    move = evaluation.u[driven] if driven >= 0 else 0.0
     if move == 0.0:
         return 0.0
-    problem.reduce(found.g, work.residual)
+    problem.reduce(evaluation.g, work.residual)
     before, after = state.totals[0].reaction, work.residual[driven]
-    error = _of_friction(state, found)
+    error = _of_friction(state, evaluation)
     if progress.move != 0.0:
         bend = ((after - before) / move - progress.slope) / (move + progress.move)
         error += abs(bend * move**3) / 6.0
@@ -43,8 +43,8 @@ def ratio(problem, state, found, work, progress):
 
 
 @jit_exact
-def keep(problem, found, change, progress):
+def keep(problem, evaluation, change, progress):
     """Keep the move of an accepted step and the slope of the reaction. change: of that, N."""
     driven = problem.scene.coordinates.driven
-    progress.move = found.u[driven] if driven >= 0 else 0.0
+    progress.move = evaluation.u[driven] if driven >= 0 else 0.0
     progress.slope = change / progress.move if progress.move != 0.0 else 0.0

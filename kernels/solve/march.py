@@ -154,7 +154,7 @@ def _first_guess(problem, stage, state, workspace, duration, h, remaining):
     It leads to the extrapolated positions; after a snap in a static step it is zero. remaining:
     move of the driven coordinate, m.
     """
-    u, work, coordinates = workspace.found.u, workspace.work, problem.scene.coordinates
+    u, work, coordinates = workspace.evaluation.u, workspace.work, problem.scene.coordinates
     factor, heavy = _extrapolation(u, coordinates.driven, remaining), coordinates.heavy
     if stage.dynamic:
         integrators.predict(state, duration, h, heavy, workspace.y, workspace.x_pred, work.dx)
@@ -237,7 +237,7 @@ def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, c
         progress.minimum_iterations += max(descent.iterations, 1)
         if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
             break
-        problem.exchange(step, workspace.found)
+        problem.exchange(step, workspace.evaluation)
         copy(x, workspace.work.trial)  # for a projected Hessian, which is evaluated there
         zero(workspace.work.dx)
         descent.evaluated, descent.since_factor = True, np.inf
@@ -251,13 +251,13 @@ def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, c
 
 
 @jit_exact
-def _gains_energy(problem, stage, state, step, found, share, noise):
+def _gains_energy(problem, stage, state, step, evaluation, share, noise):
     """Return whether the integrator generates too much energy in a ``share`` of a step.
 
     That is, `LARGEST_GAIN` or `LARGEST_ERROR` of the largest energy more than the integrator has
     lost so far, and more than the part of this limit that the share has in the stage.
     """
-    gain, largest = energy_gain(stage.scheme, problem, step, state, found)
+    gain, largest = energy_gain(stage.scheme, problem, step, state, evaluation)
     limit = (LARGEST_GAIN if step.theta == 1.0 else LARGEST_ERROR) * largest + noise
     return gain - state.book[0].integrator > limit and gain > limit * share / stage.steps
 
@@ -269,21 +269,25 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
 
     load: `resolution.largest_load` of the step.
     """
-    found, work, ratio, share = workspace.found, workspace.work, 0.0, progress.share
+    evaluation, work, ratio, share = workspace.evaluation, workspace.work, 0.0, progress.share
     if stage.error < np.inf:
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate = ratio <= 1.0
     if stage.accuracy < np.inf and share >= 1.0:
-        ratio = load_step_error.ratio(problem, state, found, work, progress) / stage.accuracy
+        ratio = load_step_error.ratio(problem, state, evaluation, work, progress) / stage.accuracy
         accurate = ratio <= REJECTED_ERROR or share <= 1.0
     if accurate and share > UNCHECKED_SHARE:
-        accurate = not _gains_energy(problem, stage, state, step, found, share, tolerance.noise)
+        accurate = not _gains_energy(
+            problem, stage, state, step, evaluation, share, tolerance.noise
+        )
     if not accurate:
         return INACCURATE, ratio
     decrement = descent.decrement
-    if not resolution.is_resolved(problem, step, tolerance, state, found, work, load, decrement):
+    if not resolution.is_resolved(
+        problem, step, tolerance, state, evaluation, work, load, decrement
+    ):
         return UNRESOLVED, ratio
-    if unbalanced(problem, step, tolerance, state, found, work):
+    if unbalanced(problem, step, tolerance, state, evaluation, work):
         return UNBALANCED, ratio
     return CONVERGED, ratio
 
@@ -307,7 +311,7 @@ def _reject(outcome, ratio, problem, step, state, workspace, descent, progress):
     """
     copy(workspace.x0, state.x)
     problem.roll_back(step)
-    zero(workspace.found.u)
+    zero(workspace.evaluation.u)
     progress.corrections, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
@@ -325,20 +329,25 @@ def _accept(problem, stage, step, state, workspace, load, descent, progress):
 
     load: `resolution.largest_load` of the step.
     """
-    found, work, book, totals = workspace.found, workspace.work, state.book[0], state.totals[0]
+    evaluation, work, book, totals = (
+        workspace.evaluation,
+        workspace.work,
+        state.book[0],
+        state.totals[0],
+    )
     if stage.dynamic:
         book.integrator += integrators.kinetic_loss(
-            stage.scheme, state, step, problem.scene.coordinates, found.u
+            stage.scheme, state, step, problem.scene.coordinates, evaluation.u
         )
-        integrators.update(stage.scheme, state, step, problem, found.u)
+        integrators.update(stage.scheme, state, step, problem, evaluation.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     before = totals.reaction
-    problem.commit(state.x, step, found)
-    enter_step(problem, step, state, found, work)
-    load_step_error.keep(problem, found, totals.reaction - before, progress)
-    totals.force = resolution.largest_force(problem.scene.coordinates, state, found, load)
-    if energy_book.project(problem, step, state, found, work.trial):
+    problem.commit(state.x, step, evaluation)
+    enter_step(problem, step, state, evaluation, work)
+    load_step_error.keep(problem, evaluation, totals.reaction - before, progress)
+    totals.force = resolution.largest_force(problem.scene.coordinates, state, evaluation, load)
+    if energy_book.project(problem, step, state, evaluation, work.trial):
         descent.since_factor = np.inf
     totals.steps += 1
 
@@ -391,13 +400,13 @@ def _reported(outcome, progress):
 
 
 @jit_exact
-def _end_row(problem, stage, state, out, control, found, progress):
+def _end_row(problem, stage, state, out, control, evaluation, progress):
     """Write the last of the rows that are complete, and go on to the next one."""
     totals, rows = state.totals[0], int(progress.done)
     totals.iterations += progress.row_iterations
     totals.time += rows * stage.duration
     progress.row, progress.done, progress.row_iterations = progress.row + rows, 0.0, 0
-    problem.write(out, progress.row - 1, state, found)
+    problem.write(out, progress.row - 1, state, evaluation)
     control[1] += rows
 
 
@@ -439,7 +448,7 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
             _accept(problem, stage, step, state, workspace, load, descent, progress)
             _next_share(ratio, tolerance.iterations, stage, descent, progress)
             if progress.done >= 1.0:
-                _end_row(problem, stage, state, out, control, workspace.found, progress)
+                _end_row(problem, stage, state, out, control, workspace.evaluation, progress)
             continue
         coarse = outcome == UNRESOLVED or outcome == UNBALANCED
         coarse = coarse and resolution.is_coarse(fitting, step, problem, load)

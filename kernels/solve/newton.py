@@ -47,7 +47,7 @@ DESCENT = np.dtype(
         [
             # Set before a minimisation.
             ("target", np.float64),  # of the driven coordinate, m
-            ("evaluated", np.bool_),  # whether `Workspace.found` is the evaluation at x
+            ("evaluated", np.bool_),  # whether `Workspace.evaluation` is of x
             # Over the minimisations of a step.
             # bound of the move, m, since the last factor of an exact Hessian without a negative
             # pivot; infinite: there is no such factor, or it has to be renewed.
@@ -98,7 +98,7 @@ def _longest(direction, coordinates):
 
 
 @jit_exact
-def _newton_direction(problem, found, work, remaining):
+def _newton_direction(problem, evaluation, work, remaining):
     """Fill ``work.direction`` with the Newton direction; return the slope g . direction in J.
 
     The driven coordinate moves by ``remaining`` m in it.
@@ -108,22 +108,22 @@ def _newton_direction(problem, found, work, remaining):
     if remaining != 0.0:
         problem.pull(remaining, direction)
     for i in range(direction.size):
-        direction[i] = -found.g[i] - direction[i]
+        direction[i] = -evaluation.g[i] - direction[i]
     problem.solve(direction)
     if remaining != 0.0:
         problem.lead(remaining, direction)
-    return dot(found.g, direction)
+    return dot(evaluation.g, direction)
 
 
 @jit_exact
-def _escape_direction(problem, found, work, pivot):
+def _escape_direction(problem, evaluation, work, pivot):
     """Fill ``work.escape`` with a descent direction of negative curvature, `Coordinates.leap` long.
 
     ``pivot``: d . H d of `Problem.descend`. Return slope and curvature along the direction, J.
     """
     coordinates = problem.scene.coordinates
     problem.descend(work.escape)
-    slope = dot(found.g, work.escape)
+    slope = dot(evaluation.g, work.escape)
     factor = coordinates.leap / _longest(work.escape, coordinates) * (-1.0 if slope > 0.0 else 1.0)
     for i in range(work.escape.size):
         work.escape[i] *= factor
@@ -205,7 +205,7 @@ def _start_move(x, problem, step, tolerance, work, descent, move):
 
 
 @jit_exact
-def _accept(x, problem, step, found, work, descent, move, share, halvings):
+def _accept(x, problem, step, evaluation, work, descent, move, share, halvings):
     """Copy the trial point, a ``share`` of the move, to ``x``.
 
     The duals of lagged forces follow a Newton step, but not a predictor. After many halvings they
@@ -216,7 +216,7 @@ def _accept(x, problem, step, found, work, descent, move, share, halvings):
     if halvings > DUAL_HALVINGS:
         problem.forget()
     elif descent.iterations >= 0:
-        descent.duals_fit = problem.follow(work.dx, share, step, found)
+        descent.duals_fit = problem.follow(work.dx, share, step, evaluation)
     descent.since_factor += share * move.longest
     if move.arrives and share == 1.0:
         x[problem.scene.coordinates.driven] = descent.target
@@ -224,7 +224,7 @@ def _accept(x, problem, step, found, work, descent, move, share, halvings):
 
 
 @jit_exact
-def _search(x, problem, step, noise, found, work, descent, move, share):
+def _search(x, problem, step, noise, evaluation, work, descent, move, share):
     """Halve the ``share`` of the move until the energy decreases enough, and accept that share.
 
     Return the outcome, `UNFINISHED` if a share is accepted.
@@ -233,22 +233,22 @@ def _search(x, problem, step, noise, found, work, descent, move, share):
     while halvings < HALVINGS and share >= LEAST_SHARE:
         for i in range(x.size):
             work.trial[i] = x[i] + share * work.dx[i]
-        problem.evaluate(work.trial, step, found, False)
-        reached = found.sums[0].potential
+        problem.evaluate(work.trial, step, evaluation, False)
+        reached = evaluation.sums[0].potential
         sufficient = move.any_energy or _decreases(reached, descent.potential, share, model, noise)
         if sufficient and reached < np.inf:
-            _accept(x, problem, step, found, work, descent, move, share, halvings)
+            _accept(x, problem, step, evaluation, work, descent, move, share, halvings)
             return UNFINISHED
         halvings, share = halvings + 1, 0.5 * share
     return STALLED if reached < np.inf else NOT_FINITE
 
 
 @jit_exact
-def _balance(x, problem, tolerance, found, work, descent):
+def _balance(x, problem, tolerance, evaluation, work, descent):
     """Measure the residual at ``x``; if it has fallen too slowly, the factor is to be renewed."""
     coordinates, before = problem.scene.coordinates, descent.residual
-    descent.potential = found.sums[0].potential
-    problem.reduce(found.g, work.residual)
+    descent.potential = evaluation.sums[0].potential
+    problem.reduce(evaluation.g, work.residual)
     descent.residual = largest_residual(work.residual, coordinates)
     descent.remaining = 0.0
     if coordinates.driven >= 0:
@@ -260,7 +260,7 @@ def _balance(x, problem, tolerance, found, work, descent):
 
 
 @jit_exact
-def _renew_factor(x, problem, step, tolerance, found, work, descent):
+def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
     """Factor the exact Hessian, and where it has a negative pivot the projected one, unless ``x``
     is an equilibrium.
 
@@ -268,7 +268,7 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
     ``work.escape``, J. Without a negative pivot that is not filled, and both are 0.
     """
     escape = (0.0, 0.0)
-    result, pivot = problem.factor(x, step, found, False, False)
+    result, pivot = problem.factor(x, step, evaluation, False, False)
     if result != NO_ROOM:
         limit = allowed(problem.stiffest(), tolerance)
         descent.balanced = descent.balanced and descent.residual <= limit
@@ -276,12 +276,12 @@ def _renew_factor(x, problem, step, tolerance, found, work, descent):
         descent.since_factor = 0.0 if descent.stable and descent.duals_fit else np.inf
         if descent.stable:
             return UNFINISHED, escape
-        escape = _escape_direction(problem, found, work, pivot)
+        escape = _escape_direction(problem, evaluation, work, pivot)
         if descent.balanced:
             return UNFINISHED, escape
-        # The trial point is x but for round-off of the driven coordinate: ``found`` stays as it is.
-        problem.evaluate(work.trial, step, found, True)
-        result, _ = problem.factor(x, step, found, True, False)
+        # The trial point is x but for round-off of the driven coordinate: what is evaluated stays.
+        problem.evaluate(work.trial, step, evaluation, True)
+        result, _ = problem.factor(x, step, evaluation, True, False)
     if result == NO_ROOM:
         descent.since_factor = np.inf
         return OUTGROWN, escape
@@ -305,30 +305,30 @@ def _is_settled(step, move, tolerance, descent):
 @jit_exact
 def _descend(x, problem, step, tolerance, workspace, descent, control):
     """Iterate as `minimise`; return the outcome."""
-    found, work, coordinates = workspace.found, workspace.work, problem.scene.coordinates
+    evaluation, work, coordinates = workspace.evaluation, workspace.work, problem.scene.coordinates
     move, escape = _predictor(x, work.dx, coordinates, descent.target), (0.0, 0.0)
     while True:
         if not descent.evaluated:
             outcome, share = _start_move(x, problem, step, tolerance, work, descent, move)
             if outcome == UNFINISHED:
                 outcome = _search(
-                    x, problem, step, tolerance.noise, found, work, descent, move, share
+                    x, problem, step, tolerance.noise, evaluation, work, descent, move, share
                 )
             if outcome != UNFINISHED:
                 return outcome
         descent.evaluated = False
-        _balance(x, problem, tolerance, found, work, descent)
+        _balance(x, problem, tolerance, evaluation, work, descent)
         if control[0] != 0:
             return INTERRUPTED
         if not descent.residual < np.inf:
             return NOT_FINITE
         if descent.since_factor > coordinates.close:
-            outcome, escape = _renew_factor(x, problem, step, tolerance, found, work, descent)
+            outcome, escape = _renew_factor(x, problem, step, tolerance, evaluation, work, descent)
             if outcome != UNFINISHED:
                 return outcome
         slope = 0.0
         if descent.stable or not descent.balanced:
-            slope = _newton_direction(problem, found, work, descent.remaining)
+            slope = _newton_direction(problem, evaluation, work, descent.remaining)
         if descent.stable and _is_settled(step, move, tolerance, descent):
             descent.decrement = -0.5 * slope
             if descent.decrement <= allowed_decrement(problem.stiffest(), tolerance, x.size):
@@ -343,9 +343,9 @@ def minimise(x, problem, step, tolerance, workspace, descent, control):
     """Minimise over ``x`` (n,), in place, with the driven coordinate at ``descent.target``.
 
     Start from the admissible share of ``x`` + ``work.dx`` or, if ``descent.evaluated``, from ``x``,
-    whose evaluation is in ``workspace.found``. Return the outcome and fill ``descent``. OUTGROWN:
-    the neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an
-    entry: renew them and call again. control[0] != 0 interrupts.
+    which ``workspace.evaluation`` is of. Return the outcome and fill ``descent``. OUTGROWN: the
+    neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an entry:
+    renew them and call again. control[0] != 0 interrupts.
     """
     descent.iterations = 0 if descent.evaluated else -1
     descent.residual, descent.travel_bound = np.inf, 0.0

@@ -75,7 +75,7 @@ SUMS = np.dtype(
 )
 
 
-class Found(NamedTuple):
+class Evaluation(NamedTuple):
     """Result of `Problem.evaluate` at a point.
 
     g (n,): gradient of the potential, N; at supports it is the reaction. elastic, friction,
@@ -107,24 +107,24 @@ class Problem(Protocol):
     def begin(self, step, ahead, scratch):
         """Prepare data of the start of the step. ahead: `integrators.Ahead`. scratch (n,)."""
 
-    def evaluate(self, x, step, found, projected):
-        """Return the potential of the step at ``x`` in J, and fill ``found``.
+    def evaluate(self, x, step, evaluation, projected):
+        """Return the potential of the step at ``x`` in J, and fill ``evaluation``.
 
         projected: `factor`, called with the same flag, is to use the positive semi-definite
         projection of the Hessian.
         """
 
-    def store(self, x, step, found):
-        """Renew what `project` may have changed in ``found.stored``, in a step of no duration.
+    def store(self, x, step, evaluation):
+        """Renew what `project` may have changed in ``evaluation.stored``, in a step of no duration.
 
-        The gradient is added to ``found.elastic``, which is not read before the next `evaluate`.
+        The gradient is added to ``evaluation.elastic``, which the next `evaluate` sets.
         """
 
-    def commit(self, x, step, found):
+    def commit(self, x, step, evaluation):
         """Accept ``x``, the point of the last `evaluate`: commit the state of the material laws.
 
-        Correct ``found.stored`` to the stored energy and fill ``sums.dissipated``. Coordinates may
-        be re-based here: the solver never subtracts two accepted positions.
+        Correct ``evaluation.stored`` to the stored energy and fill ``sums.dissipated``. Coordinates
+        may be re-based here: the solver never subtracts two accepted positions.
         """
 
     def roll_back(self, step):
@@ -132,7 +132,7 @@ class Problem(Protocol):
 
     # The linear system at the point of the last `evaluate`.
 
-    def factor(self, x, step, found, projected, through):
+    def factor(self, x, step, evaluation, projected, through):
         """Factor the Hessian; return the result and the first negative pivot.
 
         projected: as in the last `evaluate`. POSITIVE: all pivots are positive. NEGATIVE: one is
@@ -184,10 +184,10 @@ class Problem(Protocol):
     def lag(self, y):
         """Lag the forces at ``y``; return whether there are any now, or were before."""
 
-    def exchange(self, step, found):
-        """Replace the lagged part of ``found`` by that of the present forces; return potential."""
+    def exchange(self, step, evaluation):
+        """Replace the lagged part of ``evaluation`` by that of the present forces; return E."""
 
-    def follow(self, dx, share, step, found):
+    def follow(self, dx, share, step, evaluation):
         """Update dual variables of lagged forces in a share of a Newton step ``dx``.
 
         Return whether they agree with the primal ones at the end, so that the factor may be kept.
@@ -206,7 +206,7 @@ class Problem(Protocol):
     def covers_projection(self, x):
         """Return whether the neighbour lists hold for `project` at ``x``."""
 
-    def write(self, out, k, state, found):
+    def write(self, out, k, state, evaluation):
         """Write row ``k`` of the history, and its frame if one is asked for."""
 
 

@@ -98,14 +98,14 @@ def is_tighter(one, other):
 
 
 @jit_exact
-def largest_force(coordinates, state, found, load):
-    """Return the largest force on a coordinate in the step ``found`` and all before, N.
+def largest_force(coordinates, state, evaluation, load):
+    """Return the largest force on a coordinate in the step of ``evaluation`` and all before, N.
 
     load: `largest_load` of the step. Damping is left out: in a very short step it magnifies the
     round-off of positions.
     """
     lever, force = coordinates.lever, max(state.totals[0].force, load)
-    for part in (found.elastic, found.friction):
+    for part in (evaluation.elastic, evaluation.friction):
         for i in range(part.size):
             force = max(force, abs(part[i]) * lever[i])
     return force
@@ -121,7 +121,7 @@ def _largest_inertia(coordinates, v, h):
 
 
 @jit_exact
-def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
+def is_resolved(problem, step, tolerance, state, evaluation, work, load, decrement):
     """Return whether the residual of a step is small enough.
 
     It is if only a prescribed move drives the problem, or nothing drives it in a static step.
@@ -132,12 +132,12 @@ def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
     if step.dynamic and state.book[0].kinetic > tolerance.noise:
         driving = max(driving, _largest_inertia(coordinates, state.v, step.h))
     if driving == 0.0:
-        stored = total(state.stored) + total(found.stored)
+        stored = total(state.stored) + total(evaluation.stored)
         if coordinates.driven >= 0 or not step.dynamic or stored <= tolerance.noise:
             return True
-    force = max(driving, largest_force(coordinates, state, found, load))
+    force = max(driving, largest_force(coordinates, state, evaluation, load))
     limit, left, h2 = LARGEST_RESIDUAL * force, 2.0 * decrement, step.h * step.h
-    problem.reduce(found.g, work.residual)
+    problem.reduce(evaluation.g, work.residual)
     if largest_residual(work.residual, coordinates) <= limit:
         return True
     for i in range(state.x.size):
@@ -147,4 +147,4 @@ def is_resolved(problem, step, tolerance, state, found, work, load, decrement):
         if heavy and abs(work.residual[i]) > limit:
             return False
         left += abs(work.residual[i] * (state.x[i] - step.x0[i]))
-    return left <= LARGEST_IMBALANCE * largest_energy(problem, step, state, found)
+    return left <= LARGEST_IMBALANCE * largest_energy(problem, step, state, evaluation)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_owning
-from kernels.solve.problem import SUMS, Found
+from kernels.solve.problem import SUMS, Evaluation
 
 
 class Work(NamedTuple):
@@ -23,9 +23,9 @@ class Work(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """found, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`)."""
+    """evaluation, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`)."""
 
-    found: Found
+    evaluation: Evaluation
     work: Work
     x0: np.ndarray
     y: np.ndarray
@@ -37,5 +37,5 @@ def make_workspace(n, stored):
     """Return the arrays for ``n`` coordinates and ``stored`` kinds of stored energy."""
     a, b, c = np.zeros((5, n)), np.zeros((5, n)), np.zeros((3, n))
     sums = np.zeros(1, SUMS)
-    found = Found(a[0], a[1], a[2], a[3], a[4], np.zeros(stored), sums)
-    return Workspace(found, Work(b[0], b[1], b[2], b[3], b[4]), c[0], c[1], c[2])
+    evaluation = Evaluation(a[0], a[1], a[2], a[3], a[4], np.zeros(stored), sums)
+    return Workspace(evaluation, Work(b[0], b[1], b[2], b[3], b[4]), c[0], c[1], c[2])

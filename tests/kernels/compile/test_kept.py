@@ -6,7 +6,7 @@ import numpy as np
 
 from kernels.compile.kernel import Kernel, is_of_kernels
 from kernels.compile.reference import by_reference
-from kernels.solve.problem import Found
+from kernels.solve.problem import Evaluation
 
 
 class Pair(NamedTuple):
@@ -44,7 +44,7 @@ def test_what_is_compiled_for_tuples_from_elsewhere_is_not_kept(cache):
 
 def test_tuples_of_kernels_are_known():
     array = np.zeros(1)
-    found = Found(*[array] * len(Found._fields))
+    found = Evaluation(*[array] * len(Evaluation._fields))
     assert is_of_kernels(found)
     assert is_of_kernels(by_reference(found))
     assert not is_of_kernels(found._replace(u=Pair(array, 1.0)))

@@ -218,7 +218,7 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
     """Nothing else is looked at: pairs for such a move would be listed for ever."""
     correct = getattr(arc_length._correct, "__wrapped__", arc_length._correct)
-    workspace = SimpleNamespace(found=None, work=SimpleNamespace(direction=0, escape=0))
+    workspace = SimpleNamespace(evaluation=None, work=SimpleNamespace(direction=0, escape=0))
     problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))
     found = correct(None, problem, None, 1.0, workspace, None, SimpleNamespace(longest_move=move))
     assert found == outcomes.NOT_FINITE

@@ -251,5 +251,5 @@ def test_the_residual_is_not_measured_by_an_old_factor():
         x, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int)
     )
     assert outcome == outcomes.CONVERGED
-    assert abs(workspace.found.g[0]) < 1e-10
+    assert abs(workspace.evaluation.g[0]) < 1e-10
     assert x[0] > -WIDTH + 0.01

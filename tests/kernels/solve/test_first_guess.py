@@ -28,7 +28,7 @@ def guess():
     progress.share = 1.0
 
     def set_out(move, last=STEP):
-        u = workspace.found.u
+        u = workspace.evaluation.u
         u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
         state_, workspace_ = by_reference(state), by_reference(workspace)

@@ -345,7 +345,7 @@ class Shares:
         """Reject a share for its outcome, with an error so many times the allowed one."""
         problem = SimpleNamespace(roll_back=lambda step: None)
         state = SimpleNamespace(x=np.zeros(1))
-        workspace = SimpleNamespace(x0=np.zeros(1), found=SimpleNamespace(u=np.zeros(1)))
+        workspace = SimpleNamespace(x0=np.zeros(1), evaluation=SimpleNamespace(u=np.zeros(1)))
         reject = getattr(march._reject, "__wrapped__", march._reject)
         reject(outcome, ratio, problem, None, state, workspace, self.descent, self.progress)
 

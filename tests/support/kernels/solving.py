@@ -12,7 +12,7 @@ from kernels.planar import problem as planar
 from kernels.planar.problem import Planar
 from kernels.shared.rows import ROW, STORED, Output
 from kernels.solve import march, newton, outcomes
-from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Found, Step
+from kernels.solve.problem import FREE, NEGATIVE, NO_ROOM, Evaluation, Step
 from kernels.solve.workspace import make_workspace
 from kernels.terms import contact, fold, friction, spring
 from sweep.scene.lattice import build_scene
@@ -47,9 +47,9 @@ class Whole:
         """The same with other contacts that have friction."""
         return self.beside(referred(self.neighbours)._replace(lagged_contacts=lagged_contacts))
 
-    def found(self, x, projected=False) -> tuple[float, Found]:
+    def found(self, x, projected=False) -> tuple[float, Evaluation]:
         """Energy and what else `evaluate` finds at ``x``."""
-        found = make_workspace(x.size, STORED).found
+        found = make_workspace(x.size, STORED).evaluation
         return self.problem.evaluate(x, self.step, found, projected), found
 
     def energy_gradient(self, x):
@@ -192,7 +192,7 @@ def descend(
     workspace.work.dx[:] = 0.0 if move is None else move
     if evaluated:
         workspace.work.trial[:] = x
-        problem.evaluate(x, args.step, workspace.found, False)
+        problem.evaluate(x, args.step, workspace.evaluation, False)
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(

@@ -63,7 +63,7 @@ def test_the_book_enters_what_contact_gains():
     of = fresh()
     x = pinched(of)
     of_step = whole(of, x)
-    state, found = of.at_rest(), workspace.make_workspace(x.size, STORED).found
+    state, found = of.at_rest(), workspace.make_workspace(x.size, STORED).evaluation
     state.x[:] = x
     of_step.problem.evaluate(x, of_step.step, found, False)
     state.stored[:], before = found.stored, found.stored.copy()
