@@ -27,14 +27,13 @@ from sweep.modes import MODES
 from sweep.numbers import energy_text, in_unit, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
-    INTEGRATOR,
     PARTS,
     crushes,
     headline,
     last_loaded,
-    parts_of,
     path_of,
     shots,
+    stacked,
     turns,
 )  # fmt: skip
 from sweep.report.outlines import outlines
@@ -169,22 +168,17 @@ def _energy(joules: float, row: Mapping[str, Any]) -> str:
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     """The parts of the work done, stacked, in mJ: stored, kinetic, dissipated.
 
-    Over the path of a driven platen, down and back; otherwise over time. What time integration has
-    gained is no part of the work: it is added to that.
+    Over the path of a driven platen, down and back; otherwise over time.
     """
-    parts, mode = parts_of(history), MODES[row["loading_mode"]]
-    gain = in_unit(-history[INTEGRATOR].clip(upper=0.0), "mJ")
-    gains = INTEGRATOR in parts and bool(gain.any())
-    total = mode.total + (" + gained in time integration" if gains else "")
-    work = in_unit(history["work_in_J"], "mJ") + gain
-    place, words = path_of(history, row)
-    ax.set_xlabel(words)
-    for at, words in turns(history, row).items():
-        mark(ax, place[at], words, after=words.startswith("cycle"))
-    colors = [COLORS[name] for name in parts]
-    values = [in_unit(history[name].clip(lower=0.0), "mJ") for name in parts]
-    ax.stackplot(place, *values, colors=colors, labels=list(parts.values()), linewidth=0)
-    ax.plot(place, work, color="black", lw=1.4, label=total)
+    total, words, parts = stacked(history, row)
+    work, values = in_unit(total, "mJ"), in_unit(parts, "mJ").to_numpy().T
+    place, label = path_of(history, row)
+    ax.set_xlabel(label)
+    for at, turn in turns(history, row).items():
+        mark(ax, place[at], turn, after=turn.startswith("cycle"))
+    colors, labels = [COLORS[name] for name in parts], [PARTS[name] for name in parts]
+    ax.stackplot(place, *values, colors=colors, labels=labels, linewidth=0)
+    ax.plot(place, work, color="black", lw=1.4, label=words)
     ax.set_ylabel("energy, mJ")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from pandas import Series
 
 INTEGRATOR = "dissipated_integrator_J"
+GAINED = " + gained in time integration"
 PARTS = {
     "stretch_J": "stretching",
     "bend_J": "bending",
@@ -101,6 +102,17 @@ def parts_of(history: DataFrame) -> dict[str, str]:
     """The `PARTS` that are not negligible in a case."""
     least = NEGLIGIBLE * history["work_in_J"].abs().max()
     return {name: words for name, words in PARTS.items() if history[name].abs().max() > least}
+
+
+def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
+    """What the energies of a case add up to (J), in words, and the `parts_of` it, none negative.
+
+    That is the work done; what time integration has gained is no part of the work, but added to it.
+    """
+    parts, total = parts_of(history), MODES[row["loading_mode"]].total
+    gain = -history[INTEGRATOR].clip(upper=0.0)
+    total += GAINED if INTEGRATOR in parts and gain.any() else ""
+    return history["work_in_J"] + gain, total, history[list(parts)].clip(lower=0.0)
 
 
 def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:

@@ -25,7 +25,7 @@ from sweep.ranking.scenes import by_scene, scene_label
 from sweep.ranking.unfinished import interrupted, loaded, same_scenes, stroke_left, unloaded
 from sweep.report.figures.flattened import plan
 from sweep.report.figures.panel_piece import piece, places
-from sweep.report.figures.storyboard import last_loaded, parts_of, path_of
+from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
     SCENES,
     Counted,
@@ -228,7 +228,7 @@ def _scene(rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
     return {
         "label": scene_label(rows),
         "mode": rows["loading_mode"].iloc[0],
-        **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead", "total")},
+        **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead")},
         "axes": [axis.label for axis in mode.curve],
         "shown": mode.least and mode.least._asdict(),
         "least": least,
@@ -292,12 +292,12 @@ class _Stored:
         return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
 
     def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Work done and its parts (J) over the path."""
-        parts = parts_of(history)
-        place, label = path_of(history, row)
-        columns = [place, *(history[name] for name in ("work_in_J", *parts))]
+        """Work done and its parts (J) over the path: `stacked`."""
+        (total, words, parts), (place, label) = stacked(history, row), path_of(history, row)
+        columns = [place, total, *(parts[name] for name in parts)]
         values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
-        return {"label": label, "parts": list(parts.values()), "values": values}
+        names = [PARTS[name] for name in parts]
+        return {"label": label, "total": words, "parts": names, "values": values}
 
     def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
         """Greatest pressure (kPa) on a patch of the base over the path, where there is one."""

@@ -6,6 +6,10 @@ const NAMED = 3; // stopped cases below the answer
 const SHOWN = 15; // rows of the table before all are asked for
 const MANY = 150; // designs of a scene: their dots are smaller
 const COLORS = 6;
+const HUES = 8;
+const HUED = ["pattern", "material", "pressed"]; // heads whose choices dots may be coloured by
+const NARROW = 560; // px: the window of a phone, as in page.css
+const LINKED = 300; // ms after which a question is in the address
 const FIRST = 3; // best designs whose curves are shown until others are chosen
 const PER_SECOND = 12; // frames
 const LENGTH = { low: 10, high: 1000 }; // mm, of a panel
@@ -14,6 +18,7 @@ const asked = { scene: 0, budget: null, panel: null, force: null, require: {}, p
 const view = { sort: null, up: true, all: false, chosen: null, current: null, frame: 0, timer: null };
 let now = null; // the ranking that is shown
 let player = null;
+let linking = null;
 
 function scene() {
   return data.scenes[asked.scene];
@@ -293,15 +298,19 @@ function until() {
   return `until the force of ${noun} exceeds ${Number(asked.force.toPrecision(6))} N`;
 }
 
+// The drawing of a design, if the page has it.
+function drawn(design) {
+  return data.drawings[design.drawing] ? [drawingOf(data.drawings[design.drawing])] : [];
+}
+
 function showPicture({ design }) {
-  if (design.drawing !== undefined && design.drawing !== null) $("picture").append(drawingOf(data.drawings[design.drawing]));
+  $("picture").append(...drawn(design));
 }
 
 function showAnswer() {
   const best = now.placed[0];
   const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
-  $("picture").replaceChildren();
-  $("command").replaceChildren();
+  for (const name of ["picture", "command", "print"]) $(name).replaceChildren();
   if (!best) {
     const none = asked.budget !== null && Number.isFinite(now.lightest) && greatestMass(data, asked) < now.lightest;
     $("sentence").textContent = none
@@ -323,6 +332,8 @@ function showAnswer() {
   showPicture(best);
   $("detail").textContent = detail(best).join(" ");
   showCommand();
+  if (scene().mode !== "custom")
+    $("print").append("To print it: ", element("code", {}, `crumple export ${fileWord()} ${best.design.id} --to best.3mf`));
 }
 
 function* words(best) {
@@ -385,17 +396,21 @@ function* stoppedText() {
   if (more > 0) yield `${more} more unfinished cases could have had a place${others}: see the failed cases below.`;
 }
 
+// The name of the results file as a word of a shell.
+function fileWord() {
+  return /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
+}
+
 // The command that prints the same ranking, if there is one.
 function showCommand() {
   if (asked.per === "panel" && !asked.panel) return;
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
   if (!(budgeted && paneled)) return;
-  const file = /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number(inUnits(side, "mm").toPrecision(6))} mm"`).join(" ")}` : "";
   const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
-  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${file}${budget}${panel}${force}${requiredOptions()}`));
+  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${fileWord()}${budget}${panel}${force}${requiredOptions()}`));
 }
 
 // The options that differ from what the config of the file requires.
@@ -480,8 +495,17 @@ function sorted(shown) {
   });
 }
 
+// On a phone what is compared comes first: place, infill, energy, energy per gram, mass.
+function arranged(shown) {
+  if (window.innerWidth > NARROW) return shown;
+  const noun = asked.panel ? "panel" : "usable";
+  const heads = ["#", "pattern", scene().shown?.head, `${noun} J`, `${noun} mJ`, "J/g", asked.panel ? "panel g" : "mass g"];
+  const early = heads.flatMap((head) => shown.filter((column) => column.head === head));
+  return [...early, ...shown.filter((column) => !early.includes(column))];
+}
+
 function showTable() {
-  const shown = columns();
+  const shown = arranged(columns());
   const heads = shown.map((column) => {
     const order = column.head === (view.sort ?? "#") ? (view.sort === null || view.up ? "ascending" : "descending") : null;
     const turn = () => {
@@ -513,7 +537,7 @@ function tableRow(row, shown) {
       onmouseenter: () => near(id, true),
       onmouseleave: () => near(id, false),
     },
-    element("td", {}, box),
+    element("td", {}, element("span", { class: "chosen" }, box, ...drawn(row.design))),
     ...cells,
   );
 }
@@ -564,6 +588,17 @@ function merit(row) {
   return scene().least ? row.value : row.energy;
 }
 
+// A function from a design to its colour: by what has the most choices among `HUED`, whose choices
+// are shown above the chart. The first ones have colours of their own.
+function hues() {
+  const choices = data.heads.map((head, i) => (HUED.includes(head) ? [...new Set(data.cases.map((design) => design.text[i]))].sort() : []));
+  const most = choices.findIndex((words) => words.length > 1 && words.length === Math.max(...choices.map((each) => each.length)));
+  const color = (k) => `--c${k < HUES ? k : 5}`;
+  const legend = (choices[most] ?? []).map((word, k) => element("span", {}, swatch(color(k)), word));
+  $("hues").replaceChildren(...legend);
+  return (design) => (most < 0 ? "--accent" : color(choices[most].indexOf(design.text[most])));
+}
+
 function showMap() {
   const { shown: least } = scene();
   const noun = asked.panel ? "panel" : "part";
@@ -585,7 +620,9 @@ function showMap() {
   const front = rows.filter((row) => row.pareto).sort((a, b) => a.mass - b.mass);
   const steps = front.flatMap((row, i) => (i ? [[row.mass, shown(front[i - 1])], [row.mass, shown(row)]] : [[row.mass, shown(row)]]));
   line(plot, steps.map(([mass]) => mass), steps.map(([, value]) => value), { class: "front" });
-  for (const row of rows) dot(plot, row, shown);
+  const hue = hues();
+  const behind = (row) => row.place !== undefined && row.pareto;
+  for (const row of [...rows].sort((a, b) => behind(a) - behind(b))) dot(plot, row, shown, hue(row.design));
 }
 
 function showLimit(plot) {
@@ -598,10 +635,10 @@ function showLimit(plot) {
   );
 }
 
-function dot(plot, row, shown) {
+function dot(plot, row, shown, hue) {
   const [x, y] = [plot.toX(row.mass), plot.toY(shown(row))];
   const placed = row.place !== undefined;
-  const kind = [placed ? "" : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
+  const kind = [placed ? (row.pareto ? "" : "behind") : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
   if (row.error && row.value) {
     const share = row.error / Math.abs(row.value);
     const inside = (v) => Math.min(Math.max(v, MARGIN.top), plot.bottom);
@@ -612,6 +649,7 @@ function dot(plot, row, shown) {
     shape("circle", {
       class: `dot ${kind.join(" ")}`,
       "data-dot": row.design.id,
+      style: `color: var(${hue})`,
       cx: x,
       cy: y,
       r: row.place === 1 ? 7 : now.rows.length > MANY ? 3 : 5,
@@ -625,11 +663,10 @@ function dot(plot, row, shown) {
 function showCard(plot, row, x, y) {
   const { design } = row;
   const card = $("card");
-  const drawn = design.drawing === undefined || design.drawing === null ? [] : [drawingOf(data.drawings[design.drawing])];
   const out = missText(row) || (row.value === null ? "not ranked" : "above the budget");
   const place = row.place === undefined ? out : `place ${placeText(row)}`;
   const values = `${digits(row.mass)} g, ${row.value === null ? "no value" : valueText(row) + percentOf(row)}`;
-  card.replaceChildren(...drawn, element("p", {}, design.label), element("p", {}, `${values}; ${place}`));
+  card.replaceChildren(...drawn(design), element("p", {}, design.label), element("p", {}, `${values}; ${place}`));
   card.hidden = false;
   const left = x + 206 > plot.width ? x - 202 : x + 12;
   card.style.left = `${Math.max(left, 0)}px`;
@@ -786,10 +823,9 @@ function showBook(design) {
     line(plot, [...place, ...[...place].reverse()], [...sum, ...back], { style: `fill: var(--p${partColor(book.parts[i])})` });
   });
   line(plot, place, work, { style: "stroke: var(--ink)", "stroke-width": 1.6 });
-  const { total } = scene();
   $("parts").replaceChildren(
     ...book.parts.map((name) => element("span", {}, swatch(`--p${partColor(name)}`), name)),
-    element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), total),
+    element("span", {}, element("span", { class: "swatch", style: "background: var(--ink); height: 3px" }), book.total),
   );
 }
 
@@ -813,8 +849,24 @@ function partColor(name) {
 
 // ---- everything ----
 
+// A link to the page opens with the question that is asked now.
+function keepLink() {
+  clearTimeout(linking);
+  linking = setTimeout(() => {
+    const link = `#${linkOf(asked)}`;
+    if (location.hash !== link) history.replaceState(null, "", link);
+  }, LINKED);
+}
+
+function follow() {
+  const question = questionOf(location.hash.slice(1), data);
+  if (question) Object.assign(asked, question);
+  $("scene").value = asked.scene;
+}
+
 function refresh() {
   settle();
+  keepLink();
   now = ranked(data, asked);
   showAsked();
   showAnswer();
@@ -838,6 +890,11 @@ function start() {
   $("scene").addEventListener("change", () => {
     asked.scene = Number($("scene").value);
     Object.assign(view, { chosen: null, current: null, sort: null });
+    refresh();
+  });
+  follow();
+  window.addEventListener("hashchange", () => {
+    follow();
     refresh();
   });
   $("unit").addEventListener("change", refresh);

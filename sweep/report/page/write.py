@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 HERE = Path(__file__).parent
-PROGRAM = ("rank.js", "plots.js", "page.js")
+PROGRAM = ("rank.js", "link.js", "plots.js", "page.js")
 IN_HTML = ("failures", "failed", "about", "config", "total", "designs")
 TOP, TOP_OF_A_BUDGET = 10, 3
 LEFT_OUT = (

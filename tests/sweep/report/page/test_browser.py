@@ -306,6 +306,26 @@ def test_heads_sort_the_rows_without_changing_places(tab):
     assert dict(tab.run(ROWS)) == before
 
 
+def test_a_link_opens_with_the_question_that_was_asked(tab):
+    put(tab, "budget", "45.5")
+    put(tab, "max_force", "60")
+    wait = "new Promise((done) => setTimeout(() => done(location.hash), 600))"
+    link, shown = tab.run(wait), tab.run(ROWS)
+    put(tab, "budget-on", False, what="checked", event="change")
+    assert tab.run(ROWS) != shown
+    tab.run(f"location.hash = {json.dumps(link)}")
+    tab.run(wait)
+    assert tab.run(ROWS) == shown
+
+
+def test_on_a_phone_what_is_compared_comes_first(chromium, file):
+    chromium.open(file.replace(".h5", ".html"), 390, 900)
+    assert heads(chromium)[0] == "#"
+    compared = [heads(chromium).index(head) for head in ("J/g", "panel g")]
+    assert max(compared) <= 4
+    assert chromium.run("document.querySelectorAll('#table tbody svg').length") > 1
+
+
 def test_a_click_chooses_a_design(tab):
     last = tab.run(ROWS)[-1][0]
     curves = tab.run("document.querySelectorAll('#curves polyline').length")
