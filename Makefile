@@ -34,9 +34,10 @@ rank: setup  ## rank the results of CONFIG again, running the sweep first if the
 	else $(PYTHON) -m sweep run "$(CONFIG)" --out "$(RESULTS)" || test $$? -eq 1; fi
 	@$(PYTHON) -m sweep rank "$(RESULTS)" --out "$(TABLES)"
 
-lint: setup  ## check style and types
+lint: setup  ## check style and types, those of Windows too
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
+	$(PYTHON) -m mypy --platform win32 --cache-dir .mypy_cache/win32
 
 # Kernels are compiled by the tests of these, once (tests/conftest.py).
 test: setup lint  ## check style and types, then run the tests, in two processes
