@@ -1,7 +1,6 @@
 """One writer at a time, also where the file system has no locks."""
 
 import errno
-import fcntl
 import os
 import socket
 import subprocess
@@ -13,6 +12,8 @@ from sweep.store.lock import LockedError, exclusive
 from sweep.store.read import StoreError, read_summary
 from sweep.store.write import Writer
 from tests.support.results.standin import cases, write
+
+fcntl = pytest.importorskip("fcntl")  # Windows has none
 
 
 @pytest.fixture(params=[errno.ENOLCK, errno.EOPNOTSUPP])
