@@ -13,8 +13,8 @@ ENV CRUMPLE_CACHE_DIR=/opt/crumple MPLCONFIGDIR=/tmp/matplotlib
 COPY --from=build /wheels /wheels
 RUN pip install --no-cache-dir --constraint /wheels/pins.txt /wheels/*.whl && rm -r /wheels \
     && crumple warm && chmod -R a+rwX /opt/crumple \
-    && useradd --create-home crumple
-USER crumple
+    && useradd --create-home --uid 1000 crumple
+USER 1000
 WORKDIR /work
 ENTRYPOINT ["crumple"]
 CMD ["--help"]
