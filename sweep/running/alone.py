@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager, suppress
 from math import inf
 from multiprocessing import Pipe
+from sysconfig import get_path
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ else:
 
 MOMENT = 0.2  # seconds between two checks for a stop
 GRACE = 1.0  # seconds after its time limit in which a case may end by itself
+OWN = get_path("stdlib")  # Python's own modules come first: a file may have the name of one
 PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answer({})"
 BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
@@ -111,7 +113,7 @@ class Child(AbstractContextManager["Child"]):
 
     def _begin(self) -> None:
         self._channel, there = Pipe()
-        places = [place for place in sys.path if place]
+        places = sorted(filter(None, sys.path), key=lambda place: not place.startswith(OWN))
         of = f"{there.fileno()}, {os.getpid()}"
         program = PROGRAM.format(of, places=places, module=__name__)
         with there:

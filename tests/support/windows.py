@@ -28,6 +28,7 @@ def pretend():
         import_module(name)
     for name in LACKING:
         delattr(os, name)
+    os.process_cpu_count = os.cpu_count  # of Python 3.13
     for name in ("fcntl", "resource"):
         sys.modules[name] = None
     for name in ("replace", "rename", "unlink", "remove"):
