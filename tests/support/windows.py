@@ -6,6 +6,7 @@
 import fcntl
 import multiprocessing.connection
 import os
+import shutil
 import subprocess
 import sys
 from importlib import import_module
@@ -29,6 +30,7 @@ def pretend():
     for name in LACKING:
         delattr(os, name)
     os.process_cpu_count = os.cpu_count  # of Python 3.13
+    shutil._use_fd_functions = False
     for name in ("fcntl", "resource"):
         sys.modules[name] = None
     for name in ("replace", "rename", "unlink", "remove"):
