@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 from sweep.store.read import read_statuses, read_summary
+from tests.support.windows import FORBIDDEN
 
 PROGRAM = """
 from tests.support.windows import pretend
@@ -27,11 +28,14 @@ crumple("run small.toml --out a.h5")  # replaces the file whose rows it takes ov
 crumple("run small.toml --out b.h5 --processes 2")
 crumple("run small.toml --dry-run --out none.h5")
 crumple("merge c.h5 a.h5 b.h5")
-for words in ("rank", "rank --csv", "rank --out tables", "status", "verify", "report"):
-    crumple(words.replace(" ", " c.h5 ", 1) if " " in words else f"{words} c.h5")
+for words in ("rank", "status", "verify", "report"):
+    crumple(f"{words} c.h5")
+for words in ("--csv", "--json", "--markdown", "--out tables"):
+    crumple(f"rank c.h5 {words}")
 crumple("show c.h5 1 --out pictures")
 crumple("export c.h5 1 --to part.stl")
-crumple("materials")
+for words in ("materials", "materials cheetah", "published", "new mine", "card smoke"):
+    crumple(words)
 with Writer("c.h5"):
     assert main("run small.toml --out c.h5".split()) == 2
 """
@@ -60,9 +64,10 @@ def test_a_whole_sweep(tmp_path):
     assert refused.startswith("crumple run: Another run is writing into c.h5 (process ")
     names = {path.name for path in tmp_path.iterdir()}
     assert names == {
-        "a.h5", "b.h5", "c.h5", "c.html", "linux.h5", "part.stl", "pictures", "small.toml",
-        "tables",
+        "a.h5", "b.h5", "c.h5", "c.html", "crumple.schema.json", "linux.h5", "mine.toml",
+        "part.stl", "pictures", "small.toml", "tables",
     }  # fmt: skip
+    assert not [path for path in tmp_path.rglob("*") if {*path.name}.intersection(FORBIDDEN)]
     usual = read_summary(tmp_path / "linux.h5")["absorbed_energy_J"]
     for name in ("a.h5", "b.h5", "c.h5"):
         assert [*read_statuses(tmp_path / name).values()] == ["converged"] * 6
