@@ -13,7 +13,7 @@ STAMP = .venv/.ready
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
 .PHONY: help setup sweep rank test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
-        bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces gyroid_mesh bench published experiment along figures lint clean
+        bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces gyroid_mesh bench published experiment along figures site lint clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -34,9 +34,15 @@ rank: setup  ## rank the results of CONFIG again, running the sweep first if the
 	else $(PYTHON) -m sweep run "$(CONFIG)" --out "$(RESULTS)" || test $$? -eq 1; fi
 	@$(PYTHON) -m sweep rank "$(RESULTS)" --out "$(TABLES)"
 
-lint: setup  ## check style and types
+site: setup  ## build the documentation as a site that can be searched, into build/site/ (CONTRIBUTING.md)
+	@rm -rf build/pages && mkdir -p build/pages
+	@find CHANGELOG.md CONTRIBUTING.md GLOSSARY.md README.md configs docs kernels -name '*.md' -o -name '*.png' -o -name '*.ipynb' | tar cf - -T - | tar xf - -C build/pages
+	@$(PYTHON) -m mkdocs build --strict
+
+lint: setup  ## check style and types, those of Windows too
 	$(PYTHON) -m ruff check
 	$(PYTHON) -m mypy
+	$(PYTHON) -m mypy --platform win32 --cache-dir .mypy_cache/win32
 
 # Kernels are compiled by the tests of these, once (tests/conftest.py).
 test: setup lint  ## check style and types, then run the tests, in two processes

@@ -91,8 +91,8 @@ solver.integrator, solver.element, contact.model and the like; solver.time_step,
 WARM = """Compile the kernels now, so that the next run starts at once; otherwise the first run
 compiles them. It takes a minute or two, or three by the stock compiler (CRUMPLE_COMPILER),
 and again after an update of Crumple or of its packages. The code is kept in CRUMPLE_CACHE_DIR, else
-in ~/.cache/crumple: one call serves all machines of a cluster that share this folder and have the
-same processor."""
+in the cache folder of the user, ~/.cache/crumple on Linux: one call serves all machines of a
+cluster that share this folder and have the same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
 Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that

@@ -17,6 +17,11 @@ def plain(text: object) -> str:
     return CONTROL.sub(lambda found: ascii(found.group())[1:-1], str(text))
 
 
+def csv_text(table: "DataFrame") -> str:
+    """A table as the text of a CSV file without formulas, whose lines end alike on all systems."""
+    return without_formulas(table).to_csv(index=False, lineterminator="\n")
+
+
 def without_formulas(table: "DataFrame") -> "DataFrame":
     """A table in whose texts no program finds a formula: those that begin like one get a quote."""
     from pandas.api.types import is_numeric_dtype

@@ -20,6 +20,7 @@ import llvmlite
 import llvmlite.binding
 import numba
 import numpy as np
+from platformdirs import user_cache_path
 
 from kernels.compile.choice import compiler
 
@@ -41,11 +42,10 @@ def fingerprint(sources):
 
 
 def cache_home():
-    """CRUMPLE_CACHE_DIR if it is set, else `crumple` in the user's cache directory."""
-    chosen = os.environ.get("CRUMPLE_CACHE_DIR")
-    if chosen:
+    """CRUMPLE_CACHE_DIR if it is set, else the cache folder that the system has for programs."""
+    if chosen := os.environ.get("CRUMPLE_CACHE_DIR"):
         return Path(chosen).absolute()
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "crumple"
+    return user_cache_path("crumple", appauthor=False)
 
 
 def last_used(folder):

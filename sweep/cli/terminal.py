@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from shlex import quote
+from subprocess import list2cmdline
 from textwrap import wrap
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -80,10 +81,10 @@ def next_commands(file: str, ranking: Ranking) -> Iterator[str]:
     Where no design is ranked, `nearest_commands` says more.
     """
     yield f"results: {file}"
-    name = quote(file)
+    name = quoted(file)
     if len(ranking.table):
         yield f"next: crumple show {name} 1: pictures of the first design"
-        folder = quote(file.removesuffix(".h5"))
+        folder = quoted(file.removesuffix(".h5"))
         yield f"      crumple rank {name} --out {folder}: tables and pictures"
     elif ranking.failed == ranking.cases:
         yield f"next: crumple status {name}: what failed, and why"
@@ -97,7 +98,7 @@ def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterato
     for label in ranking.scenes:
         if label not in placed and (instead := ranking.instead(label)):
             word, row = instead
-            name, case_id = quote(file), short_id(row["case_id"].item(), summary["case_id"])
+            name, case_id = quoted(file), short_id(row["case_id"].item(), summary["case_id"])
             yield f"to see the {word}: crumple show {name} {case_id}"
             yield f"to print it: crumple export {name} {case_id} --to part.stl"
             return
@@ -271,6 +272,11 @@ def _terminal_table(table: Fitted) -> Table:
             made.add_section()
         made.add_row(*map(Text, row))
     return made
+
+
+def quoted(name: str) -> str:
+    """The name of a file as the shells of this system take it."""
+    return list2cmdline([name]) if sys.platform == "win32" else quote(name)
 
 
 def say(text: object, end: str = "\n") -> None:

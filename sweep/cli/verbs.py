@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from shlex import quote
 from typing import TYPE_CHECKING
 
 from sweep.cli.question import asked, drop_heights, stored_heights, stored_table
@@ -15,12 +14,13 @@ from sweep.cli.terminal import (
     nearest_commands,
     print_ranking,
     print_sheets,
+    quoted,
     say,
     say_all,
     warnings,
 )
 from sweep.numbers import text_in
-from sweep.plain_text import without_formulas
+from sweep.plain_text import csv_text
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -135,7 +135,7 @@ def rank(arguments: Namespace) -> int:
         if not arguments.markdown:
             hint(line for scene in ranking.scenes for line in narrow_note(ranking.narrow[scene]))
         if arguments.csv:
-            say(without_formulas(ranking.with_unfinished).to_csv(index=False), end="")
+            say(csv_text(ranking.with_unfinished), end="")
         elif arguments.json:
             say(ranking.with_unfinished.to_json(orient="records", indent=2, double_precision=15))
         else:
@@ -241,7 +241,7 @@ def new(arguments: Namespace) -> int:
     """Write a first config."""
     from sweep.cli.new import new as write
 
-    path = quote(str(write(arguments.name, arguments.kind, arguments.out)))
+    path = quoted(str(write(arguments.name, arguments.kind, arguments.out)))
     say(f"{path}: change it, then: crumple run {path} --dry-run")
     hint(["crumple.schema.json, beside it, lets an editor complete and mark its keys"])
     return DONE

@@ -12,7 +12,7 @@ from pandas import concat
 
 from sweep.modes import MODES, has
 from sweep.numbers import in_unit
-from sweep.plain_text import without_formulas
+from sweep.plain_text import csv_text
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.merit import unequal_periods
@@ -67,7 +67,7 @@ def publish_ranking(
     tables = markdown(ranking_sheets(shown, summary))
     explained = "" if shown.table.empty else f"\n{legend(shown)}\n"
     text.write_text(f"{tables}{explained}", encoding="utf-8")
-    without_formulas(ranking.with_unfinished).to_csv(table, index=False)
+    table.write_text(csv_text(ranking.with_unfinished), encoding="utf-8", newline="\n")
     figures = _sweep_figures(file, shown, ranking, drop_heights)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
 
@@ -101,7 +101,8 @@ def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], 
     text, table = file.with_suffix(".md"), file.with_suffix(".csv")
     text.write_text(markdown(sheets), encoding="utf-8")
     settings = [study.settings.assign(scene=title) for title, study in titled.items()]
-    without_formulas(concat(settings, ignore_index=True)).to_csv(table, index=False)
+    tabulated = csv_text(concat(settings, ignore_index=True))
+    table.write_text(tabulated, encoding="utf-8", newline="\n")
     figure = case_plots.blank(13.0, 3.6 * len(titled))
     work_precision(figure, titled)
     return sheets, [text, table, case_plots.save(figure, file.with_suffix(".png"))]

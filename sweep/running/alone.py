@@ -1,6 +1,6 @@
 """A case whose failure is its own: an exception is a row, and so is the death of its process.
 
-A process of cases runs `answer`; function, cases and results pass through a socket. It gets the
+A process of cases runs `answer`; function, cases and results pass through a pipe. It gets the
 paths of this process when it has started: a module there may have a name of Python's own.
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager, suppress
 from math import inf
 from multiprocessing import Pipe
-from multiprocessing.connection import Connection
+from sysconfig import get_path
 from typing import Any
 
 import numpy as np
@@ -22,9 +22,15 @@ from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
 from sweep.running.memory import limited_memory
 
+if sys.platform == "win32":
+    from multiprocessing.connection import PipeConnection as Connection
+else:
+    from multiprocessing.connection import Connection
+
 MOMENT = 0.2  # seconds between two checks for a stop
 GRACE = 1.0  # seconds after its time limit in which a case may end by itself
-PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answer({descriptor})"
+OWN = get_path("stdlib")  # Python's own modules come first: a file may have the name of one
+PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answer({})"
 BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
 NO_MEMORY = "needs more memory than there is; try fewer cells, nodes or steps"
@@ -107,13 +113,11 @@ class Child(AbstractContextManager["Child"]):
 
     def _begin(self) -> None:
         self._channel, there = Pipe()
-        places = [place for place in sys.path if place]
-        program = PROGRAM.format(places=places, module=__name__, descriptor=there.fileno())
-        words = [sys.executable, "-P", "-c", program]
+        places = sorted(filter(None, sys.path), key=lambda place: not place.startswith(OWN))
+        of = f"{there.fileno()}, {os.getpid()}"
+        program = PROGRAM.format(of, places=places, module=__name__)
         with there:
-            self._process = subprocess.Popen(  # of a session of its own, which no Ctrl-C reaches
-                words, stdout=2, pass_fds=[there.fileno()], start_new_session=True
-            )
+            self._process = _started([sys.executable, "-P", "-c", program], there.fileno())
 
     def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
         """What comes within some time."""
@@ -126,10 +130,20 @@ class Child(AbstractContextManager["Child"]):
         return self._channel.recv()
 
 
-def answer(descriptor: int) -> None:
-    """Run the cases that come through a socket, and send their results, until it is closed."""
-    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    channel = Connection(descriptor)
+def _started(words: list[str], end: int) -> "subprocess.Popen[bytes]":
+    """A process that has one end of a pipe, in a session of its own, which no Ctrl-C reaches."""
+    if sys.platform == "win32":
+        os.set_handle_inheritable(end, True)
+        about = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [end]})
+        group = subprocess.CREATE_NEW_PROCESS_GROUP
+        return subprocess.Popen(words, stdout=2, startupinfo=about, creationflags=group)
+    return subprocess.Popen(words, stdout=2, pass_fds=[end], start_new_session=True)
+
+
+def answer(end: int, parent: int) -> None:
+    """Run the cases that come through a pipe, and send their results, until it is closed."""
+    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+    channel = Connection(end)
     with suppress(EOFError):
         while True:
             simulate, case = channel.recv()
@@ -140,9 +154,17 @@ def answer(descriptor: int) -> None:
 
 def _end_with(parent: int) -> None:
     """End this process when the one that asks has died."""
-    while os.getppid() == parent:
+    while _runs(parent):
         time.sleep(MOMENT)
     os._exit(1)
+
+
+def _runs(parent: int) -> bool:
+    if sys.platform == "win32":  # where what starts this process may be a launcher
+        from psutil import pid_exists
+
+        return pid_exists(parent)
+    return os.getppid() == parent
 
 
 def one_line(error: Exception) -> str:

@@ -10,7 +10,6 @@ Other programs share the cores as they do while the pilots run. The estimate may
 factor of two.
 """
 
-import os
 import time
 from bisect import bisect
 from collections.abc import Iterator, Sequence
@@ -59,7 +58,8 @@ The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as be
 """
 UNFOLDING = 0.25  # of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
-LOAD = Path("/proc/loadavg")
+LOAD = Path("/proc/loadavg")  # of Linux
+HALF = 50.0  # % of the time of a core that is busy
 MOMENT = 0.1  # seconds between two looks at it
 
 
@@ -178,8 +178,9 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
 def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
     """The function `simulate` in about `LONGEST`; it notes the processor time (s) of a case."""
     from dask.system import cpu_count
+    from psutil import getloadavg
 
-    longest = LONGEST * max((1.0 + os.getloadavg()[0]) / cpu_count(), 1.0)
+    longest = LONGEST * max((1.0 + getloadavg()[0]) / cpu_count(), 1.0)
 
     def run(case: Case, control: np.ndarray) -> Result:
         limit, middle = min(longest, case.solver.time_limit), [0]
@@ -239,8 +240,14 @@ def _other_threads() -> Iterator[list[int]]:
 
 
 def _running() -> int:
-    """Threads of the machine that run or could run, this one included."""
-    return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
+    """Threads of the machine that run or could run, this one included; elsewhere than on Linux, at
+    most as many as it has cores.
+    """
+    if LOAD.exists():
+        return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
+    from psutil import cpu_percent
+
+    return max(sum(percent > HALF for percent in cpu_percent(percpu=True)), 1)
 
 
 def duration(seconds: float) -> str:

@@ -11,11 +11,11 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.result import Result
 from sweep.running.alone import Simulate
+from sweep.store.lock import HOW
 from sweep.store.read import ID
 
 BEGUN, ENDED = "+", "-"
 LARGEST = 1 << 28  # bytes that are read
-HOW = os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW | os.O_NONBLOCK  # waits for no pipe
 
 
 class Journal:
@@ -33,17 +33,18 @@ class Journal:
         self.suspects: list[str] = []
 
     def __enter__(self) -> Self:
-        self._file = os.open(self._path, HOW, 0o644)
+        self._file = os.open(self._path, HOW | os.O_APPEND, 0o644)
         self.suspects = _running(self._text())
-        os.truncate(self._file, 0)
+        os.ftruncate(self._file, 0)
         for case_id in self.suspects:
             self._write(BEGUN, case_id)
         return self
 
     def __exit__(self, *_: object) -> None:
-        if not _running(self._text()):
-            self._path.unlink(missing_ok=True)
+        suspects = _running(self._text())
         os.close(self._file)
+        if not suspects:
+            self._path.unlink(missing_ok=True)
 
     def end(self, case_id: str) -> None:
         """Note that a suspect has ended, or is none."""
@@ -67,7 +68,8 @@ class Journal:
             os.write(self._file, f"{mark}{case_id}\n".encode())
 
     def _text(self) -> str:
-        return os.pread(self._file, LARGEST, 0).decode("ascii", "replace")
+        os.lseek(self._file, 0, os.SEEK_SET)
+        return os.read(self._file, LARGEST).decode("ascii", "replace")
 
 
 def _running(text: str) -> list[str]:

@@ -1,13 +1,14 @@
 """The memory that cases may have: as much as is free.
 
 A case that needs more gets a `MemoryError`, which is its row. Without a limit, Linux would promise
-it the memory, and kill a process when it is used: this one, or another one of the machine.
+it the memory, and kill a process when it is used: this one, or another one of the machine. Other
+systems have no such limit: Windows promises only what it has, macOS swaps.
 """
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit, setrlimit
 
 PROC, GROUPS = Path("/proc"), Path("/sys/fs/cgroup")
 GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of the second and the first version
@@ -17,13 +18,18 @@ USED, KB = 0.95, 1024  # the share of a control group that is data; the unit of 
 @contextmanager
 def limited_memory() -> Iterator[None]:
     """Limit the data of this process to what it has and what is free."""
-    soft, hard = getrlimit(RLIMIT_DATA)
-    limits = [limit for limit in (soft, hard) if limit != RLIM_INFINITY]
-    setrlimit(RLIMIT_DATA, (min([most_data(), *limits]), hard))
-    try:
+    if sys.platform == "linux":
+        from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit, setrlimit
+
+        soft, hard = getrlimit(RLIMIT_DATA)
+        limits = [limit for limit in (soft, hard) if limit != RLIM_INFINITY]
+        setrlimit(RLIMIT_DATA, (min([most_data(), *limits]), hard))
+        try:
+            yield
+        finally:
+            setrlimit(RLIMIT_DATA, (soft, hard))
+    else:
         yield
-    finally:
-        setrlimit(RLIMIT_DATA, (soft, hard))
 
 
 def most_data() -> int:

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from threading import Lock
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status
-from sweep.running.alone import Simulate, attempt
+from sweep.running.alone import MOMENT, Simulate, attempt
 from sweep.running.batches import Plan
 
 MOST_THREADS = 8  # Python's lock is held 2 ms of a short case
@@ -72,8 +72,11 @@ def run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> No
 
     with ThreadPoolExecutor(plan.workers) as pool:
         try:
-            for ended in as_completed([pool.submit(work) for _ in range(plan.workers)]):
-                ended.result()
+            running = {pool.submit(work) for _ in range(plan.workers)}
+            while running:  # Windows hears no Ctrl-C while the main thread waits without a limit
+                ended, running = wait(running, MOMENT, FIRST_COMPLETED)
+                for thread in ended:
+                    thread.result()
         except BaseException:  # of the sink, or a second Ctrl-C: the other threads end too
             stop.ask()
             raise

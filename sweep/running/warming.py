@@ -12,7 +12,7 @@ OF = {
     "plates": "walls as shells",
 }
 """What kernels are of, in words."""
-UNWRITABLE = "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
+UNWRITABLE = "CRUMPLE_CACHE_DIR, else the user's cache folder, is not a writable folder"
 
 
 def real_simulate(cases: Iterable[Case]) -> Simulate:

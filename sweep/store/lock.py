@@ -6,16 +6,24 @@ another one has to be deleted by hand.
 """
 
 import errno
-import fcntl
 import os
 import socket
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+# Follows no link, waits for no pipe; Windows has neither word.
+HOW = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
 OWNED = ".owner"  # suffix of the lock where there are no locks
 LONGEST = 300  # bytes of the name of a holder
+LOCKED_BYTE = 1 << 30  # of the file, on Windows: what is locked there, others cannot read
 
 
 class LockedError(Exception):
@@ -40,20 +48,20 @@ def exclusive(path: Path) -> Iterator[None]:
         path = path.with_name(path.name + OWNED)
         descriptor = _own(path)
     try:
-        os.truncate(descriptor, 0)
+        os.ftruncate(descriptor, 0)
+        os.lseek(descriptor, 0, os.SEEK_SET)
         os.write(descriptor, f"{os.getpid()} on {socket.gethostname()}".encode())
         yield
     finally:
-        path.unlink(missing_ok=True)
-        os.close(descriptor)
+        _release(path, descriptor)
 
 
 def _acquire(path: Path) -> int:
     while True:
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
+        descriptor = os.open(path, HOW, 0o644)
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+            _lock(descriptor)
+        except (BlockingIOError, PermissionError):  # the second one on Windows
             holder = _holder(descriptor)
             os.close(descriptor)
             raise LockedError(holder) from None
@@ -64,6 +72,29 @@ def _acquire(path: Path) -> int:
         if _is_still(path, descriptor):
             return descriptor
         os.close(descriptor)  # the previous holder has just deleted this file
+
+
+if sys.platform == "win32":
+
+    def _lock(descriptor: int) -> None:
+        os.lseek(descriptor, LOCKED_BYTE, os.SEEK_SET)
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+else:
+
+    def _lock(descriptor: int) -> None:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def _release(path: Path, descriptor: int) -> None:
+    """Delete the file while it is locked; Windows deletes no open file, so it is closed before."""
+    try:
+        path.unlink(missing_ok=True)
+    except PermissionError:
+        os.close(descriptor)
+        with suppress(PermissionError):  # another process has just locked it
+            path.unlink(missing_ok=True)
+    else:
+        os.close(descriptor)
 
 
 def _own(path: Path) -> int:
@@ -89,24 +120,21 @@ def _owner(path: Path) -> str:
 
 def _is_dead(holder: str) -> bool:
     """Whether a holder, "PROCESS on HOST", is a process of this host that runs no more."""
+    from psutil import pid_exists
+
     process, _, host = holder.partition(" on ")
-    if host != socket.gethostname() or not process.isdecimal():
-        return False
-    try:
-        os.kill(int(process), 0)
-    except ProcessLookupError:
-        return True
-    except (OSError, OverflowError):  # of another user; no number of a process
-        pass
+    with suppress(OverflowError):  # no number of a process
+        return host == socket.gethostname() and process.isdecimal() and not pid_exists(int(process))
     return False
 
 
 def _holder(descriptor: int) -> str:
-    return os.pread(descriptor, LONGEST, 0).decode(errors="replace")
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    return os.read(descriptor, LONGEST).decode(errors="replace")
 
 
 def _is_still(path: Path, descriptor: int) -> bool:
-    try:
-        return os.path.samestat(os.stat(path), os.fstat(descriptor))
-    except FileNotFoundError:
-        return False
+    """Whether the file that was opened is still there; Windows deletes none that is open."""
+    with suppress(FileNotFoundError):
+        return sys.platform == "win32" or os.path.samestat(os.stat(path), os.fstat(descriptor))
+    return False

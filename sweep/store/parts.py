@@ -5,8 +5,11 @@ results file. Parts 1-1 to 64-64 are merged into 1-64, which covers them: if a k
 deletion, no batch is read twice.
 """
 
+import errno
 import os
 import re
+import time
+from contextlib import suppress
 from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -17,6 +20,8 @@ if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
 MERGE_AT = 64  # parts of one size that are merged; so there are never more than a few hundred
+MOMENT, LONGEST = 0.1, 2.0  # seconds between two attempts to replace a file, and for all of them
+NO_FSYNC = {errno.EINVAL, errno.EOPNOTSUPP}  # of a folder, on some network file systems
 
 _NAME = re.compile(r"(\d{1,18})-(\d{1,18})\.h5")
 _TEMPORARY = ".tmp"
@@ -111,15 +116,14 @@ class Unsealed(FileIO):
         """Synchronise the file and give it its final name."""
         self.raise_error()
         os.fsync(self.fileno())
-        os.replace(self._temporary, self._target)
         self.close()
+        _replace(self._temporary, self._target)
         _synchronise(self._target.parent)
 
     def abandon(self) -> None:
         """Delete the file, unless it is sealed."""
-        if not self.closed:
-            self.close()
-            self._temporary.unlink(missing_ok=True)
+        self.close()
+        self._temporary.unlink(missing_ok=True)
 
 
 def make_folder(folder: Path) -> None:
@@ -130,9 +134,13 @@ def make_folder(folder: Path) -> None:
 
 
 def discard(parts: list[Part]) -> None:
-    """Delete parts whose batches are stored elsewhere."""
+    """Delete parts whose batches are stored elsewhere.
+
+    One that Windows keeps, as a reader has it open, is left to the next run.
+    """
     for part in parts:
-        part.path.unlink(missing_ok=True)
+        with suppress(PermissionError):
+            part.path.unlink(missing_ok=True)
 
 
 def clear_leftovers(path: Path, folded: int) -> None:
@@ -169,9 +177,27 @@ def _refuse_link(path: Path) -> None:
         raise StoreError(f"{path} is a link: remove it; allowed: what a run has written there.")
 
 
-def _synchronise(path: Path) -> None:
-    descriptor = os.open(path, os.O_RDONLY)
+def _replace(source: Path, target: Path) -> None:
+    """Rename a file. Windows refuses while a reader has the target open: it is given a moment."""
+    due = time.monotonic() + LONGEST
+    while True:
+        try:
+            return os.replace(source, target)
+        except PermissionError:
+            if time.monotonic() > due:
+                raise
+            time.sleep(MOMENT)
+
+
+def _synchronise(folder: Path) -> None:
+    """Write the names in a folder to the disk, where the system can (Windows cannot)."""
+    if not hasattr(os, "O_DIRECTORY"):
+        return
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)
+    except OSError as error:
+        if error.errno not in NO_FSYNC:
+            raise
     finally:
         os.close(descriptor)

@@ -115,6 +115,7 @@ class Writer:
                 for block, rows in zip(added, newest_rows(added), strict=True):
                     growing.add(block, rows)
                 growing.add_older(self._older(stack))
+                stack.close()  # Windows replaces no file that is open
                 growing.seal(self._about)
             discard(parts)
             remove_folder(self.path)

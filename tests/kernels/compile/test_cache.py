@@ -38,6 +38,9 @@ def test_cache_folder_is_where_it_was_asked_for(package, monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
     monkeypatch.delenv("CRUMPLE_CACHE_DIR", raising=False)
     assert open_cache(package).parent == tmp_path / "xdg" / "crumple"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert open_cache(package).parent == tmp_path / ".cache" / "crumple"
     monkeypatch.setenv("CRUMPLE_CACHE_DIR", str(tmp_path / "chosen"))
     assert open_cache(package).parent == tmp_path / "chosen"
 

@@ -1,7 +1,6 @@
 """Kernels that others call: tidied, linked, and compiled without interruption."""
 
 import gc
-import resource
 import threading
 import time
 from contextlib import suppress
@@ -15,6 +14,8 @@ from numba.extending import overload
 from kernels.compile import linking
 from kernels.compile.jit import jit, jit_owning
 from kernels.compile.undisturbed import undisturbed
+
+resource = pytest.importorskip("resource")  # Windows has none
 
 
 class Pair(NamedTuple):

@@ -32,7 +32,7 @@ def test_code_that_cannot_be_kept_is_told(capsys, monkeypatch):
     monkeypatch.setattr("kernels.compile.cache.is_lasting", lambda: False)
     assert main(["warm"]) == 2
     assert (
-        "CRUMPLE_CACHE_DIR, else crumple in ~/.cache, is not a writable folder"
+        "CRUMPLE_CACHE_DIR, else the user's cache folder, is not a writable folder"
         in capsys.readouterr().err
     )
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda *_: True)

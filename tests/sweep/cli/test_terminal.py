@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from sweep.cli.terminal import fitted
+from sweep.cli.terminal import fitted, quoted
 from sweep.report.tables.sheet import Sheet
 from tests.support.results.specimens import summary, write
 
@@ -110,3 +110,16 @@ def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(tmp_p
     for table in tables.values():
         assert "…" not in table
         assert table.count("12345") == 2
+
+
+@pytest.mark.parametrize(
+    ("system", "path", "written"),
+    [
+        ("linux", "my results/a.h5", "'my results/a.h5'"),
+        ("win32", r"my results\a.h5", r'"my results\a.h5"'),
+        ("win32", r"results\a.h5", r"results\a.h5"),
+    ],
+)
+def test_a_path_is_quoted_as_the_shell_of_the_system_takes_it(monkeypatch, system, path, written):
+    monkeypatch.setattr(sys, "platform", system)
+    assert quoted(path) == written

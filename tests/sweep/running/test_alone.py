@@ -7,6 +7,7 @@ import time
 from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit
 
 import numpy as np
+import pytest
 
 from sweep.result import Status
 from sweep.running.alone import run_alone
@@ -98,9 +99,10 @@ def interrupted(case, control):
     return simulate(case)
 
 
-def test_files_of_the_folder_are_no_modules_of_python(tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", ["types", "selectors"])  # is loaded at the start, or later
+def test_files_of_the_folder_are_no_modules_of_python(tmp_path, monkeypatch, name):
     """A user's types.py would end the process, and the case would be blamed."""
-    (tmp_path / "types.py").write_text("raise SystemExit(3)")
+    (tmp_path / f"{name}.py").write_text("raise SystemExit(3)")
     monkeypatch.setattr(sys, "path", [str(tmp_path), os.getcwd(), *filter(None, sys.path)])
     monkeypatch.chdir(tmp_path)
     (result,) = run_alone(interrupted, cases(1))

@@ -86,7 +86,7 @@ def test_long_cases_are_not_run_for_the_estimate():
 def test_the_steps_of_a_long_pilot_stay_as_slow_as_its_last_ones(monkeypatch):
     """It does 40 steps in the first half of its time and 10 in the second, of 400."""
     monkeypatch.setattr("sweep.running.estimate.LONGEST", 0.4)
-    monkeypatch.setattr("os.getloadavg", lambda: (0.0, 0.0, 0.0))
+    monkeypatch.setattr("psutil.getloadavg", lambda: (0.0, 0.0, 0.0))
     asked = []
 
     def slow(case, control):
@@ -134,6 +134,13 @@ def test_other_programs_take_their_share_of_the_cores(monkeypatch, tmp_path):
     assert alone.wall(2, 2) == crowded.wall(2, 4) == 30.0
     assert crowded.wall(2, 2) == 60.0
     assert crowded.wall(1, 2) == 90.0
+
+
+def test_without_a_count_of_threads_busy_cores_are_counted(monkeypatch, tmp_path):
+    """Elsewhere than on Linux: of four, three are busy, one by the pilot itself."""
+    monkeypatch.setattr("sweep.running.estimate.LOAD", tmp_path / "nowhere")
+    monkeypatch.setattr("psutil.cpu_percent", lambda percpu: [99.0, 3.0, 80.0, 100.0])
+    assert 1.0 <= estimate(cases(GLUED), stand_in()[0]).others <= 2.0
 
 
 def test_failed_pilots_are_counted():

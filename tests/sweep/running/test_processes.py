@@ -1,6 +1,8 @@
 """Cases in processes of this machine: each has one for itself, and none ends the run."""
 
 import os
+import subprocess
+import sys
 import time
 
 from sweep.result import Status
@@ -62,3 +64,21 @@ def test_a_stop_ends_a_case_with_its_process():
         result = place.runs(endless)(cases(1)[0], [1])
     assert result.status is Status.STOPPED
     assert time.monotonic() - started < 30.0
+
+
+UNGUARDED = """
+import multiprocessing
+multiprocessing.set_start_method("spawn")  # that of macOS and Windows
+from sweep.running.sweep import run_sweep
+from tests.support.results.standin import cases, simulate
+print(run_sweep(cases(3), "armor.h5", 2, "processes", simulate=simulate))
+"""
+
+
+def test_a_script_needs_no_guard_of_its_main_part(tmp_path):
+    """Wherever processes begin anew: none runs the script of the user again."""
+    script = tmp_path / "script.py"
+    script.write_text(UNGUARDED)
+    words, here = [sys.executable, str(script)], os.environ | {"PYTHONPATH": os.getcwd()}
+    ran = subprocess.run(words, cwd=tmp_path, env=here, capture_output=True, text=True, timeout=120)
+    assert (ran.stdout, ran.returncode) == ("0\n", 0), ran.stderr

@@ -1,5 +1,6 @@
 """Cases on threads: every case once, whatever its neighbours do."""
 
+import sys
 import threading
 import time
 
@@ -46,6 +47,22 @@ def test_cases_run_at_the_same_time():
     together = threading.Barrier(2, timeout=5)
     kept = ran(cases(2), lambda case, stop: together.wait() * 0 or simulate(case))
     assert len(kept.results) == 2
+
+
+def test_the_main_thread_never_waits_without_a_limit(monkeypatch):
+    """On Windows it would hear no Ctrl-C (https://github.com/python/cpython/issues/74157)."""
+    limits, usual = [], threading.Event.wait
+
+    def waits(event, timeout=None):
+        starts = sys._getframe(1).f_code.co_name == "start"  # of a thread: a moment
+        if threading.current_thread() is threading.main_thread() and not starts:
+            limits.append(timeout)
+        return usual(event, timeout)
+
+    monkeypatch.setattr(threading.Event, "wait", waits)
+    ran(cases(2), lambda case, stop: time.sleep(0.3) or simulate(case))
+    assert len(limits) > 1
+    assert None not in limits
 
 
 def test_exception_in_a_case_is_a_row_with_its_name():

@@ -10,6 +10,7 @@ import pytest
 from sweep.store.read import finished_ids
 from tests.support.results.standin import parts_of, write
 
+pytest.importorskip("resource")  # Windows has none
 ROOT = Path(__file__).parents[3]
 MERGE_AT = 16  # parts are merged into one, in place of 64
 PROGRAM = """

@@ -1,11 +1,15 @@
 """What lies in the folder of the parts and is none of this sweep is refused, and stays."""
 
+import errno
 import json
+import os
 import shutil
+from stat import S_ISDIR
 
 import pytest
 
 from sweep.running.sweep import run_sweep
+from sweep.store import parts
 from sweep.store.read import StoreError, read_summary
 from sweep.store.write import Writer
 from tests.support.results.standin import cases, parts_of, simulate, write
@@ -75,3 +79,59 @@ def test_a_link_in_place_of_parts_is_refused_and_not_followed(tmp_path, is_file)
             use(tmp_path / "armor.h5")
         assert str(refusal.value).startswith(f"{link} is a link: remove it; allowed: ")
     assert len(parts_of(tmp_path / "other.h5")) == 2
+
+
+@pytest.fixture
+def reader(tmp_path, monkeypatch):
+    """A reader of armor.h5, which Windows therefore refuses to replace while the list has items."""
+    usual, moments = os.replace, []
+
+    def refuse(source, target):
+        if target == tmp_path / "armor.h5" and moments:
+            moments.pop()
+            raise PermissionError(errno.EACCES, "Permission denied")
+        usual(source, target)
+
+    monkeypatch.setattr(os, "replace", refuse)
+    monkeypatch.setattr(parts, "MOMENT", 0.001)
+    write(tmp_path / "armor.h5", cases(2), fold=True)
+    return moments
+
+
+def test_a_file_that_a_reader_has_open_is_replaced_a_moment_later(tmp_path, reader):
+    reader += [None] * 3
+    write(tmp_path / "armor.h5", cases(4), fold=True)
+    assert len(read_summary(tmp_path / "armor.h5")) == 4
+    assert reader == []
+
+
+def test_of_a_reader_that_stays_the_next_run_takes_the_parts(tmp_path, reader, monkeypatch):
+    reader += [None] * 10_000
+    monkeypatch.setattr(parts, "LONGEST", 0.01)
+    out = tmp_path / "armor.h5"
+    with pytest.raises(StoreError, match=r"armor\.h5 cannot be written: Permission denied"):
+        write(out, cases(4), fold=True)
+    assert len(read_summary(out)) == 4
+    assert not [*tmp_path.rglob("*.tmp")]
+    reader.clear()
+    write(out, cases(5), fold=True)
+    assert len(read_summary(out)) == 5
+    assert [path.name for path in tmp_path.iterdir()] == ["armor.h5"]
+
+
+@pytest.mark.parametrize("number", [errno.EINVAL, errno.EIO])
+def test_a_folder_is_written_to_the_disk_where_the_file_system_can(tmp_path, monkeypatch, number):
+    usual = os.fsync
+
+    def refuse(descriptor):
+        if S_ISDIR(os.fstat(descriptor).st_mode):
+            raise OSError(number, os.strerror(number))
+        usual(descriptor)
+
+    monkeypatch.setattr(os, "fsync", refuse)
+    if number == errno.EIO:
+        with pytest.raises(StoreError, match="Input/output error"):
+            write(tmp_path / "armor.h5", cases(2), fold=True)
+    else:
+        write(tmp_path / "armor.h5", cases(2), fold=True)
+        assert len(read_summary(tmp_path / "armor.h5")) == 2

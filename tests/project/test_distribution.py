@@ -1,0 +1,82 @@
+"""What builds, tests and describes Crumple elsewhere: the same packages, versions and pages."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+import crumple
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+VERSIONS = {
+    found[1]
+    for line in PROJECT["classifiers"]
+    if (found := re.fullmatch(r"Programming Language :: Python :: (3\.\d+)", line))
+}
+CONDA = {"matplotlib": "matplotlib-base"}  # names there of the same packages
+
+
+def read(name):
+    return yaml.safe_load((ROOT / name).read_text("utf-8"))
+
+
+def test_the_workflow_tests_the_versions_of_python_that_are_promised():
+    workflow = read(".github/workflows/tests.yml")
+    matrix = workflow["jobs"]["tests"]["strategy"]["matrix"]
+    assert {*matrix["python"]} == VERSIONS
+    assert PROJECT["requires-python"] == f">={min(VERSIONS)}"
+    assert [system.split("-")[0] for system in matrix["system"]] == ["ubuntu", "macos", "windows"]
+
+
+def test_the_workflow_names_files_and_versions_of_actions():
+    text = (ROOT / ".github/workflows/tests.yml").read_text("utf-8")
+    assert re.findall(r"uses: (?!\S+@v\d+$).*", text, re.MULTILINE) == []
+    folders = re.findall(r"\btests/[\w/]+", text)
+    assert len(folders) > 5
+    assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
+
+
+def test_the_recipe_has_the_version_and_the_packages_of_the_project():
+    recipe = read("recipe/recipe.yaml")
+    assert recipe["context"] == {"version": PROJECT["version"], "python_min": min(VERSIONS)}
+    names = {re.sub(r"[>=].*", "", line): line for line in PROJECT["dependencies"]}
+    needed = {line.replace(name, CONDA.get(name, name) + " ") for name, line in names.items()}
+    assert {*recipe["requirements"]["run"]} == needed | {"python >=${{ python_min }}"}
+    assert recipe["about"]["license"] == PROJECT["license"]
+
+
+def test_the_image_has_a_promised_version_of_python():
+    text = (ROOT / "Dockerfile").read_text("utf-8")
+    assert {*re.findall(r"^FROM python:([\d.]+)-slim", text, re.MULTILINE)} == {max(VERSIONS)}
+
+
+def pages(entry):
+    """The files that a part of the navigation names."""
+    if isinstance(entry, str):
+        return [entry]
+    inner = entry.values() if isinstance(entry, dict) else entry
+    return [page for part in inner for page in pages(part)]
+
+
+def test_the_site_names_files_that_exist_and_leaves_out_no_page():
+    named = pages(read("mkdocs.yml")["nav"])
+    assert [page for page in named if not (ROOT / page).is_file()] == []
+    docs = {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("*.md")}
+    assert docs <= {*named}
+
+
+def test_the_reference_has_every_public_name():
+    text = (ROOT / "docs/reference.md").read_text("utf-8")
+    assert sorted(re.findall(r"^::: sweep\.(\w+)$", text, re.MULTILINE)) == sorted(
+        {*crumple.__all__} - {"__version__"}
+    )
+
+
+@pytest.mark.parametrize(
+    "picture", sorted((ROOT / "docs/pictures").iterdir()), ids=lambda path: path.name
+)
+def test_the_gallery_shows_every_picture(picture):
+    assert f"(pictures/{picture.name})" in (ROOT / "docs/gallery.md").read_text("utf-8")
