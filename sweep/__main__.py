@@ -134,7 +134,7 @@ EXPORT = """Write one case as a file for another program, in the format that its
   .stl .3mf     the print as a closed body, as heavy as the ranking says
   .svg .dxf     its outline, in mm
   .csv          the curves: travel, force, strain, stress, energies
-  .pvd .vtu     the stored shapes as a series for ParaView, NAME_0000.vtu and so on
+  .vtkhdf       the stored shapes as a grid that moves, for ParaView 5.12 and later
   .gif          the crush as a moving picture
 A file of that name is replaced, and a folder that is missing is made. With --panel: the whole
 specimens that rank counts for these two lengths, side by side along the first and one behind the
@@ -463,7 +463,7 @@ def _add_export(verbs: Any) -> None:
         type=_path,
         metavar="FILE",
         required=True,
-        help="FILE.stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu or .gif",
+        help="FILE.stl, .3mf, .svg, .dxf, .csv, .vtkhdf or .gif",
     )
     export.add_argument(
         "--kind", choices=["lattice", "settings"], help="of a .3mf (default: lattice)"

@@ -183,11 +183,10 @@ def export(arguments: Namespace) -> int:
     say_all([taken] if taken else [])
     replaced, is_new = target.exists(), not target.parent.exists()
     with writing(target.parent, target):
-        files, notes = export_case(
+        file, notes = export_case(
             arguments.file, target, row["case_id"], arguments.panel, arguments.kind
         )
-    say(f"{files[-1]}{f' and {len(files) - 1} files beside' if files[1:] else ''}"
-        f"{', replaced' if replaced else ', in a new folder' if is_new else ''}")  # fmt: skip
+    say(f"{file}{', replaced' if replaced else ', in a new folder' if is_new else ''}")
     say_all(notes)
     return DONE
 

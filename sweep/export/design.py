@@ -61,17 +61,17 @@ def design_of(case: Case) -> Design:
     if case.lattice.endless:
         raise ExportError(
             f"case {case.case_id} is one period of an endless lattice (lattice.boundary), which is "
-            "no part; allowed: .csv, .pvd, .vtu, .gif"
+            "no part; allowed: .csv, .vtkhdf, .gif"
         )
     if case.lattice.sheet:
         raise ExportError(
             f"case {case.case_id} is a sheet, which has no outline; allowed: .stl and .3mf with a "
-            "panel, .csv, .pvd, .vtu, .gif"
+            "panel, .csv, .vtkhdf, .gif"
         )
     if case.lattice.tied_sides:
         raise ExportError(
             f"case {case.case_id} is one period of a wide panel, which is no part; "
-            'allowed: lattice.sides = "free", or .csv, .pvd, .vtu, .gif'
+            'allowed: lattice.sides = "free", or .csv, .vtkhdf, .gif'
         )
     network = case.lattice.network
     kilograms = mass(network, case.lattice.depth, case.material.density)

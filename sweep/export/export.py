@@ -1,12 +1,11 @@
 """Writes a case as a file for another program, in the format that the ending of the file names.
 
-Nothing is half-written: files are made in a folder beside, then get their names.
+Nothing is half-written: a file is made in a folder beside, then gets its place.
 """
 
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -33,9 +32,9 @@ SHOWN = 0.05  # mm: a difference of lengths that is reported
 
 
 class Exported(NamedTuple):
-    """The files that were written, and sentences about what is in them."""
+    """The file that was written, and sentences about what is in it."""
 
-    files: list[Path]
+    file: Path
     notes: list[str]
 
 
@@ -134,7 +133,7 @@ def export_case(
     panel: Sequence[float | str] | None = None,
     kind: Kind | None = None,
 ) -> Exported:
-    """Write a case as .stl, .3mf, .svg, .dxf, .csv, .pvd (or .vtu) or .gif.
+    """Write a case as .stl, .3mf, .svg, .dxf, .csv, .vtkhdf or .gif.
 
     Parameters
     ----------
@@ -199,7 +198,7 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
 
 
 def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
-    """What ``write`` makes of a path beside; the files get their places when all are complete.
+    """What ``write`` makes of a path beside; the file gets its place when it is complete.
 
     A folder that is missing is made, and removed again if nothing is written.
     """
@@ -207,24 +206,14 @@ def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
     path.parent.mkdir(parents=True, exist_ok=True)
     try:
         with TemporaryDirectory(prefix=".export-", dir=path.parent) as beside:
-            notes = write(Path(beside) / path.name)
-            order = sorted(Path(beside).iterdir(), key=lambda f: (f.stem == path.stem, f.name))
-            files = [file.replace(path.parent / file.name) for file in order]
+            file = Path(beside) / path.name
+            notes = write(file)
+            file.replace(path)
     finally:
         for folder in new:
-            with suppress(OSError):  # it holds the files
+            with suppress(OSError):  # it holds the file
                 folder.rmdir()
-    _drop_older(path, {file.name for file in files})
-    return Exported(files, notes)
-
-
-def _drop_older(path: Path, written: set[str]) -> None:
-    """Delete the shapes of an older and longer series of the same name."""
-    series = re.compile(re.escape(path.stem) + r"_\d{4}\.vtu")
-    if path.suffix.lower() in SERIES:
-        for file in path.parent.iterdir():
-            if series.fullmatch(file.name) and file.name not in written:
-                file.unlink()
+    return Exported(path, notes)
 
 
 def _layout(source: Source | Planned, wish: Wish) -> Layout:
@@ -322,10 +311,10 @@ def _csv(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     return []
 
 
-def _series(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+def _vtkhdf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
     from sweep.export.shapes import write_shapes
 
-    write_shapes(path.parent, path.stem, source.frames)
+    write_shapes(path, source.frames)
     return []
 
 
@@ -362,6 +351,5 @@ def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[s
 
 Writer = Callable[[Path, Source | Planned, Wish], list[str]]
 PRINTS: dict[str, Writer] = {".stl": _stl, ".3mf": _three_mf, ".svg": _svg, ".dxf": _dxf}
-SERIES: dict[str, Writer] = {".pvd": _series, ".vtu": _series}
-WRITERS: dict[str, Writer] = {**PRINTS, ".csv": _csv, **SERIES, ".gif": _gif}
+WRITERS: dict[str, Writer] = {**PRINTS, ".csv": _csv, ".vtkhdf": _vtkhdf, ".gif": _gif}
 PRINTED = ", ".join(PRINTS)

@@ -43,7 +43,7 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
     if not lattice.tied_sides:
         raise ExportError(
             f"case {case.case_id} is a block within perimeters, whose walls the slicer lays; "
-            "allowed: a .3mf with --kind settings, .csv, .pvd, .vtu, .gif"
+            "allowed: a .3mf with --kind settings, .csv, .vtkhdf, .gif"
         )
     first, second = _two(case, sides)
     periods = first * second / (case.footprint[0] * case.footprint[1])

@@ -132,7 +132,7 @@ def _slurm() -> Any:
     import dask
 
     try:
-        from dask_jobqueue import SLURMCluster
+        from dask_jobqueue.slurm import SLURMCluster
     except ImportError as error:
         raise SchedulerError(NO_JOBQUEUE) from error
     count = dask.config.get("distributed.adaptive.maximum", inf)

@@ -34,7 +34,7 @@ HOMES = {
     "llvmlite": "kernels.compile",
     "distributed": "sweep.running.cluster sweep.running.dask_graph",
     "dask_jobqueue": "sweep.running.cluster",
-    "h5py": "sweep.store.read sweep.store.hdf5",
+    "h5py": "sweep.store.read sweep.store.hdf5 sweep.export.shapes",
     "matplotlib": "sweep.report.figures.case_plots",
     "manifold3d": "sweep.export.solid",
     "ezdxf": "sweep.export.dxf sweep.config.drawings.dxf",

@@ -442,8 +442,8 @@ def test_export_tells_what_it_wrote(capsys, tmp_path):
     for told in ("", ", replaced"):
         status, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "c.csv"))
         assert (status, out) == (0, f"{tmp_path}/c.csv{told}\n")
-    _, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "crush.pvd"))
-    assert out == f"{tmp_path}/crush.pvd and 8 files beside\n"
+    _, out, _ = crumple(capsys, "export", file, "ab", "--to", str(tmp_path / "crush.vtkhdf"))
+    assert out == f"{tmp_path}/crush.vtkhdf\n"
     _, out, _ = crumple(capsys, "export", file, "1", "--to", str(tmp_path / "made/c.csv"))
     number, path = out.splitlines()
     assert number.startswith("number 1 of 1: ")

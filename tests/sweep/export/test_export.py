@@ -5,7 +5,7 @@ from xml.etree import ElementTree as Xml
 from zipfile import ZipFile
 
 import ezdxf
-import meshio
+import h5py
 import pandas as pd
 import pytest
 import shapely
@@ -32,7 +32,7 @@ def file(tmp_path_factory):
 
 def exported(file, path, **wish):
     found = export_case(file, path, CASE.case_id, **wish)
-    assert found.files[-1] == Path(path)
+    assert found.file == Path(path)
     return found
 
 
@@ -52,7 +52,7 @@ def test_case_is_exported_before_it_runs(file, tmp_path):
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
     with pytest.raises(crumple.ExportError, match=r"no curves; allowed: a results"):
         crumple.export_case(CASE, tmp_path / "a.csv")
-    for ending in (".pvd", ".gif"):
+    for ending in (".vtkhdf", ".gif"):
         with pytest.raises(ExportError, match="a case alone has no"):
             export_case(CASE, tmp_path / f"a{ending}")
     assert {path.name for path in tmp_path.iterdir()} == {"a.stl", "b.stl"}
@@ -139,7 +139,7 @@ def test_block_in_3mf_has_settings(file, tmp_path):
 
 def test_outlines_have_the_printed_area(file, tmp_path):
     for name in ("part.svg", "part.DXF"):
-        assert exported(file, tmp_path / name).files == [tmp_path / name]
+        assert exported(file, tmp_path / name).file == tmp_path / name
     area = 13.3**2 - 9 * (12.5 / 3 - 0.8) ** 2
     lines = ezdxf.readfile(tmp_path / "part.DXF").modelspace()
     outer, *openings = (shapely.polygons(line.get_points("xy")).area for line in lines)
@@ -150,27 +150,9 @@ def test_outlines_have_the_printed_area(file, tmp_path):
 def test_curves_and_shapes(file, tmp_path):
     exported(file, tmp_path / "c.csv")
     assert len(pd.read_csv(tmp_path / "c.csv")) == 41
-    found = exported(file, tmp_path / "crush.vtu".replace("vtu", "pvd"))
-    assert len(found.files) == 9
-    assert len(meshio.read(tmp_path / "crush_0007.vtu").points) == 4
-
-
-def test_vtu_asks_for_the_series_too(file, tmp_path):
-    found = export_case(file, tmp_path / "crush.vtu", CASE.case_id)
-    assert {path.name for path in found.files} == {path.name for path in tmp_path.iterdir()}
-    assert found.files[-1].name == "crush.pvd"
-
-
-def test_shapes_of_a_longer_series_do_not_stay(file, tmp_path):
-    stale, others = (
-        tmp_path / "crush_0008.vtu",
-        [tmp_path / "crush_01.vtu", tmp_path / "a_0008.vtu"],
-    )
-    for path in (stale, *others):
-        path.touch()
-    exported(file, tmp_path / "crush.pvd")
-    assert not stale.exists()
-    assert all(path.exists() for path in others)
+    exported(file, tmp_path / "crush.vtkhdf")
+    with h5py.File(tmp_path / "crush.vtkhdf") as shapes:
+        assert shapes["VTKHDF/Steps"].attrs["NSteps"] == 8
 
 
 def test_gif_has_a_picture_of_each_shape(file, tmp_path):
@@ -190,7 +172,7 @@ REFUSED = [
     (
         "part.xyz",
         {},
-        r"part.xyz: .xyz is unknown; allowed: .stl, .3mf, .svg, .dxf, .csv, .pvd, .vtu",
+        r"part.xyz: .xyz is unknown; allowed: .stl, .3mf, .svg, .dxf, .csv, .vtkhdf",
     ),
     ("part", {}, "part: has no ending; allowed: .stl"),
     ("c.csv", {"panel": (0.1, 0.05)}, "c.csv shows no print; allowed .*: .stl"),
@@ -223,7 +205,7 @@ def test_unknown_case_is_named(file, tmp_path):
 def test_case_that_failed_has_no_curves_and_says_why(tmp_path):
     row = {"case_id": "ab", "status": "stopped", "message": "no equilibrium"}
     file = write(tmp_path / "trial.h5", summary(row))
-    for ending, what in {".csv": "curves", ".pvd": "shapes", ".gif": "shapes"}.items():
+    for ending, what in {".csv": "curves", ".vtkhdf": "shapes", ".gif": "shapes"}.items():
         with pytest.raises(ExportError, match=f"case ab has no {what}: no equilibrium"):
             export_case(file, tmp_path / f"a{ending}", "ab")
 

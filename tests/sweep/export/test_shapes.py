@@ -1,55 +1,72 @@
-"""Shapes for ParaView, as meshio reads them."""
+"""Shapes for ParaView, as VTK reads them."""
 
-from xml.etree import ElementTree as Xml
-
-import meshio
 import numpy as np
 import pytest
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
-from sweep.export.shapes import write_shapes
+from sweep.export.shapes import LINE, QUAD, write_shapes
 from tests.support.results.specimens import squeezed_cell, tube
 
 HEIGHTS = (10.0, 7.0, 4.0)
 
 
-@pytest.fixture
-def folder(tmp_path):
-    write_shapes(tmp_path, "crush", squeezed_cell(heights=HEIGHTS))
-    return tmp_path
+def written(tmp_path, frames):
+    """A reader of the shapes."""
+    path = tmp_path / "crush.vtkhdf"
+    write_shapes(path, frames)
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    return reader
 
 
-def test_a_file_for_each_shape_and_a_list_of_them(folder):
-    names = {path.name for path in folder.iterdir()}
-    assert names == {"crush.pvd", *(f"crush_000{k}.vtu" for k in range(3))}
-    sets = Xml.parse(folder / "crush.pvd").getroot().findall("Collection/DataSet")
-    assert [node.get("file") for node in sets] == [f"crush_000{k}.vtu" for k in range(3)]
-    assert [float(node.get("timestep")) for node in sets] == [0.0, 0.01, 0.02]
+def grid_of(reader, k):
+    """Shape number ``k``: points, corners of its cells, and arrays by name."""
+    reader.SetStep(k)
+    reader.Update()
+    grid = reader.GetOutput()
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    arrays = {
+        data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))
+        for data in (grid.GetPointData(), grid.GetCellData(), grid.GetFieldData())
+        for i in range(data.GetNumberOfArrays())
+    }
+    kinds = {grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    return kinds, points, cells.reshape(grid.GetNumberOfCells(), -1), arrays
+
+
+def test_steps_have_the_times_of_the_shapes(tmp_path):
+    reader = written(tmp_path, squeezed_cell(heights=HEIGHTS))
+    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    assert times == pytest.approx((0.0, 0.01, 0.02))
 
 
 @pytest.mark.parametrize("k", range(3))
-def test_lines_are_the_elements_in_mm(folder, k):
-    mesh = meshio.read(folder / f"crush_000{k}.vtu")
+def test_lines_are_the_elements_in_mm(tmp_path, k):
+    kinds, points, cells, arrays = grid_of(written(tmp_path, squeezed_cell(heights=HEIGHTS)), k)
     height = HEIGHTS[k]
-    corners = [[0, 0, 0], [10, 0, 0], [10, height, 0], [0, height, 0]]
-    np.testing.assert_allclose(mesh.points, corners, rtol=1e-7)
-    assert mesh.cells_dict["line"].tolist() == [[0, 1], [1, 2], [2, 3], [3, 0]]
-    moved = mesh.point_data["displacement_mm"]
-    np.testing.assert_allclose(moved[:, 1], [0, 0, height - 10, height - 10], atol=1e-6)
-    (thickness,), (strain,) = (mesh.cell_data[n] for n in ("wall_thickness_mm", "element_strain"))
-    np.testing.assert_allclose(thickness, 1.0)
-    np.testing.assert_allclose(strain, [0, height / 10 - 1, 0, height / 10 - 1], atol=1e-7)
-    np.testing.assert_allclose(mesh.field_data["strain"], [1 - height / 10], atol=1e-7)
+    np.testing.assert_allclose(points, [[0, 0, 0], [10, 0, 0], [10, height, 0], [0, height, 0]])
+    assert kinds == {LINE}
+    assert cells.tolist() == [[0, 1], [1, 2], [2, 3], [3, 0]]
+    moved = [0, 0, height - 10, height - 10]
+    np.testing.assert_allclose(arrays["displacement_mm"][:, 1], moved, atol=1e-12)
+    np.testing.assert_allclose(arrays["wall_thickness_mm"], 1.0)
+    shorter = height / 10 - 1
+    np.testing.assert_allclose(arrays["element_strain"], [0, shorter, 0, shorter], atol=1e-12)
+    np.testing.assert_allclose(arrays["strain"], [-shorter], atol=1e-12)
 
 
 @pytest.mark.parametrize("k", range(3))
 def test_quads_are_those_of_plates_in_mm(tmp_path, k):
     frames = tube()
-    write_shapes(tmp_path, "tube", frames)
-    mesh = meshio.read(tmp_path / f"tube_000{k}.vtu")
-    np.testing.assert_allclose(mesh.points, 1e3 * frames["position_m"][k], atol=1e-9)
-    assert mesh.cells_dict["quad"].tolist() == frames["quads"].tolist()
+    kinds, points, cells, arrays = grid_of(written(tmp_path, frames), k)
+    np.testing.assert_allclose(points, 1e3 * frames["position_m"][k], atol=1e-9)
+    assert kinds == {QUAD}
+    assert cells.tolist() == frames["quads"].tolist()
     moved = 1e3 * (frames["position_m"][k] - frames["position_m"][0])
-    np.testing.assert_allclose(mesh.point_data["displacement_mm"], moved, atol=1e-9)
-    (thickness,), (strain,) = (mesh.cell_data[n] for n in ("wall_thickness_mm", "area_strain"))
-    np.testing.assert_allclose(thickness, 0.1)
-    np.testing.assert_allclose(strain, -0.1 * k, atol=1e-9)
+    np.testing.assert_allclose(arrays["displacement_mm"], moved, atol=1e-9)
+    np.testing.assert_allclose(arrays["wall_thickness_mm"], 0.1)
+    np.testing.assert_allclose(arrays["area_strain"], -0.1 * k, atol=1e-9)

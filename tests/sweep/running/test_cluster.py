@@ -142,10 +142,10 @@ def test_slurm_without_its_package_names_the_extra(monkeypatch):
 def jobqueue(monkeypatch, dask_cluster):
     """A module in place of dask-jobqueue; its cluster notes what is asked of it."""
     asked = {}
-    module = ModuleType("dask_jobqueue")
+    module = ModuleType("dask_jobqueue.slurm")
     module.SLURMCluster = lambda: dask_cluster
     monkeypatch.setattr(dask_cluster, "adapt", asked.update)
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", module)
+    monkeypatch.setitem(sys.modules, "dask_jobqueue.slurm", module)
     return module, asked
 
 
