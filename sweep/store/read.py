@@ -184,16 +184,18 @@ def _unusable(
     return None
 
 
-def changed_cases(path: str | os.PathLike[str], cases: Mapping[str, "Case"]) -> set[str]:
-    """Ids of those of the cases whose row holds another case; cases without a row are left out.
+def changed_cases(
+    path: str | os.PathLike[str], ids: Collection[str], case_of: Callable[[str], "Case"]
+) -> set[str]:
+    """Those of the ids whose row holds another case than theirs; ids without a row are left out.
 
     Texts are compared, which takes 30 us each; where they differ, the ids of the cases.
     """
     if not exists(path):
         return set()
     with _union(Path(path)) as blocks:
-        texts = _texts(blocks, cases.keys())
-        return {case_id for case_id, text in texts if not _is_of(text, cases[case_id])}
+        texts = _texts(blocks, ids)
+        return {case_id for case_id, text in texts if not _is_of(text, case_of(case_id))}
 
 
 def _texts(blocks: list[Block], ids: Collection[str]) -> Iterator[tuple[str, bytes]]:

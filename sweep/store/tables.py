@@ -67,14 +67,14 @@ def relabel(table: Mapping[str, np.ndarray], axes: Axes) -> Table:
     A case that an earlier sweep computed is part of this one too, with the values of this grid.
     Values that `axes` does not have stay.
     """
-    rows = [axes.get(case_id, {}) for case_id in table["case_id"]]
-    labels = dict.fromkeys(name for row in rows for name in row)
+    ids = table["case_id"]
+    labels = dict.fromkeys(name for case_id in ids for name in axes.get(case_id, ()))
 
     def make(name: str) -> np.ndarray:
         if name not in labels:
             return table[name]
-        old = _list(table.get(name), len(rows))
-        return _column([row.get(name, value) for row, value in zip(rows, old, strict=True)])
+        pairs = zip(ids, _list(table.get(name), len(ids)), strict=True)
+        return _column([axes.get(case_id, {}).get(name, old) for case_id, old in pairs])
 
     return Table([*table, *labels], make)
 
