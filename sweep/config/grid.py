@@ -22,7 +22,6 @@ from sweep.config.reading.unused_keys import still_unused
 from sweep.numbers import counted
 
 MAX_CASES = 1_000_000
-TABLES_KEPT = 20_000  # that cases of a sweep may share, 2 kB each
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 PRINTABLE = "lattice.printable"
 OF_A_FILE = frozenset(f"material.{name}" for name in UNITS)
@@ -222,8 +221,6 @@ class _Combination:
 def _drafts(recipe: Recipe) -> Iterator[_Combination]:
     made: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
-        if len(made) > TABLES_KEPT:
-            made.clear()
         written = recipe.base | _targets(chosen)
         given = {key: value.value for key, value in written.items()}
         tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
