@@ -1,6 +1,6 @@
 """The cases of a sweep, each made when it is asked for."""
 
-from collections.abc import Collection, Iterable, Iterator, KeysView, Mapping, Sequence
+from collections.abc import Iterable, Iterator, KeysView, Mapping, Sequence
 from typing import Any, NamedTuple, overload
 
 from sweep.config.case import Case
@@ -80,10 +80,11 @@ class Cases(Sequence[Case]):
         some._shared = self._shared
         return some
 
-    def without(self, ids: Collection[str]) -> "Cases":
+    def without(self, ids: Iterable[str]) -> "Cases":
         """All but the cases with these ids."""
-        left_out = {*ids}
-        return self.only(case_id for case_id in self._ids if case_id not in left_out)
+        left_out = self.ids & ids
+        kept = (case_id for case_id in self._ids if case_id not in left_out)
+        return self.only(kept) if left_out else self
 
     @overload
     def __getitem__(self, place: int) -> Case: ...

@@ -19,7 +19,17 @@ from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
 from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.parts import Unsealed
-from sweep.store.tables import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
+from sweep.store.tables import (
+    Axes,
+    Columns,
+    arrange,
+    beyond,
+    relabel,
+    rows_in_order,
+    slim,
+    stack,
+    take,
+)
 
 CHUNK = 4096  # rows of a chunk that is compressed and has a checksum
 LARGE_CHUNK = 16384  # rows of a chunk that has only a checksum
@@ -66,7 +76,7 @@ class Growing:
         """Add rows of a block, by their numbers. They replace earlier rows of the same cases."""
         self._known |= dict.fromkeys(block.summary["case_id"][rows])
         stored = block.as_stored(rows)
-        self._tables.append(dict(take(block.summary, stored)))
+        self._tables.append({k: slim(v) for k, v in take(block.summary, stored).items()})
         for name, ragged in self._ragged.items():
             ragged.add(block.ragged[name], stored)
         self._disk.raise_error()

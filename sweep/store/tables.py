@@ -54,6 +54,14 @@ def take(table: Mapping[str, np.ndarray], index: np.ndarray) -> Table:
     return Table(table, lambda name: table[name][index])
 
 
+def slim(column: np.ndarray) -> np.ndarray:
+    """The same column, read only; it takes the memory of one value if all have the same bits."""
+    bits = column if column.dtype == object else column.view(f"u{column.itemsize}")
+    if not len(column) or (bits != bits[0]).any():
+        return column
+    return np.broadcast_to(column[:1].copy(), column.shape)
+
+
 def stack(tables: Sequence[Mapping[str, np.ndarray]]) -> Table:
     """Tables one below another, with the columns of all."""
     lengths = [len(table["case_id"]) for table in tables]

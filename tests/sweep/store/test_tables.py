@@ -6,7 +6,7 @@ import pytest
 from sweep.store import read
 from sweep.store.batch import newest
 from sweep.store.read import finished_ids, read_statuses, read_summary
-from sweep.store.tables import arrange, relabel, stack, tabulate, take
+from sweep.store.tables import arrange, relabel, slim, stack, tabulate, take
 from tests.support.results.standin import cases, write
 
 NAMES = ["mass_g", "lattice.depth", "message", "steps", "own"]
@@ -53,6 +53,25 @@ def test_rows_are_those_of_a_table_in_memory(seed):
     assert equal(labelled, [row | axes.get(row["case_id"], {}) for row in filled])
     assert next(iter(labelled)) == "case_id"
     assert [*labelled].index("lattice.depth") < [*labelled].index("mass_g")
+
+
+@pytest.mark.parametrize(
+    ("values", "alike"),
+    [
+        (np.full(9, 0.1), True),
+        (np.full(9, np.nan), True),
+        (np.array([0.0, -0.0]), False),  # other bits
+        (np.arange(9), False),
+        (np.array(["a"] * 9, object), True),
+        (np.array(["a", "b"], object), False),
+        (np.zeros(0), False),
+    ],
+)
+def test_a_column_of_one_value_takes_the_memory_of_one(values, alike):
+    column = slim(values)
+    assert (column.dtype, column.tobytes()) == (values.dtype, values.tobytes())
+    assert (column is not values) is alike
+    assert column is values or column.base.nbytes == 8
 
 
 @pytest.fixture
