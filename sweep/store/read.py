@@ -260,8 +260,16 @@ def read_runs(
 
     shapes: False leaves the shapes unread, and `frames` empty.
     """
-    with _stored(Path(path)) as arrays_of:
-        for case_id in case_ids:
+    ids = [*case_ids]
+    some = {*ids}
+    with _union(Path(path)) as blocks:
+        arrays_of = {
+            case_id: partial(_arrays, block, row)
+            for block in blocks
+            for row, case_id in enumerate(block.summary["case_id"])
+            if case_id in some and row not in block.damaged
+        }
+        for case_id in ids:
             if case_id not in arrays_of:
                 raise StoreError(f"{path} holds no case {case_id}.")
             arrays = arrays_of[case_id]
@@ -287,18 +295,6 @@ def read_curves(
                 yield stored[row], none | {k: v.astype(np.float64) for k, v in arrays.items()}
     for case_id in ids:
         raise StoreError(f"{path} holds no case {case_id}.")
-
-
-@contextmanager
-def _stored(path: Path) -> Iterator[dict[str, Callable[[Iterable[str]], dict[str, np.ndarray]]]]:
-    """For each case what reads its arrays in named groups; the files stay open inside the block."""
-    with _union(path) as blocks:
-        yield {
-            case_id: partial(_arrays, block, row)
-            for block in blocks
-            for row, case_id in enumerate(block.summary["case_id"])
-            if row not in block.damaged
-        }
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
