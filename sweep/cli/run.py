@@ -80,7 +80,7 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
 
 def _part(config: Config, arguments: Namespace) -> Config:
     """Every Nth case of a sweep, from the Kth on, so that the parts take about as long."""
-    from sweep.config.grid import expand
+    from sweep.config.grid import cases_of
 
     number, count = arguments.part
     if beside := [name for name in BESIDE if getattr(arguments, name)]:
@@ -88,7 +88,7 @@ def _part(config: Config, arguments: Namespace) -> Config:
         raise ArgumentError(
             f"--{option} is of a whole sweep: run it on the merged file, without --part"
         )
-    cases = tuple(expand(config)[number - 1 :: count])
+    cases = cases_of(config)[number - 1 :: count]
     if not cases:
         raise ArgumentError(
             f"--part {number}/{count}: the sweep has only {len(config.cases)} cases"

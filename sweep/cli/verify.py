@@ -32,7 +32,8 @@ def verify(file: str, again: int) -> bool:
 
     summary = read_summary(file)
     ids = list(summary["case_id"])
-    wrong = [f"case {case_id}: {error}" for case_id, error in unreadable(file, ids)]
+    errors = unreadable(file)
+    wrong = [f"case {case_id}: {errors[case_id]}" for case_id in ids if case_id in errors]
     say_all(wrong[:SHOWN])
     if len(wrong) > SHOWN:
         say(f"{len(wrong) - SHOWN} more cases cannot be read")

@@ -44,6 +44,8 @@ from sweep.config.kinds.table import (
 
 T = TypeVar("T")
 
+TABLES_KEPT = 20_000  # of a sweep, 2 kB each
+
 
 class Case(BaseModel):
     """One simulation, complete. `axes`: its values along the grid of its sweep, labels only."""
@@ -136,10 +138,15 @@ class Case(BaseModel):
         axes: labels beside those it has. `changes` says which of its own values a new one replaces;
         the others stay, such as a duration or a time step that followed from old ones.
         """
+        return self._changed(self.axes | dict(axes or {}), tables)
+
+    def _changed(
+        self, labels: dict[str, Any], tables: Tables, made: dict[Any, Any] | None = None
+    ) -> "Case":
         changes = {name: dict(change) for name, change in _checked(tables).items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
-        labels = self.axes | dict(axes or {})
-        case = complete({name: _values(table) for name, table in values.items()}).sound(labels)
+        given = {name: _values(table) for name, table in values.items()}
+        case = complete(given, made).sound(labels)
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
         return case
@@ -149,15 +156,20 @@ class Case(BaseModel):
         return self.model_dump_json()
 
     @staticmethod
-    def from_json(text: str | bytes) -> "Case":
-        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case."""
+    def from_json(text: str | bytes, made: dict[Any, Any] | None = None) -> "Case":
+        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case.
+
+        made: the tables of other cases so far, see `Draft`.
+        """
         try:
             case = Case.model_validate_json(text)
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
             place = ".".join(str(part) for part in first["loc"] if part not in TAGS) or "the text"
             raise MisfitError(f"{place}: {first['msg']}") from None
-        if case.changed().case_id != case.case_id:
+        again = case._changed(case.axes, {}, made)
+        same = all(getattr(again, name) == getattr(case, name) for name in TABLES)
+        if not same and again.case_id != case.case_id:
             raise MisfitError("its numbers do not follow from one another")
         return case
 
@@ -166,7 +178,8 @@ class Case(BaseModel):
 class Draft:
     """A case that is being completed: its tables so far, and the values that are refused.
 
-    made: tables by what they are made from, as the cases of a sweep share most of them.
+    made: tables by what they are made from, as the cases of a sweep share most of them; it is
+    emptied when it holds `TABLES_KEPT`.
     """
 
     made: dict[Any, Any] = field(default_factory=dict)
@@ -177,6 +190,8 @@ class Draft:
         """Make a table, or note why it cannot be made."""
         try:
             if (name, values) not in self.made:
+                if len(self.made) >= TABLES_KEPT:
+                    self.made.clear()
                 self.made[name, values] = make(*values)
         except RefusedError as error:
             self.refused.append(error)

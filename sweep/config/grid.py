@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from math import prod
@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case, Draft, complete
+from sweep.config.cases import Cases
 from sweep.config.faults import ConfigError, Fault
 from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
@@ -73,7 +74,7 @@ class Config:
     """
 
     name: str
-    cases: tuple[Case, ...] = ()
+    cases: Sequence[Case] = ()
     rank: Rank = field(default_factory=Rank)
     require: Require = field(default_factory=Require)
     path: Path | None = None
@@ -89,12 +90,17 @@ class Config:
 
 def expand(config: Config) -> list[Case]:
     """All cases of a config; those of a search are not known before it."""
+    return list(cases_of(config))
+
+
+def cases_of(config: Config) -> Sequence[Case]:
+    """The same, each made when it is asked for."""
     if not isinstance(config, Config):
         raise _no_sweep(config, "what crumple.load_config returns")
     if config.recipe.search and not config.cases:
         line = f"[search] of {', '.join(config.recipe.search)}: {ONLY_OPTIMIZE}"
         raise ConfigError([Fault("search", line)])
-    return list(config.cases)
+    return config.cases
 
 
 def sweep_of(cases: Config | Iterable[Case]) -> Config:
@@ -122,7 +128,7 @@ def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:
     return None if combination.faults else combination.labelled()
 
 
-def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
+def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     """The cases, and which combinations are left out, as their values cannot be combined.
 
     The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
@@ -134,7 +140,7 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
     if count > MAX_CASES:
         line = f"[grid] makes {count:,} cases; allowed: at most {MAX_CASES:,} in one sweep"
         raise ConfigError([Fault("grid", line)])
-    cases: dict[str, Case] = {}
+    cases = Cases()
     usable: set[tuple[str, str]] = set()
     impossible: list[_Combination] = []
     unused = dict.fromkeys(_keys_to_use(recipe), "")
@@ -149,7 +155,8 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
             continue
         usable |= draft.texts
         case = draft.labelled()
-        cases.setdefault(case.case_id, case)
+        if case.case_id not in cases.ids:
+            cases.add(case)
         unused = still_unused(unused, draft.given, case) if unused else unused
     refused = [draft for draft in impossible if draft.needs(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
@@ -165,7 +172,7 @@ def expanded(recipe: Recipe) -> tuple[tuple[Case, ...], LeftOut]:
     if recipe.search:
         return (), LeftOut()
     reasons = [fault.line for fault in _reasons(impossible, count, recipe)]
-    return tuple(cases.values()), LeftOut(len(impossible), count, tuple(reasons))
+    return cases, LeftOut(len(impossible), count, tuple(reasons))
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,10 @@
 
 import threading
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from zlib import crc32
+
+import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.steps import count_of
@@ -37,11 +40,13 @@ class Plan:
     pace from few cases is uncertain. Threads may share a plan.
     """
 
-    def __init__(self, cases: Iterable[Case], workers: int) -> None:
+    def __init__(self, cases: Sequence[Case], workers: int) -> None:
         self.workers = workers
-        ordered = sorted(cases, key=lambda case: (-cost(case), canonical(case.lattice)))
-        self._waiting = deque(ordered)
-        self._left = sum(map(cost, self._waiting))
+        self._cases = cases
+        keys = np.array([(-cost(case), _mark(case)) for case in cases]).reshape(-1, 2)
+        order = np.lexsort(keys.T[::-1])
+        self._waiting: deque[int | Case] = deque(order.tolist())  # cases that are put back
+        self.left = -float(keys[:, 0].sum())
         self._seconds = self._done = 0.0  # of recent batches: time taken, cost
         self._known = 0  # cases whose duration has been measured
         self._lock = threading.Lock()
@@ -53,19 +58,19 @@ class Plan:
         """The next batch; empty if no case is left."""
         with self._lock:
             batch = self._next() if self._waiting else []
-            self._left -= sum(map(cost, batch))
+            self.left -= sum(map(cost, batch))
             return batch
 
     def put_back(self, batch: Sequence[Case]) -> None:
         """Take back a batch that has not run."""
         with self._lock:
             self._waiting.extendleft(reversed(batch))
-            self._left += sum(map(cost, batch))
+            self.left += sum(map(cost, batch))
 
     def is_quick(self) -> bool:
         """True if no waiting case takes longer than a batch should."""
         with self._lock:
-            longest = cost(self._waiting[0]) if self._waiting else 0.0
+            longest = cost(self._first()) if self._waiting else 0.0
             return longest * self._seconds < SECONDS * self._done
 
     def learn(self, batch: Sequence[Case], seconds: float) -> None:
@@ -75,16 +80,32 @@ class Plan:
             self._seconds = MEMORY * self._seconds + seconds
             self._done = MEMORY * self._done + sum(map(cost, batch))
 
+    def _first(self) -> Case:
+        """The first waiting case, which keeps its place."""
+        first = self._waiting[0]
+        if not isinstance(first, Case):
+            first = self._waiting[0] = self._cases[first]
+        return first
+
     def _next(self) -> list[Case]:
         if not self._done:
-            return [self._waiting.pop()]
+            self._waiting.rotate(1)
+            batch = [self._first()]
+            self._waiting.popleft()
+            return batch
         full = SECONDS * self._done / max(self._seconds, 1e-9)
-        limit = max(min(full, self._left / (2 * self.workers)), LEAST * full)
-        batch = [self._waiting.popleft()]
-        weight = cost(batch[0])
-        while self._waiting and len(batch) < min(MOST, self._known):
-            weight += cost(self._waiting[0])
-            if weight > limit:
+        limit = max(min(full, self.left / (2 * self.workers)), LEAST * full)
+        batch, weight = list[Case](), 0.0
+        while self._waiting and len(batch) < min(MOST, max(self._known, 1)):
+            case = self._first()
+            weight += cost(case)
+            if batch and weight > limit:
                 break
-            batch.append(self._waiting.popleft())
+            batch.append(case)
+            self._waiting.popleft()
         return batch
+
+
+def _mark(case: Case) -> int:
+    """A number that cases of the same lattice share."""
+    return crc32(canonical(case.lattice).encode())

@@ -10,8 +10,8 @@ FREE = "platens without friction hold nothing: the mean lateral force is zero"
 
 def sentences_on_periods(cases: Sequence[Case]) -> list[str]:
     """A sentence about cases whose period is fixed, and one about those where it is free."""
-    tied = [case for case in cases if case.lattice.tied_sides]
-    free = sum(case.widens for case in tied)
+    tied = [case.widens for case in cases if case.lattice.tied_sides]
+    free = sum(tied)
     return [
         f"{number} of {len(cases)} cases are one period of a wide panel, whose "
         f"masses, forces and energies are reported; its width is {how}"

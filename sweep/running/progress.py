@@ -4,7 +4,7 @@ and in a notebook one line that is replaced.
 
 import time
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from datetime import timedelta
 from importlib import import_module
 from typing import Any, Self
@@ -13,8 +13,10 @@ from rich.console import Console
 from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
+from sweep.config.case import Case
 from sweep.plain_text import plain
 from sweep.result import Result, Status
+from sweep.running.batches import cost
 
 PERIOD = 5.0  # seconds between plain lines
 NOTEBOOK_PERIOD = 0.5
@@ -46,24 +48,27 @@ class NotebookLine:
 class Progress:
     """Counts cases as they finish.
 
-    costs: id of every waiting case -> its weight in the time left. done: number of cases of the
-    sweep that were finished before. part: these cases are a part of a search, which reports the end
-    of each part itself: lines appear only if a part takes long.
+    waiting: number of waiting cases. work: their weight in the time left, in all; `weight` is that
+    of one case. done: number of cases of the sweep that were finished before. part: these cases are
+    a part of a search, which reports the end of each part itself: lines appear only if a part takes
+    long.
     """
 
     def __init__(
         self,
-        costs: Mapping[str, float],
+        waiting: int,
+        work: float,
         done: int = 0,
         console: Console | None = None,
         part: bool = False,
+        weight: Callable[[Case], float] = cost,
     ) -> None:
         self.console = console or Console(stderr=True)
         self.part = part
-        self.costs = costs
-        self.total = done + len(costs)
+        self.weight = weight
+        self.total = done + waiting
         self.done, self.failed = done, 0
-        self._left = sum(costs.values())
+        self._left = work
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
         self._told: tuple[int, int] | None = None  # cases done and failed in that line
@@ -92,14 +97,14 @@ class Progress:
 
     def advance(self, results: Sequence[Result]) -> None:
         """Count finished cases, and report the first failures."""
-        cost = sum(self.costs[result.case_id] for result in results)
+        ended = sum(self.weight(result.case) for result in results)
         self.done += len(results)
-        self._left -= cost
+        self._left -= ended
         for result in results:
             if result.status is not Status.CONVERGED:
                 self._report_failure(result)
         self._measure(time.monotonic())
-        self._bar.update(self._task, advance=cost, description=self._line())
+        self._bar.update(self._task, advance=ended, description=self._line())
 
     def _report_failure(self, result: Result) -> None:
         self.failed += 1

@@ -12,20 +12,12 @@ def sentences_on_lossless(cases: Sequence[Case]) -> list[str]:
     about those that are too long; none if all are fine.
     """
     lasting = [
-        (case, case.loading.loaded_for(case.height))
+        (case.loading.loaded_for(case.height), case.material.relaxation_times)
         for case in cases
         if case.material.relaxation_times
     ]
-    short = [
-        (time, min(case.material.relaxation_times))
-        for case, time in lasting
-        if FAR * time < min(case.material.relaxation_times)
-    ]
-    long = [
-        (time, max(case.material.relaxation_times))
-        for case, time in lasting
-        if time > FAR * max(case.material.relaxation_times)
-    ]
+    short = [(time, min(times)) for time, times in lasting if FAR * time < min(times)]
+    long = [(time, max(times)) for time, times in lasting if time > FAR * max(times)]
     return [
         *_sentence(short, len(cases), "less than a hundredth of the shortest"),
         *_sentence(long, len(cases), "more than a hundred times the longest"),

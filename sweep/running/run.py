@@ -9,6 +9,7 @@ from pathlib import Path
 from pandas import DataFrame
 
 from sweep.config.case import Case
+from sweep.config.cases import compact
 from sweep.config.grid import Config
 from sweep.config.load import Source, load_config
 from sweep.ranking.curves import with_allowed
@@ -57,7 +58,7 @@ def run(
         run_sweep(config, path, *how)
         if error_bars:
             add_error_bars(config, path, *how)
-    ids = [case.case_id for case in config.cases]
+    ids = [*compact(config.cases).ids]
     question = {
         "budget": list(config.rank.budgets) or None,
         "panel": config.rank.panel,

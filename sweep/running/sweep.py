@@ -10,7 +10,8 @@ from pathlib import Path
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
-from sweep.config.grid import Config, expand, sweep_of
+from sweep.config.cases import compact
+from sweep.config.grid import Config, cases_of, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
 from sweep.running.alone import DIED, NO_MEMORY, Simulate, run_alone
@@ -64,21 +65,20 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     """
     config = sweep_of(sweep)
     config = replace(config, name=config.name or Path(out).stem)
-    cases = {case.case_id: case for case in expand(config)}
-    axes = {case_id: case.axes for case_id, case in cases.items()}
+    cases = compact(cases_of(config))
     stop = Stop()
     with ExitStack() as stack:
         place = stack.enter_context(open_place(scheduler))
         try:
             about = describe_run(config_text(config))
-            writer = stack.enter_context(Writer(out, axes, about))
+            writer = stack.enter_context(Writer(out, cases.labels, about))
         except WriteError as error:
-            if cases.keys() - finished_ids(out, rerun):
+            if cases.ids - finished_ids(out, rerun):
                 raise
             announce(f"{error} All {len(cases)} cases are in it already.")
-            return len(cases) - _converged(out, cases)
-        done = cases.keys() & finished_ids(out, rerun)
-        changed = changed_cases(out, {case_id: cases[case_id] for case_id in done})
+            return len(cases) - _converged(out, cases.ids)
+        done = cases.ids & finished_ids(out, rerun)
+        changed = changed_cases(out, done, cases.of)
         done -= changed
         if lost := changed.union(damaged_ids(out)):
             announce(f"damaged rows in {out}: {len(lost)}; cases of this sweep run again")
@@ -86,26 +86,25 @@ def run_sweep(  # noqa: PLR0913  what, where, how
             announce(
                 f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"
             )
-        waiting = {case_id: case for case_id, case in cases.items() if case_id not in done}
-        to_run = list(waiting.values())
+        to_run = cases.without(done)
         for line in (*sentences_on_lossless(to_run), *sentences_on_periods(to_run)):
             announce(line)
-        work = _work(simulate, to_run, place) if waiting else None
+        work = _work(simulate, to_run, place) if to_run else None
         with interruptible(stop):
             if not work:
                 with writer_thread() as thread:
                     thread.submit(writer.fold).result()
             else:
                 journal = stack.enter_context(Journal(writer.path))
-                suspects = [waiting.pop(i) for i in journal.suspects if i in waiting]
-                for case_id in {*journal.suspects} - {case.case_id for case in suspects}:
+                suspects = [to_run.of(i) for i in journal.suspects if i in to_run.ids]
+                for case_id in {*journal.suspects} - to_run.ids:
                     journal.end(case_id)
                 if suspects:
                     announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
-                plan = Plan(waiting.values(), workers)
-                costs = {case.case_id: cost(case) for case in to_run}
+                plan = Plan(to_run.without(journal.suspects), workers)
+                left = plan.left + sum(map(cost, suspects))
                 with (
-                    Progress(costs, len(done), part=part) as progress,
+                    Progress(len(to_run), left, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
                     keep = _ending(suspects, journal, sink)
@@ -119,11 +118,11 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                         with nullcontext() if place else limited_memory():
                             run_on_threads(plan, journal.watched(in_place), first, stop)
                         _run_alone(work.simulate, again, sink, stop)
-    kept = len(cases.keys() & finished_ids(out, rerun))
+    kept = len(cases.ids & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
-    return len(cases) - _converged(out, cases)
+    return len(cases) - _converged(out, cases.ids)
 
 
 def _work(simulate: Simulate | None, cases: Sequence[Case], place: Place) -> Work:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sweep.result import Result
-from sweep.store.tables import Columns, stack, tabulate, take
+from sweep.store.tables import Table, stack, tabulate, take
 
 FRAME_GROUPS = {
     "frames": ("strain", "time_s", "plate_y_m"),
@@ -116,10 +116,6 @@ class Block:
     attributes: Mapping[str, Any]
     damaged: frozenset[int] = frozenset()  # numbers of rows that are not as they were written
 
-    def table(self, names: Iterable[str] = ()) -> Columns:
-        """The summary in memory, with all columns or the named ones."""
-        return {name: self.summary[name] for name in names or self.summary}
-
     def as_stored(self, rows: np.ndarray) -> np.ndarray:
         """Row numbers in the order in which the file stores their texts, curves and shapes."""
         return rows[np.argsort(self.ragged["cases"].start[rows])]
@@ -158,17 +154,10 @@ def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
     return [np.array(sorted(numbers), dtype=np.int64) for numbers in rows]
 
 
-def joined(
-    blocks: Sequence[Block], rows: Sequence[np.ndarray], names: Iterable[str] = ()
-) -> Columns:
-    """One table of these rows of the blocks, with all columns or the named ones."""
-    pairs = zip(blocks, rows, strict=True)
-    return stack([take(block.table(names), kept) for block, kept in pairs])
-
-
-def newest(blocks: Sequence[Block], names: Iterable[str] = ()) -> Columns:
-    """The summary of the union of the blocks, with all columns or the named ones."""
-    return joined(blocks, newest_rows(blocks), names)
+def newest(blocks: Sequence[Block]) -> Table:
+    """The summary of the union of the blocks."""
+    pairs = zip(blocks, newest_rows(blocks), strict=True)
+    return stack([take(block.summary, rows) for block, rows in pairs])
 
 
 def _flat_frames(result: Result, group: str, names: Iterable[str]) -> dict[str, np.ndarray]:

@@ -12,6 +12,8 @@ from zlib import crc32
 
 import numpy as np
 
+from sweep.store.tables import Table
+
 CHECKSUM = "checksum"
 """The attribute of a results file with the checksum of the others."""
 
@@ -21,12 +23,12 @@ ROTATION = np.uint64(23)
 
 def checked_columns(
     summary: Mapping[str, np.ndarray], ranges: Mapping[str, tuple[np.ndarray, np.ndarray]]
-) -> dict[str, np.ndarray]:
+) -> Table:
     """The columns of a summary, and where the curves and shapes of each row begin and how long they
     are, by group.
     """
     parts = {f"{name}/{k}": part for name, pair in ranges.items() for k, part in enumerate(pair)}
-    return {**summary, **parts}
+    return Table([*summary, *parts], lambda name: parts[name] if name in parts else summary[name])
 
 
 def row_checksums(columns: Mapping[str, np.ndarray]) -> np.ndarray:

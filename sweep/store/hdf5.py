@@ -19,7 +19,17 @@ from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
 from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.parts import Unsealed
-from sweep.store.tables import Axes, Columns, arrange, beyond, relabel, rows_in_order, stack, take
+from sweep.store.tables import (
+    Axes,
+    Columns,
+    arrange,
+    beyond,
+    relabel,
+    rows_in_order,
+    slim,
+    stack,
+    take,
+)
 
 CHUNK = 4096  # rows of a chunk that is compressed and has a checksum
 LARGE_CHUNK = 16384  # rows of a chunk that has only a checksum
@@ -66,7 +76,7 @@ class Growing:
         """Add rows of a block, by their numbers. They replace earlier rows of the same cases."""
         self._known |= dict.fromkeys(block.summary["case_id"][rows])
         stored = block.as_stored(rows)
-        self._tables.append(take(block.table(), stored))
+        self._tables.append({k: slim(v) for k, v in take(block.summary, stored).items()})
         for name, ragged in self._ragged.items():
             ragged.add(block.ragged[name], stored)
         self._disk.raise_error()
@@ -81,13 +91,13 @@ class Growing:
 
     def seal(self, about: About) -> None:
         """Write the summary, with rows in the order of `about.axes`, and seal the file."""
-        table, self._tables = stack(self._tables), []
+        table = stack(self._tables)
         newest = {case_id: row for row, case_id in enumerate(table["case_id"])}
         places = rows_in_order(newest, dict.fromkeys([*about.axes, *self._known]))
         order = np.array(list(newest.values()), dtype=np.int64)[places]
         summary = self._file.create_group("summary", track_order=True)
-        rows = relabel({name: table.pop(name)[order] for name in [*table]}, about.axes)
-        for name, column in arrange(rows).items():
+        rows = arrange(relabel(take(table, order), about.axes))
+        for name, column in rows.items():
             data = _write_column(summary, name, column, self._packed)
             if self._packed:
                 _describe(data, describe_column(name))
@@ -102,6 +112,7 @@ class Growing:
         }
         attributes = {**about.attributes, "format": FORMAT, **counts}
         _write_attributes(self._file, attributes | {CHECKSUM: attribute_checksum(attributes)})
+        self._tables.clear()
         self._file.close()
         self._disk.seal()
 

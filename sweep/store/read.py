@@ -45,7 +45,7 @@ from sweep.store.batch import (
 from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
 from sweep.store.errors import StoreError as StoreError
 from sweep.store.parts import list_parts
-from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
+from sweep.store.tables import Axes, Table, arrange, beyond, relabel, rows_in_order, take
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -66,6 +66,7 @@ HERE = "is open in this process by another reader, such as xarray, with other lo
 DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
 
 CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
+FEW = 4096  # rows of a column that is kept in memory while its file is open
 FILES_REMEMBERED = 4096
 _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 """Damaged rows of files that this process has checked: a sealed file never changes."""
@@ -100,7 +101,7 @@ def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
 
     with _union(Path(path)) as blocks:
         _refuse_damaged(Path(path), blocks)
-        return DataFrame(arrange(newest(blocks)))
+        return DataFrame(dict(arrange(newest(blocks))))
 
 
 def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:
@@ -113,8 +114,8 @@ def _read_columns(path: str | os.PathLike[str], *names: str) -> list[np.ndarray]
     if not exists(path):
         return [np.zeros(0, object) for _ in names]
     with _union(Path(path)) as blocks:
-        table = newest(blocks, names)
-    return [table[name] for name in names]
+        table = newest(blocks)
+        return [table[name] for name in names]
 
 
 def finished_ids(path: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING) -> set[str]:
@@ -141,32 +142,64 @@ def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
     return _case(path, case_id, _read_arrays(Path(path), case_id, ["cases"]))
 
 
-def unreadable(
-    path: str | os.PathLike[str], case_ids: Iterable[str]
-) -> Iterator[tuple[str, StoreError]]:
-    """Ids of rows whose curves, shapes or case cannot be read, or whose case has another id, each
-    with what is wrong.
+def unreadable(path: str | os.PathLike[str]) -> dict[str, StoreError]:
+    """The rows whose curves, shapes or case cannot be read, or whose case has another id: their
+    ids, each with what is wrong.
     """
-    with _stored(Path(path)) as arrays_of:
-        for case_id in case_ids:
+    with _union(Path(path)) as blocks:
+        pairs = zip(blocks, newest_rows(blocks), strict=True)
+        return {k: v for block, rows in pairs for k, v in _unreadable(path, block, rows)}
+
+
+def _unreadable(
+    path: str | os.PathLike[str], block: Block, rows: np.ndarray
+) -> Iterator[tuple[str, StoreError]]:
+    """Of a block; its rows are read in runs, and one by one from the first damaged run on."""
+    ids, stored = block.summary["case_id"], block.as_stored(rows)
+    made: dict[Any, Any] = {}
+    number = 0
+    try:
+        for row, arrays in _arrays_in_runs(block, stored):
+            if wrong := _unusable(path, ids[row], arrays, made):
+                yield ids[row], wrong
+            number += 1
+    except StoreError:
+        for row in stored[number:]:
             try:
-                arrays = arrays_of[case_id](GROUPS)
-                _frames(path, case_id, arrays)
-                _case(path, case_id, arrays)
+                wrong = _unusable(path, ids[row], _arrays(block, row, GROUPS), made)
             except StoreError as error:
-                yield case_id, error
+                wrong = error
+            if wrong:
+                yield ids[row], wrong
 
 
-def changed_cases(path: str | os.PathLike[str], cases: Mapping[str, "Case"]) -> set[str]:
-    """Ids of those of the cases whose row holds another case; cases without a row are left out.
+def _unusable(
+    path: str | os.PathLike[str],
+    case_id: str,
+    arrays: dict[str, np.ndarray],
+    made: dict[Any, Any],
+) -> StoreError | None:
+    """What is wrong with the shapes or the case of a row; made: see `Case.from_json`."""
+    try:
+        _frames(path, case_id, arrays)
+        _case(path, case_id, arrays, made)
+    except StoreError as error:
+        return error
+    return None
+
+
+def changed_cases(
+    path: str | os.PathLike[str], ids: Collection[str], case_of: Callable[[str], "Case"]
+) -> set[str]:
+    """Those of the ids whose row holds another case than theirs; ids without a row are left out.
 
     Texts are compared, which takes 30 us each; where they differ, the ids of the cases.
     """
     if not exists(path):
         return set()
     with _union(Path(path)) as blocks:
-        texts = _texts(blocks, cases.keys())
-        return {case_id for case_id, text in texts if not _is_of(text, cases[case_id])}
+        texts = _texts(blocks, ids)
+        return {case_id for case_id, text in texts if not _is_of(text, case_of(case_id))}
 
 
 def _texts(blocks: list[Block], ids: Collection[str]) -> Iterator[tuple[str, bytes]]:
@@ -190,13 +223,18 @@ def _is_of(text: bytes, case: "Case") -> bool:
         return False
 
 
-def _case(path: str | os.PathLike[str], case_id: str, arrays: dict[str, np.ndarray]) -> "Case":
+def _case(
+    path: str | os.PathLike[str],
+    case_id: str,
+    arrays: dict[str, np.ndarray],
+    made: dict[Any, Any] | None = None,
+) -> "Case":
     from sweep.config.case import Case
     from sweep.config.faults import MisfitError
 
     text = bytes(arrays.get(TEXT, b""))
     try:
-        case = Case.from_json(text.decode())
+        case = Case.from_json(text.decode(), made)
         if case.case_id != case_id:
             raise MisfitError(f"it is case {case.case_id}")
     except (ValueError, ArithmeticError) as error:
@@ -222,8 +260,16 @@ def read_runs(
 
     shapes: False leaves the shapes unread, and `frames` empty.
     """
-    with _stored(Path(path)) as arrays_of:
-        for case_id in case_ids:
+    ids = [*case_ids]
+    some = {*ids}
+    with _union(Path(path)) as blocks:
+        arrays_of = {
+            case_id: partial(_arrays, block, row)
+            for block in blocks
+            for row, case_id in enumerate(block.summary["case_id"])
+            if case_id in some and row not in block.damaged
+        }
+        for case_id in ids:
             if case_id not in arrays_of:
                 raise StoreError(f"{path} holds no case {case_id}.")
             arrays = arrays_of[case_id]
@@ -249,18 +295,6 @@ def read_curves(
                 yield stored[row], none | {k: v.astype(np.float64) for k, v in arrays.items()}
     for case_id in ids:
         raise StoreError(f"{path} holds no case {case_id}.")
-
-
-@contextmanager
-def _stored(path: Path) -> Iterator[dict[str, Callable[[Iterable[str]], dict[str, np.ndarray]]]]:
-    """For each case what reads its arrays in named groups; the files stay open inside the block."""
-    with _union(path) as blocks:
-        yield {
-            case_id: partial(_arrays, block, row)
-            for block in blocks
-            for row, case_id in enumerate(block.summary["case_id"])
-            if row not in block.damaged
-        }
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
@@ -298,9 +332,11 @@ def is_labelled(path: Path, axes: Axes, config: Any) -> bool:
         table, others = newest(blocks), blocks[-1].attributes["other_cases"]
         if blocks[-1].attributes.get("config") != config:
             return False
-    columns = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
-    same = (np.array_equal(table[n], c, equal_nan=c.dtype != object) for n, c in columns.items())
-    return columns.keys() == table.keys() and all(same) and others == beyond(table, axes)
+        columns = relabel(take(table, rows_in_order(table["case_id"], axes)), axes)
+        if columns.keys() != table.keys() or others != beyond(table, axes):
+            return False
+        pairs = ((table[name], column) for name, column in columns.items())
+        return all(np.array_equal(a, b, equal_nan=b.dtype != object) for a, b in pairs)
 
 
 @contextmanager
@@ -397,14 +433,19 @@ def _changed_rows(
     """Numbers of the rows whose checksums are not those written, or whose id is none of Crumple's:
     ids become names of files.
     """
-    for name, column in columns.items():
-        is_text, described = column.dtype == object, COLUMNS.get(name)
+    ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
+    checked = checked_columns(columns, ranges)
+
+    def sound(name: str) -> np.ndarray:
+        column, described = checked[name], COLUMNS.get(name)
+        is_text = column.dtype == object
         if described and is_text != (described.units == "") and (is_text or name not in LOADED):
             raise StoreError(f"{path} is damaged: /summary/{name} {NOT_SO}: {AGAIN}.")
-    ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
-    if any(column.shape != written.shape for column in checked_columns(columns, ranges).values()):
-        raise ValueError("columns of other lengths")
-    same = row_checksums(checked_columns(columns, ranges)) == written
+        if column.shape != written.shape:
+            raise ValueError("columns of other lengths")
+        return column
+
+    same = row_checksums(Table(checked, sound)) == written
     same &= [bool(ID.fullmatch(case_id)) for case_id in columns["case_id"]]
     if not all(group.is_whole(same) for group in ragged.values()):
         raise ValueError("ranges beyond the end of their arrays")
@@ -420,7 +461,7 @@ def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
 
 
 def _damaged(blocks: list[Block]) -> list[str]:
-    usable = {*newest(blocks, ("case_id",))["case_id"]}
+    usable = {*newest(blocks)["case_id"]}
     ids = [block.summary["case_id"][row] for block in blocks for row in sorted(block.damaged)]
     return [case_id for case_id in ids if case_id not in usable]
 
@@ -472,17 +513,23 @@ class _Array:
 
 
 class _Members(Mapping[str, Any]):
-    """The datasets of a group of a sealed file, each opened or read when it is first indexed."""
+    """The datasets of a group of a sealed file, each opened or read when it is indexed.
+
+    Kept are texts, which take long to read, and what is small, since there may be many files.
+    """
 
     def __init__(self, path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> None:
         self._path, self._group, self._take = path, group, take
         self._taken: dict[str, Any] = {}
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._taken:
-            with _undamaged(self._path):
-                self._taken[name] = self._take(_inside(self._group, name, h5py.Dataset))
-        return self._taken[name]
+        if name in self._taken:
+            return self._taken[name]
+        with _undamaged(self._path):
+            taken = self._take(_inside(self._group, name, h5py.Dataset))
+        if not isinstance(taken, np.ndarray) or taken.dtype == object or len(taken) <= FEW:
+            self._taken[name] = taken
+        return taken
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._group)
@@ -512,3 +559,15 @@ def _arrays(block: Block, row: int, groups: Iterable[str]) -> dict[str, np.ndarr
     """Arrays of the case in one row of a block; those without any row are left out."""
     arrays = [block.ragged[group].case(row) for group in groups]
     return {k: v for named in arrays for k, v in named.items() if len(v)}
+
+
+def _arrays_in_runs(block: Block, rows: np.ndarray) -> Iterator[tuple[int, dict[str, np.ndarray]]]:
+    """Row by row what `_arrays` reads of all groups, of rows in the order in which they are stored;
+    a `StoreError` if a group stores them in another order.
+    """
+    groups = [block.ragged[name] for name in GROUPS]
+    for cases in zip(*(group.cases(rows, [*group.arrays]) for group in groups), strict=True):
+        numbers = {row for row, _ in cases}
+        if len(numbers) > 1:
+            raise StoreError("groups in different orders")
+        yield numbers.pop(), {k: v for _, named in cases for k, v in named.items() if len(v)}

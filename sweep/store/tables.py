@@ -4,7 +4,7 @@ A missing value is NaN in a column of numbers and "" in a column of text.
 """
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,36 +19,72 @@ _FIXED = list(COLUMNS)
 _HEAD = ("case_id", "status", "message")
 
 
+class Table(Mapping[str, np.ndarray]):
+    """Columns by their names, each made when it is asked for, and not kept.
+
+    All columns of a large sweep at a time would be most of the memory that a run takes.
+    """
+
+    def __init__(self, names: Iterable[str], make: Callable[[str], np.ndarray]) -> None:
+        self._names, self._make = dict.fromkeys(names), make
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._names:
+            raise KeyError(name)
+        return self._make(name)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
 def tabulate(rows: Sequence[Mapping[str, Any]]) -> Columns:
     """Table of rows, which may have different columns."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: _column([row.get(name) for row in rows]) for name in names}
 
 
-def take(table: Mapping[str, np.ndarray], index: np.ndarray) -> Columns:
+def take(table: Mapping[str, np.ndarray], index: np.ndarray) -> Table:
     """Rows of a table with the numbers `index`, in that order."""
-    return {name: column[index] for name, column in table.items()}
+    return Table(table, lambda name: table[name][index])
 
 
-def stack(tables: Sequence[Columns]) -> Columns:
+def slim(column: np.ndarray) -> np.ndarray:
+    """The same column, read only; it takes the memory of one value if all have the same bits."""
+    bits = column if column.dtype == object else column.view(f"u{column.itemsize}")
+    if not len(column) or (bits != bits[0]).any():
+        return column
+    return np.broadcast_to(column[:1].copy(), column.shape)
+
+
+def stack(tables: Sequence[Mapping[str, np.ndarray]]) -> Table:
     """Tables one below another, with the columns of all."""
     lengths = [len(table["case_id"]) for table in tables]
     names = dict.fromkeys(name for table in tables for name in table)
-    return {name: _join([table.get(name) for table in tables], lengths) for name in names}
+    return Table(names, lambda name: _join([table.get(name) for table in tables], lengths))
 
 
-def relabel(table: Columns, axes: Axes) -> Columns:
+def relabel(table: Mapping[str, np.ndarray], axes: Axes) -> Table:
     """Table with the grid values of its cases replaced by those in `axes`.
 
     A case that an earlier sweep computed is part of this one too, with the values of this grid.
     Values that `axes` does not have stay.
     """
-    rows = [axes.get(case_id, {}) for case_id in table["case_id"]]
-    fresh = {}
-    for name in dict.fromkeys(name for row in rows for name in row):
-        old = table[name].tolist() if name in table else [None] * len(rows)
-        fresh[name] = _column([row.get(name, value) for row, value in zip(rows, old, strict=True)])
-    return table | fresh
+    ids = table["case_id"]
+    labels = dict.fromkeys(name for case_id in ids for name in axes.get(case_id, ()))
+
+    def make(name: str) -> np.ndarray:
+        if name not in labels:
+            return table[name]
+        pairs = zip(ids, _list(table.get(name), len(ids)), strict=True)
+        return _column([axes.get(case_id, {}).get(name, old) for case_id, old in pairs])
+
+    return Table([*table, *labels], make)
 
 
 def beyond(table: Mapping[str, np.ndarray], axes: Axes) -> int:
@@ -56,9 +92,9 @@ def beyond(table: Mapping[str, np.ndarray], axes: Axes) -> int:
     return sum(case_id not in axes for case_id in table["case_id"]) if axes else 0
 
 
-def arrange(table: Columns) -> Columns:
+def arrange(table: Mapping[str, np.ndarray]) -> Table:
     """Columns in the order: id and status, grid keys, the columns of `COLUMNS`, others."""
-    return {name: table[name] for name in sorted(table, key=_place)}
+    return Table(sorted(table, key=_place), table.__getitem__)
 
 
 def rows_in_order(ids: Iterable[str], order: Iterable[str]) -> np.ndarray:

@@ -105,7 +105,6 @@ TESTED_ELSEWHERE = {
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
     "sweep.simulation.base": "sweep/simulation/test_target.py",
     "sweep.store.batch": "sweep/store/test_read.py",
-    "sweep.store.tables": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",
     "sweep.version": "sweep/cli/test_verbs.py",

@@ -97,8 +97,7 @@ class Table(BaseModel):
 
     def value(self, key: str) -> Any:
         """The value of a key; None if this kind does not have it."""
-        fields = type(self).model_fields
-        return getattr(self, key) if key in fields else self.constants.get(key)
+        return getattr(self, key) if key in keys_of(type(self)) else self.constants.get(key)
 
     def why_idle(self, key: str) -> str:
         """Why a key has no effect."""
@@ -131,7 +130,8 @@ class RefusedError(MisfitError):
 
 def own_values(values: Inputs, model: type[Table]) -> dict[str, Any]:
     """The values of the keys that a model has."""
-    return {key: value for key, value in values.items() if key in model.model_fields}
+    own = keys_of(model)
+    return {key: value for key, value in values.items() if key in own}
 
 
 @cache

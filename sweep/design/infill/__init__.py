@@ -35,6 +35,7 @@ def families() -> tuple[str, ...]:
     return tuple(sorted(module.name for module in iter_modules(__path__)))
 
 
+@cache
 def trait(kind: str, name: str) -> Any:
     """The object of this name in the file of a family; None if there is none."""
     return getattr(import_module(f"{__name__}.{kind}"), name, None)

@@ -34,6 +34,8 @@ def main(folder: Path, share: float = 1.0) -> int:
 
     counts = damage.damage(results, int(share * DAMAGES))
     with TemporaryDirectory() as place:
+        counts |= damage.damage_part(results, Path(place), int(share * DAMAGES))
+    with TemporaryDirectory() as place:
         inputs = fuzz.fuzz(Path(place), results, int(share * INPUTS), keep)
     killed = {}
     for verb in kills.VERBS:
@@ -47,7 +49,7 @@ def main(folder: Path, share: float = 1.0) -> int:
         lock.sheet(locks),
     ]  # fmt: skip
     publish(sheets, folder / "torture.md")
-    nothing_lost = cluster.lost == cluster.wrong == 0
+    nothing_lost = cluster.lost == cluster.wrong == 0 < cluster.refused
     nothing_lost &= all(found.lost == found.twice == 0 for found in killed.values())
     return 0 if damage.is_sound(counts) and fuzz.is_sound(inputs) and nothing_lost else 1
 

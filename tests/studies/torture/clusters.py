@@ -1,17 +1,22 @@
 """Kills workers and schedulers below two runs, and looks whether their files come out as they must.
 
 The runs share a scheduler. Each has a case that kills its process, and one that fails. A worker of
-another source wants to take part.
+another source wants to take part, and must be refused.
 """
 
+import io
 import os
+import re
 import shutil
+import sys
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import redirect_stderr
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TextIO
 
 import numpy as np
+from distributed import Client
 from distributed.utils import silence_logging_cmgr
 
 from sweep.config.case import Case
@@ -27,12 +32,16 @@ WORKERS = 2
 LONGEST = 2.0  # seconds between two kills
 POISON, FAILING = 11, 7
 WAIT = 60.0  # seconds for a worker
+PACKAGES = ("kernels", "sweep", "tests/support", "tests/studies/torture")  # of a worker
+OTHER = "other"  # name of the worker of another source
+REFUSED = re.compile(rf"worker {OTHER} .*is refused: it has source ")
 
 
 class Killed(NamedTuple):
     """Kills of workers and of schedulers; rows that a run lost, and rows that are not as they must.
 
-    sentences: how often runs ended with the sentence of a lost scheduler.
+    sentences: how often runs ended with the sentence of a lost scheduler. refused: how often runs
+    said that they refuse the worker of another source.
     """
 
     workers: int
@@ -40,6 +49,19 @@ class Killed(NamedTuple):
     sentences: int
     lost: int
     wrong: int
+    refused: int
+
+
+class _Heard(io.StringIO):
+    """What is written to a stream, which gets it too."""
+
+    def __init__(self, stream: TextIO) -> None:
+        super().__init__()
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        self._stream.write(text)
+        return super().write(text)
 
 
 def poisonous(case: Case, control: np.ndarray | None = None) -> Result:
@@ -74,9 +96,11 @@ def complete(batch: list[Case], out: Path, processes: Processes) -> tuple[int, i
     return sentences, lost
 
 
-def kill(processes: Processes, kills: int, schedulers: int, runs: list[Future]) -> tuple[int, int]:
+def kill(
+    processes: Processes, other: Path, kills: int, schedulers: int, runs: list[Future]
+) -> tuple[int, int]:
     """Kill workers at random moments and start others, some with a scheduler, until the runs end;
-    return how many of each were killed.
+    return how many of each were killed. other: source of the worker that is to be refused.
     """
     rng, workers, lost = np.random.default_rng(1), 0, 0
     while workers < kills and not all(run.done() for run in runs):
@@ -91,37 +115,43 @@ def kill(processes: Processes, kills: int, schedulers: int, runs: list[Future]) 
             lost += 1
             processes.start_scheduler()
             processes.add(WORKERS - 1)
+            processes.add(source=other, name=OTHER)
         processes.add()
     return workers, lost
 
 
 def torture(folder: Path, kills: int, schedulers: int = 1, count: int = 400) -> Killed:
     """Two runs of about `count` cases each, while workers and schedulers are killed."""
-    other = folder / "other"
-    for package in ("kernels", "sweep", "tests/support"):
+    other, heard = folder / OTHER, _Heard(sys.stderr)
+    for package in PACKAGES:
         shutil.copytree(ROOT / package, other / package)
     with (other / "sweep" / "result.py").open("a") as file:
         file.write("# changed\n")
     files = {folder / "one.h5": cases(count), folder / "two.h5": cases(count + 1)}
     with (
         silence_logging_cmgr("CRITICAL"),
+        redirect_stderr(heard),
         Processes(folder) as processes,
         ThreadPoolExecutor(len(files)) as pool,
     ):
         processes.add(WORKERS)
-        processes.add(source=other, name="other")
+        processes.add(source=other, name=OTHER)
+        with Client(processes.address) as client:
+            client.wait_for_workers(WORKERS + 1, WAIT)
         runs = [pool.submit(complete, batch, out, processes) for out, batch in files.items()]
-        killed = kill(processes, kills, schedulers, runs)
+        killed = kill(processes, other, kills, schedulers, runs)
         sentences, lost = map(sum, zip(*(run.result() for run in runs), strict=True))
     wrong = sum(
         read_statuses(out).get(case_id) != status
         for out, batch in files.items()
         for case_id, status in expected(batch).items()
     )
-    return Killed(*killed, sentences, lost, wrong)
+    refused = sum(map(bool, map(REFUSED.search, heard.getvalue().splitlines())))
+    return Killed(*killed, sentences, lost, wrong, refused)
 
 
 def sheet(found: Killed) -> Sheet:
     """The table of `torture`."""
     heads = ["killed workers", "killed schedulers", "runs that ended so", "rows lost", "rows wrong"]
+    heads += ["refusals of the other source"]
     return Sheet("Two runs on a cluster", heads, [[str(count) for count in found]])

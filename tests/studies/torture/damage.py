@@ -4,13 +4,23 @@ Each damaged copy is read as a whole in a process of its own, which is given up 
 """
 
 from collections import Counter
+from contextlib import ExitStack
 from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 
 from sweep.report.tables.sheet import Sheet
-from sweep.store.read import StoreError, read_attributes, read_case, read_runs, read_summary
+from sweep.store.hdf5 import About, seal_blocks
+from sweep.store.parts import new_part
+from sweep.store.read import (
+    StoreError,
+    open_whole,
+    read_attributes,
+    read_case,
+    read_runs,
+    read_summary,
+)
 from tests.studies.torture.reader import Reader
 
 PATIENCE = 10.0  # seconds
@@ -78,8 +88,29 @@ def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
 
     Half of the damages are in the first sixth of the file, where HDF5 keeps most of its own.
     """
-    content, whole, copy = path.read_bytes(), everything(path), path.with_name("damaged.h5")
-    rng, counts = np.random.default_rng(seed), {}
+    copy = path.with_name("damaged.h5")
+    return _damage(path.read_bytes(), copy, copy, everything(path), (count, seed))
+
+
+def damage_part(path: Path, folder: Path, count: int, seed: int = 2) -> dict[str, Counter[str]]:
+    """The same of a part with the rows of a results file, as a run seals it; in an empty folder."""
+    copy, part = folder / "damaged.h5", new_part(folder / "damaged.h5", 1, 1).path
+    part.parent.mkdir()
+    with ExitStack() as stack:
+        seal_blocks(part, open_whole(path, stack), About(last=1), packed=False)
+    counts = _damage(part.read_bytes(), part, copy, everything(copy), (count, seed))
+    return {f"part: {name}": found for name, found in counts.items()}
+
+
+def _damage(
+    content: bytes, copy: Path, path: Path, whole: str, how: tuple[int, int]
+) -> dict[str, Counter[str]]:
+    """Of copies of some content, which are read under a path.
+
+    whole: digest of what is read there without damage. how: count and seed.
+    """
+    (count, seed), counts = how, {}
+    rng = np.random.default_rng(seed)
     with Reader(outcome, PATIENCE, SILENCE) as reader:
         for name, hurt in KINDS.items():
             counts[name] = Counter()
@@ -87,7 +118,7 @@ def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
                 hurtable = bytearray(content)
                 hurt(hurtable, int(rng.integers(len(content) // (6 if number % 2 else 1))), rng)
                 copy.write_bytes(hurtable)
-                counts[name][reader.outcome(copy, whole)] += 1
+                counts[name][reader.outcome(path, whole)] += 1
     copy.unlink()
     return counts
 
@@ -97,7 +128,9 @@ def sheet(counts: dict[str, Counter[str]]) -> Sheet:
     rows = [
         [name, *(str(found[outcome]) for outcome in OUTCOMES)] for name, found in counts.items()
     ]
-    return Sheet("Damaged copies of a results file", ["damage", *OUTCOMES], rows)
+    return Sheet(
+        "Damaged copies of a results file, and of a part of one", ["damage", *OUTCOMES], rows
+    )
 
 
 def is_sound(counts: dict[str, Counter[str]]) -> bool:

@@ -19,6 +19,14 @@ def test_few_damages_are_told_or_harmless(tmp_path):
     assert [row[0] for row in damage.sheet(counts).rows] == list(damage.KINDS)
 
 
+def test_few_damages_of_a_part_are_told_or_harmless(tmp_path):
+    write(tmp_path / "armor.h5", cases(4), fold=True)
+    counts = damage.damage_part(tmp_path / "armor.h5", tmp_path, 6)
+    assert damage.is_sound(counts)
+    assert sum(found[damage.TOLD] for found in counts.values()) > 12
+    assert not (tmp_path / "damaged.h5").exists()
+
+
 def test_what_is_silently_other_is_found(tmp_path):
     write(tmp_path / "one.h5", cases(2), fold=True)
     write(tmp_path / "other.h5", cases(3), fold=True)
@@ -76,8 +84,15 @@ def test_what_is_lost_or_computed_twice_is_counted():
 
 def test_a_killed_worker_costs_no_row(tmp_path):
     found = clusters.torture(tmp_path, 1, schedulers=0, count=3)
-    assert found == clusters.Killed(1, 0, 0, 0, 0)
-    assert clusters.sheet(found).rows == [["1", "0", "0", "0", "0"]]
+    assert found._replace(refused=0) == clusters.Killed(1, 0, 0, 0, 0, 0)
+    assert clusters.sheet(found._replace(refused=2)).rows == [["1", "0", "0", "0", "0", "2"]]
+
+
+def test_refusals_are_heard():
+    """Of another source; not of a worker that cannot run Crumple at all."""
+    said = "worker other (tcp://127.0.0.1:1) is refused: it has source ab (this run: cd)"
+    assert clusters.REFUSED.search(said)
+    assert not clusters.REFUSED.search(said.replace("has source ab", "cannot run Crumple"))
 
 
 def test_the_lock_is_held_for_a_part_of_a_case():

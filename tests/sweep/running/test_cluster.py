@@ -129,7 +129,7 @@ def test_something_else_is_refused():
 
 
 def test_slurm_without_its_package_names_the_extra(monkeypatch):
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", None)
+    monkeypatch.setitem(sys.modules, "dask_jobqueue.slurm", None)
     with (
         pytest.raises(SchedulerError, match=r'pip install "crumple\[slurm\]"') as refusal,
         open_cluster("slurm"),

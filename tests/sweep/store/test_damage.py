@@ -17,6 +17,7 @@ from sweep.store.read import (
     read_frames,
     read_history,
     read_summary,
+    unreadable,
 )
 from tests.support.command import crumple
 from tests.support.results.standin import NODES, cases, forge, parts_of, write
@@ -312,3 +313,30 @@ def test_shapes_that_do_not_fit_together_are_named(path, capsys, name, value, wh
     assert (status, why in said) == (2, True)
     status, said, _ = crumple(capsys, "verify", str(path))
     assert (status, why in said) == (1, True)
+
+
+@pytest.mark.parametrize("number", [0, 5, -1])
+def test_rows_that_are_read_in_runs_are_named_as_if_read_one_by_one(path, monkeypatch, number):
+    """A damaged chunk of shapes hits the cases that it holds, and no others of its run."""
+    monkeypatch.setattr("sweep.store.hdf5.LARGE_CHUNK", 4 * NODES)
+    batch = cases(20)
+    write(path, batch, fold=True)
+    monkeypatch.setattr("sweep.store.batch.CHUNK", 15 * NODES)
+    assert unreadable(path) == {}
+    with h5py.File(path) as file:
+        chunks = file["points/values/position_m"].id
+        chunk = chunks.get_chunk_info(range(chunks.get_num_chunks())[number])
+    content = bytearray(path.read_bytes())
+    content[chunk.byte_offset + 20] ^= 1
+    path.write_bytes(content)
+
+    def is_damaged(case_id):
+        try:
+            read_frames(path, case_id)
+        except StoreError:
+            return True
+        return False
+
+    damaged = {case.case_id for case in batch if is_damaged(case.case_id)}
+    assert 0 < len(damaged) < 5
+    assert unreadable(path).keys() == damaged

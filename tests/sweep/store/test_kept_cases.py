@@ -150,11 +150,11 @@ def test_a_row_that_holds_another_case_is_found(path, fold):
     batch = cases(5)
     write(path, batch, fold, size=5)
     known = {case.case_id: case for case in cases(7)}
-    assert changed_cases(path, known) == set()
+    assert changed_cases(path, known, known.get) == set()
     (sealed,) = [path] if fold else parts_of(path)
     edited(sealed, b'"imperfection":0.003', b'"imperfection":0.009')
-    assert changed_cases(path, known) == {batch[3].case_id}
-    assert changed_cases(path, {batch[1].case_id: batch[1]}) == set()
+    assert changed_cases(path, known, known.get) == {batch[3].case_id}
+    assert changed_cases(path, {batch[1].case_id}, known.get) == set()
 
 
 def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path):
@@ -162,9 +162,9 @@ def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path
     relabelled = [case.model_copy(update={"axes": {"lattice.depth": 0.01}}) for case in batch]
     write(path, relabelled, fold=True)
     known = {case.case_id: case for case in batch}
-    assert changed_cases(path, known) == set()
+    assert changed_cases(path, known, known.get) == set()
     edited(path, b'"axes":{"lattice.depth":0.01}', b'"axes":{},"solver":{"mode":1}')
-    assert changed_cases(path, known) == {batch[0].case_id}
+    assert changed_cases(path, known, known.get) == {batch[0].case_id}
 
 
 def test_texts_written_otherwise_are_compared_by_their_ids(path):
@@ -174,11 +174,12 @@ def test_texts_written_otherwise_are_compared_by_their_ids(path):
     edited(path, b'"imperfection":0.002', b'"imperfection":2e-03')
     edited(path, b'"imperfection":0.001', b'"imperfection":3e-03')
     known = {case.case_id: case for case in batch}
-    assert changed_cases(path, known) == {batch[1].case_id}
+    assert changed_cases(path, known, known.get) == {batch[1].case_id}
 
 
 def test_no_file_has_no_changed_case(path):
-    assert changed_cases(path, {case.case_id: case for case in cases(2)}) == set()
+    known = {case.case_id: case for case in cases(2)}
+    assert changed_cases(path, known, known.get) == set()
 
 
 def test_curves_of_many_cases_are_those_of_each(path, monkeypatch):
