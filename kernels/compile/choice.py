@@ -25,21 +25,21 @@ def _installed(package):
         return "unknown"
 
 
-def choose(asked, numba, llvmlite):
-    """Return the compiler for what was ``asked`` ("" for nothing) and for these versions, and what
+def choose(choice, numba, llvmlite):
+    """Return the compiler for a ``choice`` ("" for none) and for these versions, and what
     the user should know of that, if anything.
     """
-    if asked in (FAST, STOCK):
-        return asked, None
-    if asked:
-        raise CompilerError(f"{VARIABLE} = {asked!r}; allowed: {FAST}, {STOCK}")
+    if choice in (FAST, STOCK):
+        return choice, None
+    if choice:
+        raise CompilerError(f"{VARIABLE} = {choice!r}; allowed: {FAST}, {STOCK}")
     series = tuple(".".join(text.split(".")[:2]) for text in (numba, llvmlite))
     if series in KNOWN:
         return FAST, None
-    known = " or ".join(f"{one}.x with llvmlite {other}.x" for one, other in KNOWN)
+    supported = " or ".join(f"{one}.x with llvmlite {other}.x" for one, other in KNOWN)
     return STOCK, (
         f"crumple: the stock compiler is used, as Numba {numba} with llvmlite {llvmlite} is not "
-        f"{known}: results are the same, the first start takes longer ({VARIABLE}={STOCK} "
+        f"{supported}: results are the same, the first start takes longer ({VARIABLE}={STOCK} "
         "says so without this line)"
     )
 
@@ -53,8 +53,8 @@ def compiler():
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
         return NONE
-    asked = os.environ.get(VARIABLE, "")
-    chosen, notice = choose(asked, _installed("numba"), _installed("llvmlite"))
+    choice = os.environ.get(VARIABLE, "")
+    chosen, notice = choose(choice, _installed("numba"), _installed("llvmlite"))
     if notice:
         sys.stderr.write(f"{notice}\n")
         os.environ[VARIABLE] = chosen

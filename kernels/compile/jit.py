@@ -14,7 +14,7 @@ import numba
 from kernels.compile import cache, verbs  # noqa: F401  (cache: Numba keeps code in that folder)
 from kernels.compile.kernel import Kernel
 
-verbs.register(lambda found: isinstance(found, Kernel))
+verbs.register(lambda value: isinstance(value, Kernel))
 
 
 def decorator(fastmath, owning=False):

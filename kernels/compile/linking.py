@@ -81,16 +81,16 @@ class Entry(JITCodeLibrary):
         super()._optimize_final_module()
 
 
-def _reached(library, found):
+def _reached(library, reached):
     """Add all libraries that a library calls, directly or through kernels, to the dictionary
-    ``found``; return it.
+    ``reached``; return it.
     """
     for called in library._linking_libraries:
-        if called not in found:
-            found[called] = None
+        if called not in reached:
+            reached[called] = None
             if isinstance(called, Linked):
-                _reached(called, found)
-    return found
+                _reached(called, reached)
+    return reached
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)

@@ -98,11 +98,11 @@ def _typeof(value, context):
 
 
 @unbox(Reference)
-def _unboxed(kind, found, tools):
+def _unboxed(kind, value, tools):
     """Keep the tuple of a `Referenced` in the frame of what Python calls."""
-    held = tools.pyapi.object_getattr_string(found, "_tuple")
-    native = tools.unbox(kind.kind, held)
-    tools.pyapi.decref(held)  # `found` holds it
+    fields = tools.pyapi.object_getattr_string(value, "_tuple")
+    native = tools.unbox(kind.kind, fields)
+    tools.pyapi.decref(fields)  # `value` holds it
     place = cgutils.alloca_once_value(tools.builder, native.value)
     return NativeValue(place, is_error=native.is_error, cleanup=native.cleanup)
 

@@ -123,12 +123,12 @@ def collect(_, array, places, at):
     def code(context, builder, signature, args):
         data = make_array(signature.args[0])(context, builder, args[0]).data
         index = make_array(signature.args[1])(context, builder, args[1]).data
-        found = ANYTHING
+        vector = ANYTHING
         for lane in range(LANES):
             place = builder.load(builder.gep(index, [builder.add(args[2], WORD(lane))]))
             entry = builder.load(builder.gep(data, [place]))
-            found = builder.insert_element(found, entry, INDEX(lane))
-        return found
+            vector = builder.insert_element(vector, entry, INDEX(lane))
+        return vector
 
     return four(array, places, types.intp), code
 

@@ -20,8 +20,8 @@ class _Verb(AbstractTemplate):
 
     def generic(self, args, kws):
         kernel = getattr(self.this.instance_class, self.name)
-        found = typeof(kernel).get_call_type(self.context, (self.this, *args), kws)
-        return signature(found.return_type, *found.args[1:], recvr=self.this)
+        call_type = typeof(kernel).get_call_type(self.context, (self.this, *args), kws)
+        return signature(call_type.return_type, *call_type.args[1:], recvr=self.this)
 
 
 def _declare(name):
@@ -34,8 +34,8 @@ def _declare(name):
     @lower_builtin((VERB, name), Reference, types.VarArg(types.Any))
     def code(context, builder, sig, args):
         kernel = typeof(getattr(sig.args[0].instance_class, name))
-        found = kernel.get_call_type(context.typing_context, sig.args, {})
-        call = context.get_function(kernel, found)
+        call_type = kernel.get_call_type(context.typing_context, sig.args, {})
+        call = context.get_function(kernel, call_type)
         context.add_linking_libs(getattr(call, "libs", ()))
         return call(builder, args)
 
@@ -51,5 +51,5 @@ def register(is_kernel):
             template = type(name, (_Verb,), {"key": (VERB, name), "name": name})
             return types.BoundFunction(template, kind)
 
-    for found in (types.BaseNamedTuple, Reference):
-        infer_getattr(type(Verbs.__name__, (Verbs,), {"key": found}))
+    for kind in (types.BaseNamedTuple, Reference):
+        infer_getattr(type(Verbs.__name__, (Verbs,), {"key": kind}))

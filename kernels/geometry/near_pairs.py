@@ -148,8 +148,8 @@ def find(x, contact, radius):
     """Return the `Pairs` closer than ``radius`` at ``x``, with the rules of ``contact``."""
     listed = near(x, contact.tributary.size, contact.edges, radius)
     n = listed[0].size
-    shell, found = np.empty(n, np.int64), np.empty(n, np.int64)
-    _find_rules(listed[0], listed[1], contact, np.full(contact.tributary.size, -1), found)
+    shell, rules = np.empty(n, np.int64), np.empty(n, np.int64)
+    _find_rules(listed[0], listed[1], contact, np.full(contact.tributary.size, -1), rules)
     for k in range(n):
         shell[k] = min(int(listed[2][k] / radius * SHELLS), SHELLS - 1)
     _, nearest = grouped(shell, SHELLS)
@@ -157,7 +157,7 @@ def find(x, contact, radius):
     d_contact, rule = np.empty(n), np.empty(n, np.int64)
     for k in range(n):
         q = nearest[k]
-        node[k], edge[k], rule[k] = listed[0][q], listed[1][q], found[q]
+        node[k], edge[k], rule[k] = listed[0][q], listed[1][q], rules[q]
         distance[k] = shell[q] * radius / SHELLS
         d_contact[k] = _distance(contact, node[k], edge[k], rule[k])
     return Pairs(node, edge, distance, d_contact, rule)

@@ -36,8 +36,8 @@ def _corner(loops, k, i):
 
 
 @jit_exact
-def heights(loops, low, high, found):
-    """Write the heights of all corners and crossings to ``found`` (n,) as far as they fit.
+def heights(loops, low, high, levels):
+    """Write the heights of all corners and crossings to ``levels`` (n,) as far as they fit.
 
     Return their number. loops (k, c + 1, 2): the corners of each polygon, the first one repeated at
     the end. low, high (k, 2): its bounding box. Polygons are sorted by low[:, 1].
@@ -45,8 +45,8 @@ def heights(loops, low, high, found):
     n, sides = 0, loops.shape[1] - 1
     for a in range(loops.shape[0]):
         for i in range(sides):
-            if n < found.size:
-                found[n] = loops[a, i, 1]
+            if n < levels.size:
+                levels[n] = loops[a, i, 1]
             n += 1
         for b in range(a + 1, loops.shape[0]):
             if low[b, 1] > high[a, 1]:
@@ -58,8 +58,8 @@ def heights(loops, low, high, found):
                 for j in range(sides):
                     y = _crossing(p, q, _corner(loops, b, j), _corner(loops, b, j + 1))
                     if y == y:  # not NaN
-                        if n < found.size:
-                            found[n] = y
+                        if n < levels.size:
+                            levels[n] = y
                         n += 1
     return n
 

@@ -14,10 +14,10 @@ def stresses(law, time, strain):
     """
     pace = law.make_pace()
     memory = Memory(np.zeros((1, law.state_size())), np.zeros((1, 2)), pace)
-    found = np.empty(strain.size)
+    stress = np.empty(strain.size)
     for i in range(strain.size):
         law.set_pace(time[i] - time[i - 1] if i > 0 else 0.0, pace)
         law.begin(memory, 0)
-        found[i] = law.respond(strain[i], memory, 0)[1]
+        stress[i] = law.respond(strain[i], memory, 0)[1]
         law.commit(strain[i], memory, 0)
-    return found
+    return stress

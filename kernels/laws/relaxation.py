@@ -125,8 +125,8 @@ def inverse(elastic, most, stress, guess):
     """
     low, high, strain = elastic.least(), math.inf, guess
     for _ in range(TRIES):
-        energy, found, tangent = elastic.respond(strain, most)
-        gap = stress - found
+        energy, response, tangent = elastic.respond(strain, most)
+        gap = stress - response
         move = gap / tangent
         if abs(move) < NEAR:
             break

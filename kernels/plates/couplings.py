@@ -8,10 +8,10 @@ SOON = 1.2  # distance in units of the reach of contact below which nodes may so
 
 
 @jit_exact
-def _add_pair(layout, i, j, found, count):
+def _add_pair(layout, i, j, entries, count):
     """Append the blocks of nodes ``i`` and ``j``, and those that they follow; return the number.
 
-    ``found`` may have no rows: the pairs are only counted.
+    ``entries`` may have no rows: the pairs are only counted.
     """
     last = layout.size.size - 1  # block of a platen
     one, other = layout.block[i], layout.block[j]
@@ -21,43 +21,43 @@ def _add_pair(layout, i, j, found, count):
         (last, other, other >= 0 and layout.follows[i]),
     ):
         if is_there and a != b:
-            if found.shape[0] > 0:
-                found[count, 0], found[count, 1] = a, b
+            if entries.shape[0] > 0:
+                entries[count, 0], entries[count, 1] = a, b
             count += 1
     return count
 
 
 @jit_exact
-def _between(layout, nodes, size, found, count):
+def _between(layout, nodes, size, entries, count):
     """Append the pairs of all ``nodes`` of a stencil of ``size`` nodes; return the number."""
     for a in range(size):
         for b in range(a + 1):
-            count = _add_pair(layout, nodes[a], nodes[b], found, count)
+            count = _add_pair(layout, nodes[a], nodes[b], entries, count)
     return count
 
 
 @jit_exact
-def _write(scene, pairs, lagged_contacts, found, stencil):
-    """Write all pairs of blocks to ``found``; return their number. stencil (4,): scratch."""
+def _write(scene, pairs, lagged_contacts, entries, stencil):
+    """Write all pairs of blocks to ``entries``; return their number. stencil (4,): scratch."""
     layout, contact, count = scene.layout, scene.contact, 0
     for e in range(scene.shell.quads.shape[0]):
-        count = _between(layout, scene.shell.quads[e], 4, found, count)
+        count = _between(layout, scene.shell.quads[e], 4, entries, count)
     for p in range(layout.block.size):
         for q in range(pairs.start[p], pairs.start[p + 1]):
             if pairs.bound[q] < SOON * pairs.d_contact[q]:
                 stencil[0] = p
                 for i in range(3):
                     stencil[1 + i] = contact.triangles[pairs.triangle[q], i]
-                count = _between(layout, stencil, 4, found, count)
+                count = _between(layout, stencil, 4, entries, count)
     for k in range(pairs.one.size):
         if pairs.edge_bound[k] < SOON * pairs.edge_contact[k]:
             for i in range(2):
                 stencil[i] = contact.edges[pairs.one[k], i]
                 stencil[2 + i] = contact.edges[pairs.two[k], i]
-            count = _between(layout, stencil, 4, found, count)
+            count = _between(layout, stencil, 4, entries, count)
     for k in range(lagged_contacts.count[0]):
         nodes, size = lagged_contacts.nodes[k], lagged_contacts.size[k]
-        count = _between(layout, nodes, size, found, count)
+        count = _between(layout, nodes, size, entries, count)
     return count
 
 
@@ -72,10 +72,10 @@ def couplings(scene, pairs, lagged_contacts):
     layout, contact = scene.layout, scene.contact
     last, count = layout.size.size - 1, _write(scene, pairs, lagged_contacts, none, stencil)
     platen = contact.high_nodes if layout.unknown[contact.high] >= 0 else np.empty(0, np.int64)
-    found = np.empty((count + platen.size, 2), np.int64)
-    count = _write(scene, pairs, lagged_contacts, found, stencil)
+    entries = np.empty((count + platen.size, 2), np.int64)
+    count = _write(scene, pairs, lagged_contacts, entries, stencil)
     for p in platen:
         if layout.block[p] >= 0:
-            found[count, 0], found[count, 1] = layout.block[p], last
+            entries[count, 0], entries[count, 1] = layout.block[p], last
             count += 1
-    return found[:count].copy()
+    return entries[:count].copy()

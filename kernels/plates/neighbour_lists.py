@@ -51,8 +51,8 @@ def list_pairs(scene, x, move):
 def make_matrix(scene, listed, lagged_contacts):
     """Return the matrix with room for all couplings of nodes that may soon share a term."""
     layout = scene.layout
-    found = couplings.couplings(scene, listed, lagged_contacts)
-    return analyse(layout.size, found, layout.point)
+    entries = couplings.couplings(scene, listed, lagged_contacts)
+    return analyse(layout.size, entries, layout.point)
 
 
 @jit_owning

@@ -255,8 +255,8 @@ def _counted_part(p, e, t, graph, paths):
 
 
 @jit_exact
-def _reduce(graph, node_thickness, edge_thickness, tributary, paths, found):
-    """Write the pairs near along the network to ``found`` as far as there is room; count all."""
+def _reduce(graph, node_thickness, edge_thickness, tributary, paths, rows):
+    """Write the pairs near along the network to ``rows`` as far as there is room; count all."""
     thickest, farthest, count = greatest(node_thickness), max(FAR, _longest_path(graph)), 0
     longest = greatest(graph.l0)
     for e in range(graph.edges.shape[0]):
@@ -267,14 +267,14 @@ def _reduce(graph, node_thickness, edge_thickness, tributary, paths, found):
             t = 0.5 * (edge_thickness[e] + node_thickness[p])
             weight, share = _counted_part(p, e, t, graph, paths)
             if weight < (1.0 - 1e-12) * tributary[p] or share < 1.0:
-                if count < found.node.size:
-                    found.node[count], found.edge[count] = p, e
-                    found.weight[count] = weight if weight > 1e-9 * tributary[p] else 0.0
-                    found.share[count] = share
+                if count < rows.node.size:
+                    rows.node[count], rows.edge[count] = p, e
+                    rows.weight[count] = weight if weight > 1e-9 * tributary[p] else 0.0
+                    rows.share[count] = share
                 count += 1
         for i in range(n_reached):
             paths.length[paths.reached[i]] = np.inf
-    found.count[0] = count
+    rows.count[0] = count
 
 
 @jit_owning
@@ -287,14 +287,14 @@ def _reduced(graph, node_thickness, edge_thickness, tributary):
     )  # fmt: skip
     size = 16 * n
     while True:
-        found = Reduced(
+        rows = Reduced(
             np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size), np.empty(size),
             np.zeros(1, np.int64),
         )  # fmt: skip
-        _reduce(graph, node_thickness, edge_thickness, tributary, paths, found)
-        size = found.count[0]
-        if size <= found.node.size:
-            return found
+        _reduce(graph, node_thickness, edge_thickness, tributary, paths, rows)
+        size = rows.count[0]
+        if size <= rows.node.size:
+            return rows
 
 
 @jit_exact
@@ -316,11 +316,11 @@ def _entries(p, graph, tributary, reduced, near_pairs, weight, shares, listed):
     They are near along the network or across it, or share a vertex with such an edge.
     """
     count = 0
-    start, order, found = reduced
+    start, order, rows = reduced
     for q in range(start[p], start[p + 1]):
         k = order[q]
         count = _list_edge(
-            found.edge[k], found.weight[k], found.share[k], weight, shares, listed, count
+            rows.edge[k], rows.weight[k], rows.share[k], weight, shares, listed, count
         )
     start, order, edge = near_pairs
     for q in range(start[p], start[p + 1]):
@@ -354,9 +354,9 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
     """
     n, m = tributary.size, edges.shape[0]
     graph = _graph(x, n, edges, l0)
-    found = _reduced(graph, node_thickness, edge_thickness, tributary)
-    start, order = grouped(found.node[: found.count[0]], n)
-    reduced = start, order, found
+    rows = _reduced(graph, node_thickness, edge_thickness, tributary)
+    start, order = grouped(rows.node[: rows.count[0]], n)
+    reduced = start, order, rows
     widest = max(greatest(node_thickness), greatest(edge_thickness))
     node, edge, _ = near(x, n, edges, widest)
     start, order = grouped(node, n)

@@ -125,12 +125,12 @@ def count(points, triangles, edges, unsure):
             ):
                 continue
             p, q = edges[e, 0], edges[e, 1]
-            found = relation(
+            side = relation(
                 row(points, a), row(points, b), row(points, c), row(points, p), row(points, q)
             )
-            if found == ACROSS:
+            if side == ACROSS:
                 crossed += 1
-            elif found == UNSURE:
+            elif side == UNSURE:
                 if undecided < unsure.shape[0]:
                     unsure[undecided, 0], unsure[undecided, 1] = k, e
                 undecided += 1

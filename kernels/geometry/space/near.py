@@ -95,8 +95,8 @@ def _is_in(at, box):
 
 
 @jit_exact
-def _near_triangle(x, triangles, k, radius, grid, bins, scratch, found):
-    """Append the nodes within ``radius`` of triangle ``k`` to ``found``; return their number."""
+def _near_triangle(x, triangles, k, radius, grid, bins, scratch, neighbours):
+    """Append the nodes within ``radius`` of triangle ``k`` to ``neighbours``; return the count."""
     start, order = bins
     box, span = scratch
     a, b, c = triangles[k, 0], triangles[k, 1], triangles[k, 2]
@@ -115,7 +115,7 @@ def _near_triangle(x, triangles, k, radius, grid, bins, scratch, found):
                 if _is_in(at, box):
                     d2 = squared_to_triangle(at, at_a, at_b, at_c)
                     if d2 < radius * radius:
-                        found[0][n], found[1][n] = p, math.sqrt(d2)
+                        neighbours[0][n], neighbours[1][n] = p, math.sqrt(d2)
                         n += 1
     return n
 
@@ -150,16 +150,16 @@ def node_triangle(x, n_nodes, original, triangles, radius):
     grid = _grid(places, radius)
     bins, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
     bins = _without_images(bins, is_image)
-    found, count = _room(n_nodes), 0
+    neighbours, count = _room(n_nodes), 0
     for k in range(triangles.shape[0]):
-        n = _near_triangle(x, triangles, k, radius, grid, bins, scratch, found)
+        n = _near_triangle(x, triangles, k, radius, grid, bins, scratch, neighbours)
         if count + n > node.size:
             size = 2 * (count + n)
             node, triangle = grown(node, size), grown(triangle, size)
             distance = grown(distance, size)
         for i in range(n):
-            node[count + i], triangle[count + i] = found[0][i], k
-            distance[count + i] = found[1][i]
+            node[count + i], triangle[count + i] = neighbours[0][i], k
+            distance[count + i] = neighbours[1][i]
         count += n
     return node[:count], triangle[:count], distance[:count]
 
@@ -175,8 +175,8 @@ def _boxes_overlap(box, x, c, d):
 
 
 @jit_exact
-def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
-    """Append the edges after ``e`` within ``radius`` of it to ``found``; return their number.
+def _near_edge(x, edges, e, radius, half, grid, bins, scratch, neighbours):
+    """Append the edges after ``e`` within ``radius`` of it to ``neighbours``; return their number.
 
     half: half the length of the longest edge, m.
     """
@@ -199,7 +199,7 @@ def _near_edge(x, edges, e, radius, half, grid, bins, scratch, found):
                     continue
                 d2 = squared_between_edges(at_a, at_b, point(x, c), point(x, d))
                 if d2 < radius * radius:
-                    found[0][n], found[1][n] = other, math.sqrt(d2)
+                    neighbours[0][n], neighbours[1][n] = other, math.sqrt(d2)
                     n += 1
     return n
 
@@ -221,16 +221,16 @@ def edge_edge(x, edges, own, radius):
         half = max(half, 0.5 * length(minus(a, b)))
     grid = _grid(places, radius + half)
     every, scratch = _bins(places, grid), (np.empty((2, 3)), np.empty((2, 3), np.int64))
-    proper, found, count = _without_images(every, is_image), _room(m), 0
+    proper, neighbours, count = _without_images(every, is_image), _room(m), 0
     for e in range(m):
         bins = proper if is_image[e] else every
-        n = _near_edge(x, edges, e, radius, half, grid, bins, scratch, found)
+        n = _near_edge(x, edges, e, radius, half, grid, bins, scratch, neighbours)
         if count + n > one.size:
             size = 2 * (count + n)
             one, two, distance = grown(one, size), grown(two, size), grown(distance, size)
         for i in range(n):
-            one[count + i], two[count + i] = e, found[0][i]
-            distance[count + i] = found[1][i]
+            one[count + i], two[count + i] = e, neighbours[0][i]
+            distance[count + i] = neighbours[1][i]
         count += n
     return one[:count], two[:count], distance[:count]
 

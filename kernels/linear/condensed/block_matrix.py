@@ -127,8 +127,8 @@ def position(home, start, row, i, j):
         return SIZE * p + STRIDE * min(r, s) + max(r, s)
     if p < q:
         p, q, r, s = q, p, s, r
-    found = find(start, row, p, q)
-    return SIZE * (start.size - 1 + found) + STRIDE * s + r if found >= 0 else -1
+    slot = find(start, row, p, q)
+    return SIZE * (start.size - 1 + slot) + STRIDE * s + r if slot >= 0 else -1
 
 
 @jit

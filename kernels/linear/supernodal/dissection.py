@@ -196,9 +196,9 @@ def dissect(start, near, weight, points):
             _sort(key, part, other)
             _number(part, rank)
             _cut_weights(start, near, weight, rank, part, before, after)
-            found, at, one = _best_cut(weight, part, before, after)
-            if found < cost:
-                cost, m, side = found, at, one
+            least, at, one = _best_cut(weight, part, before, after)
+            if least < cost:
+                cost, m, side = least, at, one
                 for r in range(part.size):
                     best[r] = part[r]
         if cost < np.inf:

@@ -22,10 +22,10 @@ def _is_rounded(matrix, s, place, pivot):
 
 
 @jit_exact
-def _pivot(matrix, s, place, found, scale, rounded):
-    """Return ``found``, or its replacement if that pivot is zero within round-off."""
+def _pivot(matrix, s, place, value, scale, rounded):
+    """Return ``value``, or its replacement if that pivot is zero within round-off."""
     own = matrix.own[place]
-    pivot = regularised(found, own, scale, rounded)
+    pivot = regularised(value, own, scale, rounded)
     if pivot < 0.0 and rounded != THROUGH and _is_rounded(matrix, s, place, pivot):
         return SOFT * max(abs(own), scale)
     return pivot

@@ -82,13 +82,13 @@ def curved(x, frames, quads, size, thickness, directors, shear_modulus, fold_mod
 
     frames (n_nodes, 9): of the nodes.
     """
-    made = rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus)
+    walls = rectangles(quads, size, thickness, directors, shear_modulus, fold_modulus)
     m = len(quads)
-    made = made._replace(axes=np.zeros((m, 4, 3)), layered=np.zeros((m, 4, layers.REST)))
+    walls = walls._replace(axes=np.zeros((m, 4, 3)), layered=np.zeros((m, 4, layers.REST)))
     scratch = make_scratch()
-    measure_rest(x, frames, made, scratch)
-    measure_axes(x, frames, made, scratch)
-    return made
+    measure_rest(x, frames, walls, scratch)
+    measure_axes(x, frames, walls, scratch)
+    return walls
 
 
 class Scratch(NamedTuple):
