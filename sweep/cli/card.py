@@ -27,17 +27,17 @@ def card(config: Config, arguments: Namespace) -> None:
     from sweep.effective.material import card as effective
     from sweep.report.tables.card_sheet import card_sheet
 
-    made: dict[tuple[str, float, float], EffectiveMaterial] = {}
+    materials: dict[tuple[str, float, float], EffectiveMaterial] = {}
     refused: dict[str, None] = {}
     for case in expand(config):
         try:
             infill = infill_of(case)
             key = (infill.case.case_id, infill.angle, infill.gyration)
-            if key not in made:
-                made[key] = effective(case)
+            if key not in materials:
+                materials[key] = effective(case)
         except MisfitError as error:
             refused[str(error)] = None
-    cards = list(made.values())
+    cards = list(materials.values())
     if not cards:
         raise CardError("\n".join(refused))
     print_sheets([card_sheet(cards)])

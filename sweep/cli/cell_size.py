@@ -22,28 +22,30 @@ def cell_sentences(cases: Sequence[Case], infill: float | None = None) -> list[s
     "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)"
     """
     lattices = [case.lattice for case in cases]
-    sized = (made for made in lattices if isinstance(made, Cells) and made.cell_size is not None)
+    cells = (lattice for lattice in lattices if isinstance(lattice, Cells))
+    sized = (lattice for lattice in cells if lattice.cell_size is not None)
     sheets = (
         _of_sheet(case.lattice, case.axes.get("lattice.infill", infill))
         for case in cases
         if isinstance(case.lattice, Surface)
     )
-    drawings = (_of_drawing(made) for made in lattices if isinstance(made, Drawn))
+    drawings = (_of_drawing(lattice) for lattice in lattices if isinstance(lattice, Drawn))
     return list(dict.fromkeys([*map(_sentence, sized), *sheets, *drawings]))
 
 
-def _of_drawing(made: Drawn) -> str:
+def _of_drawing(lattice: Drawn) -> str:
     """A line: "a.svg: 12.5 x 12.5 mm, 16 joints, 24 walls; 2 walls end loose, one at 3, 4.2 mm"."""
     from sweep.design.drawn import loose_ends
 
-    joints, walls = made.counts
-    size = _pair((made.width, made.height), " x ")
-    sentence = f"{plain(made.name)}: {size}, {counted(joints, 'joint')}, {counted(walls, 'wall')}"
-    loose = loose_ends(made.network)
+    joints, walls = lattice.counts
+    size = _pair((lattice.width, lattice.height), " x ")
+    counts = f"{counted(joints, 'joint')}, {counted(walls, 'wall')}"
+    sentence = f"{plain(lattice.name)}: {size}, {counts}"
+    loose = loose_ends(lattice.network)
     if not len(loose):
         return sentence
     ends = "1 wall ends loose, at" if len(loose) == 1 else f"{len(loose)} walls end loose, one at"
-    return f"{sentence}; {ends} {_pair(made.drawing.joints[loose[0]], ', ')}"
+    return f"{sentence}; {ends} {_pair(lattice.drawing.joints[loose[0]], ', ')}"
 
 
 def _pair(lengths: tuple[float, float], between: str) -> str:
@@ -52,19 +54,19 @@ def _pair(lengths: tuple[float, float], between: str) -> str:
     return f"{in_unit(x, 'mm'):.5g}{between}{text_in(y, 'mm', 5)}"
 
 
-def _of_sheet(made: Surface, infill: Any) -> str:
+def _of_sheet(lattice: Surface, infill: Any) -> str:
     """A line: "gyroid, pressed along the print axis: 2 periods of 6.25 mm in a height of 12.5 mm";
     of a block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
     """
-    height, period = (text_in(size, "mm") for size in (made.pressed_height, made.period))
-    number = f"{made.pressed_height / made.period:.4g}"
+    height, period = (text_in(size, "mm") for size in (lattice.pressed_height, lattice.period))
+    number = f"{lattice.pressed_height / lattice.period:.4g}"
     count = f"{number} period{'s' * (number != '1')} of {period} in a height of {height}"
-    axis = "along" if made.pressed == ALONG else "across"
-    share = f", {_share(made.infill, infill)}" if isinstance(made, SlicedSheet) else ""
-    line = f"{made.name}{share}, pressed {axis} the print axis: {count}"
-    if made.tied_sides:
+    axis = "along" if lattice.pressed == ALONG else "across"
+    share = f", {_share(lattice.infill, infill)}" if isinstance(lattice, SlicedSheet) else ""
+    line = f"{lattice.name}{share}, pressed {axis} the print axis: {count}"
+    if lattice.tied_sides:
         return line
-    size = " x ".join(f"{in_unit(made.value(side), 'mm'):.4g}" for side in SIDES)
+    size = " x ".join(f"{in_unit(lattice.value(side), 'mm'):.4g}" for side in SIDES)
     return f"{line}; a block of {size} mm within perimeters"
 
 
@@ -74,11 +76,11 @@ def _share(taken: float, given: Any) -> str:
     return " for ".join(dict.fromkeys(texts))
 
 
-def _sentence(made: Cells) -> str:
+def _sentence(lattice: Cells) -> str:
     from sweep.design.sizing import cell_of
 
-    width, height = (f"{in_unit(side, 'mm'):.3g}" for side in cell_of(made.geometry))
-    name = " ".join(filter(None, (made.kind, made.orientation)))
-    size = text_in(made.cell_size or 0.0, "mm")
-    cells = f"{made.cells_x} x {made.cells_y} cells of {width} x {height} mm"
+    width, height = (f"{in_unit(side, 'mm'):.3g}" for side in cell_of(lattice.geometry))
+    name = " ".join(filter(None, (lattice.kind, lattice.orientation)))
+    size = text_in(lattice.cell_size or 0.0, "mm")
+    cells = f"{lattice.cells_x} x {lattice.cells_y} cells of {width} x {height} mm"
     return f"lattice.cell_size {size}: {cells} ({name})"

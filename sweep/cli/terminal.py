@@ -263,15 +263,15 @@ def _terminal_table(table: Fitted) -> Table:
     from rich.text import Text
 
     sheet, padding = table.sheet, (0, table.gap - 1, 0, 0)
-    made = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=padding)
+    grid = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=padding)
     for head, texts, width in zip(table.heads, sheet.columns, table.widths, strict=True):
         side: Literal["left", "right"] = "right" if _is_number(texts) else "left"
-        made.add_column(Text(head), justify=side, width=width, overflow="fold")
+        grid.add_column(Text(head), justify=side, width=width, overflow="fold")
     for i, row in enumerate(sheet.rows):
         if i in sheet.opens and i:
-            made.add_section()
-        made.add_row(*map(Text, row))
-    return made
+            grid.add_section()
+        grid.add_row(*map(Text, row))
+    return grid
 
 
 def quoted(name: str) -> str:

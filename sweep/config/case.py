@@ -141,12 +141,12 @@ class Case(BaseModel):
         return self._changed(self.axes | dict(axes or {}), tables)
 
     def _changed(
-        self, labels: dict[str, Any], tables: Tables, made: dict[Any, Any] | None = None
+        self, labels: dict[str, Any], tables: Tables, cache: dict[Any, Any] | None = None
     ) -> "Case":
         changes = {name: dict(change) for name, change in _checked(tables).items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
         given = {name: _values(table) for name, table in values.items()}
-        case = complete(given, made).sound(labels)
+        case = complete(given, cache).sound(labels)
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
         return case
@@ -156,10 +156,10 @@ class Case(BaseModel):
         return self.model_dump_json()
 
     @staticmethod
-    def from_json(text: str | bytes, made: dict[Any, Any] | None = None) -> "Case":
+    def from_json(text: str | bytes, cache: dict[Any, Any] | None = None) -> "Case":
         """The case of `to_json`, for which no file is read; `MisfitError` if it is no case.
 
-        made: the tables of other cases so far, see `Draft`.
+        cache: the tables of other cases so far, see `Draft`.
         """
         try:
             case = Case.model_validate_json(text)
@@ -167,7 +167,7 @@ class Case(BaseModel):
             first = error.errors(include_url=False)[0]
             place = ".".join(str(part) for part in first["loc"] if part not in TAGS) or "the text"
             raise MisfitError(f"{place}: {first['msg']}") from None
-        again = case._changed(case.axes, {}, made)
+        again = case._changed(case.axes, {}, cache)
         same = all(getattr(again, name) == getattr(case, name) for name in TABLES)
         if not same and again.case_id != case.case_id:
             raise MisfitError("its numbers do not follow from one another")
@@ -178,30 +178,30 @@ class Case(BaseModel):
 class Draft:
     """A case that is being completed: its tables so far, and the values that are refused.
 
-    made: tables by what they are made from, as the cases of a sweep share most of them; it is
+    cache: tables by what they are made from, as the cases of a sweep share most of them; it is
     emptied when it holds `TABLES_KEPT`.
     """
 
-    made: dict[Any, Any] = field(default_factory=dict)
+    cache: dict[Any, Any] = field(default_factory=dict)
     tables: dict[str, Table] = field(default_factory=dict)
     refused: list[RefusedError] = field(default_factory=list)
 
     def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
         """Make a table, or note why it cannot be made."""
         try:
-            if (name, values) not in self.made:
-                if len(self.made) >= TABLES_KEPT:
-                    self.made.clear()
-                self.made[name, values] = make(*values)
+            if (name, values) not in self.cache:
+                if len(self.cache) >= TABLES_KEPT:
+                    self.cache.clear()
+                self.cache[name, values] = make(*values)
         except RefusedError as error:
             self.refused.append(error)
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]
             return None
-        made: T = self.made[name, values]
-        self.tables[name] = made  # type: ignore[assignment]
-        return made
+        table: T = self.cache[name, values]
+        self.tables[name] = table  # type: ignore[assignment]
+        return table
 
     def sound(self, axes: Mapping[str, Any] | None = None) -> Case:
         """The case, with these labels; raises the first refusal if there is one."""
@@ -211,12 +211,12 @@ class Draft:
         return Case.model_construct(keys_of(Case), **values)
 
 
-def complete(given: Mapping[str, Inputs], made: dict[Any, Any] | None = None) -> Draft:
-    """The case of the values of each table, in SI. made: the tables of a sweep so far, see `Draft`.
+def complete(given: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) -> Draft:
+    """The case of the values of each table, in SI. cache: the tables of a sweep so far: `Draft`.
 
     The loading is checked even if the material and the lattice are refused.
     """
-    draft = Draft({} if made is None else made)
+    draft = Draft({} if cache is None else cache)
     pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")

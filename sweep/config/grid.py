@@ -201,9 +201,9 @@ class _Combination:
     def _value(self, target: str) -> Any:
         """The value of a key; where its table is refused, the given one or the default."""
         table, name = target.split(".")
-        if made := self.draft.tables.get(table):
-            words = getattr(made, "words", ()) if name == "mode" else ()
-            return self.given[target] if self.given.get(target) in words else made.value(name)
+        if part := self.draft.tables.get(table):
+            words = getattr(part, "words", ()) if name == "mode" else ()
+            return self.given[target] if self.given.get(target) in words else part.value(name)
         kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]
         return self.given.get(target, kinds[0].get_default() if kinds else None)
 
@@ -219,7 +219,7 @@ class _Combination:
 
 
 def _drafts(recipe: Recipe) -> Iterator[_Combination]:
-    made: dict[Any, Any] = {}
+    cache: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
         written = recipe.base | _targets(chosen)
         given = {key: value.value for key, value in written.items()}
@@ -228,7 +228,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
             table, name = key.split(".")
             tables[table][name] = value
         try:
-            draft = complete(tables, made)
+            draft = complete(tables, cache)
         except RecordError as error:
             raise ConfigError([Fault("material.name", f"material.name: {error}")]) from None
         in_order = sorted(draft.refused, key=lambda refused: TABLES.index(refused.table))

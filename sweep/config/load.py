@@ -66,8 +66,8 @@ def case_of(source: Case | Mapping[str, Any]) -> Case:
         allowed = f"the tables {', '.join(TABLES)}, or keys such as lattice.kind"
         line = f"{other[0]} = {in_words(document[other[0]])}: of no case; allowed: {allowed}"
         raise ConfigError([Fault(other[0], line)])
-    (made,) = _config(document, None).cases
-    return made
+    (case,) = _config(document, None).cases
+    return case
 
 
 def _config(document: dict[str, Any], path: Path | None) -> Config:

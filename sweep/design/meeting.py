@@ -87,16 +87,16 @@ def _crossings(points: Floats, walls: Indices) -> Floats:
 
     ends = points[walls]
     shapes = shapely.linestrings(ends)
-    tree, found, count = shapely.STRtree(shapes), [], 0
+    tree, contacts, count = shapely.STRtree(shapes), [], 0
     for start in range(0, len(walls), CHUNK):
         one, two = tree.query(shapes[start : start + CHUNK], predicate="intersects")
         one += start
         kept = (one < two) & ~(walls[one][:, :, None] == walls[two][:, None, :]).any(axis=(1, 2))
-        found.append(_crossing(ends[one[kept]], ends[two[kept]]))
-        count += len(found[-1])
+        contacts.append(_crossing(ends[one[kept]], ends[two[kept]]))
+        count += len(contacts[-1])
         if count > MOST_JOINTS:
             raise MeetingError(f"its lines cross more than {MOST_JOINTS:,} times")
-    return np.concatenate(found)
+    return np.concatenate(contacts)
 
 
 def _crossing(one: Floats, two: Floats) -> Floats:
@@ -120,8 +120,8 @@ def _split(points: Floats, walls: Indices, near: float) -> tuple[Floats, Indices
     import shapely
 
     shapes = shapely.linestrings(points[walls])
-    found = shapely.STRtree(shapes).query(shapely.points(points), "dwithin", near)
-    point, wall = np.concatenate([found, [walls.T.ravel(), np.tile(np.arange(len(walls)), 2)]], 1)
+    pairs = shapely.STRtree(shapes).query(shapely.points(points), "dwithin", near)
+    point, wall = np.concatenate([pairs, [walls.T.ravel(), np.tile(np.arange(len(walls)), 2)]], 1)
     start, end = points[walls[wall]].swapaxes(0, 1)
     along = np.einsum("ij,ij->i", points[point] - start, end - start)
     along /= np.einsum("ij,ij->i", end - start, end - start)

@@ -72,8 +72,8 @@ def cells_of_size(geometry: Geometry, size: float, most: int) -> tuple[int, int]
     if round(columns) * round(rows) > most:
         return None
     cells = _nearest(geometry, 0, columns, width), _nearest(geometry, 1, rows, height)
-    made = cell_of(geometry._replace(cells=cells))
-    fits = made[0] > (1.0 - SLACK) * width and made[1] > (1.0 - SLACK) * height
+    cell = cell_of(geometry._replace(cells=cells))
+    fits = cell[0] > (1.0 - SLACK) * width and cell[1] > (1.0 - SLACK) * height
     return cells if fits else None
 
 

@@ -59,15 +59,15 @@ def _constant(card: EffectiveMaterial, key: str) -> str:
 
 def _names(cards: Sequence[EffectiveMaterial]) -> Iterator[str]:
     """A name of letters, digits and underscores for each card, none of them twice."""
-    known: set[str] = set()
+    names: set[str] = set()
     for card in cards:
         words = f"{card.name}_{in_unit(card.wall_thickness, 'mm'):.3g}mm_{card.material}"
         name = re.sub(r"\W+", "_", words.replace(".", "p"), flags=re.ASCII).upper()[:LONGEST]
-        number, made = 2, name
-        while made in known:
-            made, number = f"{name}_{number}", number + 1
-        known.add(made)
-        yield made
+        number, unique = 2, name
+        while unique in names:
+            unique, number = f"{name}_{number}", number + 1
+        names.add(unique)
+        yield unique
 
 
 def _csv(cards: Sequence[EffectiveMaterial]) -> Iterator[str]:

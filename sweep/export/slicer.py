@@ -104,8 +104,8 @@ def by_hand(settings: SlicerSettings) -> str:
 def prusa_reads(settings: SlicerSettings) -> bool:
     """Whether PrusaSlicer can lay these settings: it has no walls of several lines, no TPMS-D."""
     prusa = PROGRAMS["prusa"]
-    known = prusa_keys(settings)["fill_pattern"] in (*prusa.patterns, *prusa.sheets)
-    return known and settings.fill_multiline <= prusa.lines
+    draws = prusa_keys(settings)["fill_pattern"] in (*prusa.patterns, *prusa.sheets)
+    return draws and settings.fill_multiline <= prusa.lines
 
 
 def slicer_files(settings: SlicerSettings, name: str, triangles: int) -> dict[str, bytes]:

@@ -211,5 +211,5 @@ class Results:
         runs = read_runs(self.path, drawn)
         pictures = {run.case_id: thumbnail(run.frames) for run in runs}
         tables = "".join(html_table(sheet, pictures) for sheet in sheets)
-        told = paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
-        return f"{head}{tables}{told}"
+        notes = paragraphs(legend(ranking).splitlines()) if len(ranking.table) else ""
+        return f"{head}{tables}{notes}"

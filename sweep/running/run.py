@@ -84,8 +84,9 @@ def spread(
     count, where = chosen_place(workers, scheduler)
     with open_place(where) as place:
         how = How(count, place)
-        found = spreads_of([], results.table, results.question._replace(top=top), results.path, how)
-    return spread_table(found)
+        question = results.question._replace(top=top)
+        spreads = spreads_of([], results.table, question, results.path, how)
+    return spread_table(spreads)
 
 
 def spreads_of(

@@ -156,17 +156,17 @@ def _unreadable(
 ) -> Iterator[tuple[str, StoreError]]:
     """Of a block; its rows are read in runs, and one by one from the first damaged run on."""
     ids, stored = block.summary["case_id"], block.as_stored(rows)
-    made: dict[Any, Any] = {}
+    cache: dict[Any, Any] = {}
     number = 0
     try:
         for row, arrays in _arrays_in_runs(block, stored):
-            if wrong := _unusable(path, ids[row], arrays, made):
+            if wrong := _unusable(path, ids[row], arrays, cache):
                 yield ids[row], wrong
             number += 1
     except StoreError:
         for row in stored[number:]:
             try:
-                wrong = _unusable(path, ids[row], _arrays(block, row, GROUPS), made)
+                wrong = _unusable(path, ids[row], _arrays(block, row, GROUPS), cache)
             except StoreError as error:
                 wrong = error
             if wrong:
@@ -177,12 +177,12 @@ def _unusable(
     path: str | os.PathLike[str],
     case_id: str,
     arrays: dict[str, np.ndarray],
-    made: dict[Any, Any],
+    cache: dict[Any, Any],
 ) -> StoreError | None:
-    """What is wrong with the shapes or the case of a row; made: see `Case.from_json`."""
+    """What is wrong with the shapes or the case of a row; cache: see `Case.from_json`."""
     try:
         _frames(path, case_id, arrays)
-        _case(path, case_id, arrays, made)
+        _case(path, case_id, arrays, cache)
     except StoreError as error:
         return error
     return None
@@ -227,14 +227,14 @@ def _case(
     path: str | os.PathLike[str],
     case_id: str,
     arrays: dict[str, np.ndarray],
-    made: dict[Any, Any] | None = None,
+    cache: dict[Any, Any] | None = None,
 ) -> "Case":
     from sweep.config.case import Case
     from sweep.config.faults import MisfitError
 
     text = bytes(arrays.get(TEXT, b""))
     try:
-        case = Case.from_json(text.decode(), made)
+        case = Case.from_json(text.decode(), cache)
         if case.case_id != case_id:
             raise MisfitError(f"it is case {case.case_id}")
     except (ValueError, ArithmeticError) as error:

@@ -102,8 +102,8 @@ class Structure(Part):
         each = self.thickness_mm
         factor = mean_mm * len(each) / sum(each)
         alike = min(each) == max(each)
-        made = mean_mm if alike else tuple(factor * thickness for thickness in each)
-        return self.model_copy(update={"wall_thickness_mm": made})
+        walls = mean_mm if alike else tuple(factor * thickness for thickness in each)
+        return self.model_copy(update={"wall_thickness_mm": walls})
 
     @property
     def pieces(self) -> tuple[int, ...]:

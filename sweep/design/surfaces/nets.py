@@ -232,11 +232,11 @@ def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Ints:
         inside, ahead = np.take(inside, last, axis), np.take(ahead, last, axis)
     at = np.argwhere(inside != ahead)
     falls = inside[tuple(at.T)]
-    found = np.repeat(at[:, None] + ends, 4, axis=1)
+    edges = np.repeat(at[:, None] + ends, 4, axis=1)
     for k in (1, 2):
-        found[..., (axis + k) % 3] += AROUND[:, k - 1] - 1
-    found[falls] = found[falls][:, ::-1]
-    return np.asarray(found)
+        edges[..., (axis + k) % 3] += AROUND[:, k - 1] - 1
+    edges[falls] = edges[falls][:, ::-1]
+    return np.asarray(edges)
 
 
 def _on_walls(inside: np.ndarray, axis: int) -> tuple[Ints, Ints]:

@@ -81,14 +81,14 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
 def _with(design: Case, change: dict[str, Any]) -> Case | None:
     """The design with a change of its lattice, labelled by it; None if that does not fit."""
     try:
-        made = design.changed(lattice=change)
+        finalist = design.changed(lattice=change)
     except RefusedError:
         return None
-    lattice = made.lattice
+    lattice = finalist.lattice
     labels: dict[str, Any] = {
         "lattice.wall_thickness": lattice.wall_thickness,
         "lattice.imperfection": lattice.imperfection,
     }
     if "nodes_per_wall" in type(lattice).model_fields:
         labels["lattice.nodes_per_wall"] = lattice.value("nodes_per_wall")
-    return made.model_copy(update={"axes": design.axes | labels})
+    return finalist.model_copy(update={"axes": design.axes | labels})

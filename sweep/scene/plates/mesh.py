@@ -90,9 +90,9 @@ class PlateMesh(ShellMesh):
 
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
         """Flat rectangles, without stress in the bowed shape at rest."""
-        made = shell.rectangles(self.quads, self.size, self.thickness, self.directors, *moduli)
-        shell.measure_rest(x_rest, self.frames, made, shell.make_scratch())
-        return made
+        walls = shell.rectangles(self.quads, self.size, self.thickness, self.directors, *moduli)
+        shell.measure_rest(x_rest, self.frames, walls, shell.make_scratch())
+        return walls
 
 
 @lru_cache(maxsize=16)

@@ -105,8 +105,8 @@ def scene_of(case: Case, mesh: ShellMesh, network: Network | None, whole: float)
     )
     loose = platen == "contact"
     low, high = np.array([numbering.low]), np.array([numbering.high])
-    held = np.flatnonzero(np.isin(mesh.original, mesh.bottom))  # and their images, which bear, too
-    bottom = low if loose else np.append(numbering.position(held, 2), low)
+    bottom = np.flatnonzero(np.isin(mesh.original, mesh.bottom))  # and images, which bear too
+    bottom = low if loose else np.append(numbering.position(bottom, 2), low)
     return Scene(
         mesh, network, terms, x_rest, bottom, high, low,
         force_scale=_force_scale(mesh, case),
