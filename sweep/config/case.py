@@ -179,7 +179,7 @@ class Draft:
             if (name, values) not in self.made:
                 self.made[name, values] = make(*values)
         except RefusedError as error:
-            self.refused.append(error)
+            self.refused += [error, *error.also]
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]
