@@ -4,12 +4,13 @@ The public functions raise `MisfitError`, whose kinds are `ConfigError` and `Cou
 `StoreError`, `RankError`, `ExportError`, `OptimizeError` and `ClusterError`, which are public too.
 Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
-Modules outside of the packages: `columns` lists the columns of results, `result` is that of one
-case, `numbers` writes numbers as text, `constants` has factors between units, `version` those of
-installed packages.
+Modules outside of the packages: `arguments` says what is wrong with the arguments of a call,
+`columns` lists the columns of results, `result` is that of one case, `numbers` writes numbers as
+text, `constants` has factors between units, `version` those of installed packages.
 """
 
 from importlib import import_module
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -128,7 +129,10 @@ _HOME = {
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"Crumple has no {name!r}; it has {', '.join(__all__)}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    found = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    from sweep.arguments import explained
+
+    return explained(found) if isinstance(found, FunctionType) else found
 
 
 def __dir__() -> list[str]:

@@ -165,7 +165,7 @@ MODES: Mapping[str, Mode] = {
             *("peak_strain", "%", "greatest strain, %", "Strain over mass"),
             quantity="greatest strain",
             merit="compressed by {} %",
-            order="least peak strain",
+            order="smallest strain",
             head="strain %",
         ),
         coarse=("path_error", 0.005),

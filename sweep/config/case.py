@@ -194,7 +194,7 @@ class Draft:
                     self.cache.clear()
                 self.cache[name, values] = make(*values)
         except RefusedError as error:
-            self.refused.append(error)
+            self.refused += [error, *error.also]
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]

@@ -3,7 +3,7 @@
 from collections import Counter
 from typing import NamedTuple
 
-SHOWN = 10  # faults that the text of a ConfigError lists
+SHOWN = 12  # faults that the text of a ConfigError lists
 
 
 class Fault(NamedTuple):
@@ -44,5 +44,9 @@ def _shown(faults: list[Fault]) -> list[str]:
         counts[fault.key] += 1
     chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
     more = len(faults) - len(chosen)
-    counted = [f"and {more:,} more mistake{'s' if more > 1 else ''}"] if more else []
+    counted = (
+        [f"and {more:,} more mistake{'s' if more > 1 else ''}, shown once these are mended"]
+        if more
+        else []
+    )
     return [faults[k].line for k in sorted(chosen)] + counted

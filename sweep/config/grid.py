@@ -19,10 +19,11 @@ from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import UNITS
 from sweep.config.question import Rank, Require
 from sweep.config.reading.unused_keys import still_unused
-from sweep.numbers import counted
+from sweep.numbers import counted, text_in
 
 MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
+_LENGTH = re.compile(r"(?<![\w.])([\d.]+(?:e[+-]?\d+)?) m(?![\w/^])")  # in SI
 PRINTABLE = "lattice.printable"
 OF_A_FILE = frozenset(f"material.{name}" for name in UNITS)
 SWEEP = "cases of crumple.case, or what crumple.load_config returns"
@@ -304,25 +305,34 @@ def _fault(refused: RefusedError, given: Values) -> Fault:
         written, allowed = given[key], _in_unit_of(given[key], key, allowed)
         line = f"{written.name or key} = {written.text}: does not fit; allowed: {allowed}"
         return Fault(key, line)
+    allowed = _in_mm(allowed)
     if value is None:
         return Fault(key, f"{key} is missing; needed: {allowed}")
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
     unit = case_keys()[key].unit
-    text = text if unit in (None, "1") else f"{text} {unit}"
+    text = text if unit in (None, "1") else _in_mm(f"{text} {unit}")
     of_a_file = "material.name" in given and key in OF_A_FILE
     why = f" in the file of {given['material.name'].text}" if of_a_file else " by default"
     why = f", as {refused.since} is given" if refused.since else why
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 
 
+def _in_mm(sentence: str) -> str:
+    """A sentence with its lengths in mm instead of m."""
+    return _LENGTH.sub(lambda length: text_in(float(length[1]), "mm", 6), sentence)
+
+
 def _in_unit_of(written: Written, key: str, sentence: str) -> str:
-    """A sentence with its SI quantities converted to the unit that the file uses for a key."""
+    """A sentence with its SI quantities converted to the unit that the file uses for a key, and
+    lengths in mm if the key is no length.
+    """
     unit, match = case_keys()[key].unit, _QUANTITY.fullmatch(written.text)
     if unit is None or match is None or written.value == 0.0:
-        return sentence
+        return _in_mm(sentence)
     scale = float(match[1]) / written.value
     in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")
-    return in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
+    told = in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
+    return told if unit == "m" else _in_mm(told)
 
 
 def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:

@@ -95,6 +95,12 @@ class Key:
     schema: dict[str, Any]
     adapter: TypeAdapter[Any]
 
+    def allowed_for(self, raw: object) -> str:
+        """The accepted values in words, with bounds in percent if the value is."""
+        if self.bare and not self.is_list and isinstance(raw, str) and "%" in raw:
+            return _words(self.schema | {"bare": False})
+        return self.allowed
+
 
 @cache
 def case_keys() -> dict[str, Key]:

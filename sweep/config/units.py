@@ -87,7 +87,7 @@ def in_si(text: object, unit: str) -> float:
         raise MisfitError(f"{in_words(written)} is a unit of another kind")
     value = float(number) * size
     if not isfinite(value):
-        raise MisfitError("not finite")
+        raise MisfitError("too large")
     return float(f"{value:.15g}")
 
 

@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 WORDS = {
     "time": "time zeit temps tiempo tempo t 时间 時間",
     "force": "force load kraft charge last carga fuerza forza f 力 试验力 試験力 負荷 载荷",
-    "displacement": "displacement extension crosshead travel stroke position disp weg traverse "
+    "displacement": "displacement extension ext crosshead travel stroke position disp weg traverse "
     "course deplacement extensometer elongation allongement deformation deformacion deform "
     "verformung desplazamiento spostamento 位移 变形 変位 ストローク",
     "strain": "strain dehnung stauchung deformation deformacion deform elongation extension "
@@ -42,6 +42,8 @@ OTHERS = (
     "temperature command target setpoint work energy modulus break count cycles"
 )
 """Words of what else a machine records."""
+CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+"""Where a word ends in "LoadCell" and "XForce"."""
 EQUAL = 0.01  # of the range of a column: it tells nothing else than another one
 LONGEST = 40  # characters of a head that are shown
 MOST_HEADS = 8  # heads that a message lists
@@ -69,8 +71,9 @@ def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]
     chosen: heads, or numbers from 1, that the user has given; units: units likewise.
     """
     columns = Columns(notes=[*table.notes])
+    test = _test(table, chosen)
     for quantity in SI:
-        candidates = _candidates(table, quantity, units.get(quantity))
+        candidates = [k for k in _candidates(table, quantity, units.get(quantity)) if k in test]
         if quantity in chosen:
             candidates = _named(table, chosen[quantity])
         elif len(candidates) > 1 and not _are_same(table, quantity, candidates):
@@ -84,6 +87,19 @@ def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]
             raise MisfitError(f"--units {quantity} has no effect; {heads_of(table)}")
     _ask_for_units(columns)
     return columns
+
+
+def _test(table: Table, chosen: Mapping[str, str]) -> range:
+    """The columns of one test: all, unless several stand side by side, with the same heads each,
+    and a column is chosen.
+    """
+    width = len(table.heads)
+    heads = (*zip(table.heads, table.units, strict=True),)
+    one = next(n for n in range(1, width + 1) if width % n == 0 and heads[:-n] == heads[n:])
+    if one in (1, width) or not chosen:
+        return range(width)
+    first = one * min(_named(table, name)[0] // one for name in chosen.values())
+    return range(first, first + one)
 
 
 def _ask_for_units(columns: Columns) -> None:
@@ -108,12 +124,16 @@ def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | Non
 
 
 def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
-    """The columns that may be a quantity, by their words and units; constant ones are left out."""
-    columns = [
-        k
-        for k, (head, unit) in enumerate(zip(table.heads, table.units, strict=True))
-        if _may_be(head, given or unit, quantity) and np.ptp(_known(table.values[:, k])) > 0.0
-    ]
+    """The columns that may be a quantity, by their words and units; constant ones are left out.
+
+    Where no unit fits, those whose words do and whose unit is none of anything that is measured.
+    """
+    moving = [k for k, values in enumerate(table.values.T) if np.ptp(_known(values)) > 0.0]
+    units = {k: given or table.units[k] for k in moving}
+    columns = [k for k in moving if _may_be(table.heads[k], units[k], quantity)]
+    if not columns:
+        strange = [k for k in moving if all(size_in_si(units[k], name) is None for name in SI)]
+        columns = [k for k in strange if _may_be(table.heads[k], "", quantity)]
     own = [k for k in columns if table.heads[k] == quantity]
     return own if len(own) == 1 else columns
 
@@ -142,7 +162,7 @@ def _is_called(words: list[str], quantity: str) -> bool:
 
 def words_of(head: str) -> list[str]:
     """The words of a head in small letters, without accents and numbers."""
-    plain_letters = unicodedata.normalize("NFKD", head.lower())
+    plain_letters = unicodedata.normalize("NFKD", CAMEL.sub(" ", head).lower())
     letters = "".join(c for c in plain_letters if not unicodedata.combining(c))
     return re.findall(r"[^\W\d_]+", letters)
 

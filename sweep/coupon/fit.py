@@ -108,6 +108,11 @@ def _check_unloading(coupon: Coupon, rows: list[int]) -> None:
     more, all_taken = (
         -float(0.5 * (s[1:] + s[:-1]) @ path) for s in (stress[unloading] - taken, taken)
     )
+    if all_taken <= 0.0:
+        raise CouponError(
+            f"{coupon.name}: the record begins with an unloading, from its row {rows[1] + 1}; "
+            "needed: a loading first, so leave out the rows before it"
+        )
     if more > ABOVE * all_taken:
         raise CouponError(
             f"{coupon.name}: the unloading lies above the loading, by "

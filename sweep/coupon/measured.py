@@ -21,6 +21,7 @@ NEEDED = {
     "area": '"8 mm^2" (section of the specimen), to make a stress of',
 }
 UNITS = {"gauge": "m", "area": "m^2"}
+EVEN = "time and an even speed"  # the head of a travel that was not recorded
 
 
 class Measured(NamedTuple):
@@ -39,6 +40,7 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
     for name in (*SIZES, "speed"):
         if (given := getattr(answers, name)) is not None and not given > 0.0:
             raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
+    _add_travel(columns, answers)
     sizes = {size: _over(size, table, columns, answers) for size in SIZES}
     strain, stress = (None if pair is None else pair[0] for pair in sizes.values())
     time = _time(table, columns, answers, strain)
@@ -46,6 +48,14 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
         return None
     to_scale = all(pair is not None and pair[1] for pair in sizes.values())
     return _complete_rows(columns, Measured(time, strain, stress, to_scale))
+
+
+def _add_travel(columns: Columns, answers: Answers) -> None:
+    """Add the travel at an even speed to a record of force over time alone."""
+    absent = {"strain", "displacement"}.isdisjoint({*columns.values, *columns.undecided})
+    if absent and "time" in columns.values and answers.speed is not None:
+        columns.values["displacement"] = answers.speed * columns.values["time"]
+        columns.words["displacement"] = EVEN
 
 
 def _over(
@@ -61,13 +71,15 @@ def _over(
         return columns.values[ready], True
     if raw not in columns.values and not columns.undecided & {ready, raw}:
         words = f"--columns {ready}=..., or {raw}=... with --{size}: a head or a number"
+        if size == "gauge" and "time" in columns.values:
+            words += ', or --speed "5 mm/min" of an even travel with --gauge'
         columns.questions.append(f"{words}; {heads_of(table)}")
         return None
     columns.words.pop(ready, None)
     if given is None and (stated := stated_size(table, size)):
         given, label = stated
         value = with_unit(given, UNITS[size])
-        columns.notes.append(f"{size} {value}, from the line {shown(label)} above the heads")
+        columns.notes.append(f"{size} {value}, from the line {shown(label)}")
     if given is None and ready not in columns.undecided:
         head = columns.words.get(raw, raw)
         columns.questions.append(f"--{size} {NEEDED[size]} {head}")
@@ -79,7 +91,7 @@ def _over(
 def _time(table: Table, columns: Columns, answers: Answers, strain: Floats | None) -> Floats | None:
     """The time of each row, or the travel over its speed."""
     if "time" in columns.values:
-        if answers.speed is not None:
+        if answers.speed is not None and columns.words.get("displacement") != EVEN:
             raise MisfitError("--speed has no effect, as there is a column of time")
         return columns.values["time"]
     if "time" in columns.undecided:

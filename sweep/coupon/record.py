@@ -62,7 +62,7 @@ def _coupon(path: Path, answers: Answers) -> Coupon:
     raw = measured(table, columns, answers)
     if raw is None:
         raise MisfitError(_needed(columns.questions))
-    texts = [*table.heads, *(" ".join(row) for row in table.preamble)]
+    texts = [*table.heads, *(" ".join(row) for row in table.lines)]
     time, strain, stress = _zeroed(_directed(raw, columns, answers, texts), columns, answers)
     if raw.to_scale:
         columns.questions += doubts(strain, stress, columns.words)

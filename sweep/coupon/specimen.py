@@ -1,4 +1,4 @@
-"""Sizes of a specimen that a machine writes above its table: "Cross-section", 7.3, "mm2"."""
+"""Sizes of a specimen that a machine writes beside its table: "Cross-section", 7.3, "mm2"."""
 
 from collections.abc import Iterator
 
@@ -18,14 +18,14 @@ L0 = "l0"  # a gauge length
 
 
 def stated_size(table: Table, name: str) -> tuple[float, str] | None:
-    """A size of the specimen in SI and its label, if the lines above a table state one alone."""
+    """A size of the specimen in SI and its label, if the lines beside a table state one alone."""
     sizes = list(_sizes(table, *LABELS[name]))
     values = {value for value, _ in sizes}
     return sizes[0] if len(values) == 1 else None
 
 
 def _sizes(table: Table, labels: set[str], unit: str) -> Iterator[tuple[float, str]]:
-    for label, *cells in table.preamble:
+    for label, *cells in table.lines:
         words = set(words_of(label))
         named = words & labels or (L0 in label.lower() and unit == "m")
         if not named or words & AFTER_THE_TEST or len(cells) < 2:

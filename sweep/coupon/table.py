@@ -43,7 +43,7 @@ MISSING = ("", "-", "--", "---", "nan", "n/a", "null")
 
 @dataclass(frozen=True)
 class Table:
-    """Heads and units of columns, their numbers (n, k), and the rows above, as text.
+    """Heads and units of columns, their numbers (n, k), and the lines above and below, as text.
 
     heads: without units; empty if there are none. units: "" where none is stated. values: NaN
     where a number is missing. decimal: the sign in numbers. notes: sentences on how it was read.
@@ -52,7 +52,7 @@ class Table:
     heads: tuple[str, ...]
     units: tuple[str, ...]
     values: NDArray[np.float64]
-    preamble: list[Row]
+    lines: list[Row]
     decimal: str
     notes: tuple[str, ...]
 
@@ -80,7 +80,8 @@ def read_table(path: Path) -> Table:
     notes = [f"{counted(len(block), 'row')} of {counted(width, 'column')}, {form}"]
     if later := sum(numeric[last:]):
         notes.append(f"below other lines, not read: {counted(later, 'further row')} of numbers")
-    return Table(heads, units, values, rows[:first], decimal, tuple(notes))
+    beside = rows[:first] if later else rows[:first] + rows[last:]
+    return Table(heads, units, values, beside, decimal, tuple(notes))
 
 
 def _too_few(count: int) -> str:

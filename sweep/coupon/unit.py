@@ -28,7 +28,8 @@ LONGEST = 12  # characters of a unit
 def size_in_si(unit: str, quantity: str) -> float | None:
     """A unit over the SI unit of what is measured; None if it is no unit of that."""
     written = POWER.sub(r"^\1", unit.strip())
-    for text in (written, OTHER_NAMES.get(written.lower(), written)):
+    small = written.lower()
+    for text in (written, OTHER_NAMES.get(small, small)):
         try:
             return in_si(f"1 {text}" if text != "1" else "1 mm/mm", SI[quantity])
         except MisfitError:

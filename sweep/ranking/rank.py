@@ -2,8 +2,8 @@
 
 Only cases of the same loading scene are compared, since the energies absorbed under a dead load and
 in a crush to half the height answer different questions. Under a dead load the design with the
-least strain is the best, under a striker the one with the least force on the support. Designs whose
-results cannot be trusted (`merit.doubtful`) come last, whatever their values.
+smallest strain is the best, under a striker the one with the least force on the support. Designs
+whose results cannot be trusted (`merit.doubtful`) come last, whatever their values.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     panel : two lengths, such as ("100 mm", "50 mm"), which specimens fill side by side and one
         behind the other; `sweep.design.panel` has the rule.
     by : column to sort by, the better values first (`Column.better`); a column without better
-        values is refused. Default: under a dead load the least strain, under a striker the least
+        values is refused. Default: under a dead load the smallest strain, under a striker the least
         force on the support (`Mode.least`). Otherwise the greatest energy absorbed until
         densification if a budget or a panel is given, else the greatest energy per gram. With
         `absorbed_energy_J` or `specific_absorption_J_per_g`, energy is counted to full stroke, with

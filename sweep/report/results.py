@@ -21,6 +21,7 @@ from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.report.thumbnail import thumbnail
 from sweep.result import Status
+from sweep.store.errors import StoreError
 from sweep.store.read import read_case, read_frames, read_history, read_runs, read_summary
 
 if TYPE_CHECKING:
@@ -80,6 +81,8 @@ class Results:
         ids: Sequence[str] | None = None,
         question: Mapping[str, Any] | None = None,
     ) -> None:
+        if not isinstance(path, str | PathLike):
+            raise StoreError(f"{path!r} is no path; needed: that of a results file")
         self.path = Path(path)
         self._ids = ids
         self._question = Question(**(question or {}))

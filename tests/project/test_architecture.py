@@ -24,10 +24,10 @@ FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.modes",
-    "sweep.design", "sweep.config", "sweep.columns", "sweep.result", "sweep.scene",
-    "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store", "sweep.ranking",
-    "sweep.report", "sweep.export", "sweep.running", "sweep.published", "sweep.cli",
-    "sweep.__main__",
+    "sweep.design", "sweep.config", "sweep.arguments", "sweep.columns", "sweep.result",
+    "sweep.scene", "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store",
+    "sweep.ranking", "sweep.report", "sweep.export", "sweep.running", "sweep.published",
+    "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",

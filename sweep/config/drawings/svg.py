@@ -22,6 +22,7 @@ _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 
 def read_svg(path: Path) -> Lines:
     """The centre lines of all shapes that are shown, y upwards; stroke width and fill are ignored.
+    Where some shapes have a stroke, those that are only filled are no lines, but areas and dots.
 
     The unit is that of the view box: what the width and the height of the page make of it; a pixel
     where there is no view box. Without a size of the page it is not known.
@@ -40,7 +41,9 @@ def read_svg(path: Path) -> Lines:
         for key in PAGE:
             root.attrib.pop(key, None)
         drawing = SVG.parse(BytesIO(Xml.tostring(root)))
-        shapes = (Outline(shape) for shape in drawing.elements() if isinstance(shape, Shape))
+        shapes = [shape for shape in drawing.elements() if isinstance(shape, Shape)]
+        drawn = [shape for shape in shapes if _is_stroked(shape)] or shapes
+        shapes = [Outline(shape) for shape in drawn]
         ends = straightened(control for shape in shapes for control in _beziers(abs(shape)))
     except MisfitError:
         raise
@@ -82,6 +85,11 @@ def _drawn(root: Xml.Element) -> int:
         return count[id(element)]
 
     return drawn(root)
+
+
+def _is_stroked(shape: Any) -> bool:
+    stroke = shape.stroke
+    return stroke is not None and stroke.value is not None
 
 
 def _beziers(path: Any) -> Iterator[Floats]:

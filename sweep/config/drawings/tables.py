@@ -13,11 +13,19 @@ from sweep.config.faults import MisfitError
 from sweep.config.reading.text import foreign_text, rows_of
 from sweep.config.structures.structure_file import faults_of_lists, read_structure
 from sweep.constants import MM
+from sweep.numbers import counted
 from sweep.plain_text import plain
 
 MOST_ROWS = 200_000
+ROUND_OFF = 1e-6  # of a box
 LINE, NODE, WALL = ("x1", "y1", "x2", "y2"), ("x", "y"), ("from", "to")
 IDS = ("node", *WALL)
+OTHER_HEADS = {
+    **dict.fromkeys(("id", "node_id"), "node"),
+    **dict.fromkeys(("source", "start", "node1", "node_1"), "from"),
+    **dict.fromkeys(("target", "end", "node2", "node_2"), "to"),
+}
+"""Heads as graphs have them."""
 _HEAD = re.compile(
     rf"({'|'.join((*LINE, *NODE, *IDS, 'thickness'))})(?:[ _]*[(\[]?({'|'.join(METRES)})[)\]]?)?"
 )
@@ -29,7 +37,7 @@ ATOM_STYLES = {
 }
 """LAMMPS: the place of x in a line of an atom."""
 BY_LENGTH = {5: 2, 6: 3, 7: 4, 8: 2, 9: 3, 10: 4}
-"""The same where the style is not named; lines of eight and more end in three image flags."""
+"""The same where no style is named; lines of eight and more end in three image flags."""
 
 
 def read_json(path: Path) -> Lines:
@@ -60,7 +68,8 @@ def read_csv(path: Path) -> Lines:
     nodes = next((table for table in tables if table.has(NODE)), None)
     walls = [table for table in tables if table.has(LINE) or (nodes and table.has(WALL))]
     if not walls:
-        raise MisfitError(f"has no walls; needed: {CSV}")
+        lacks = "nodes with positions" if any(table.has(WALL) for table in tables) else "walls"
+        raise MisfitError(f"has no {lacks}; needed: {CSV}")
     used = walls if nodes is None else [nodes, *walls]
     named = {size is not None for table in used for size in table.units.values()}
     if len(named) > 1:
@@ -120,7 +129,8 @@ def _tables(rows: Sequence[Sequence[str]], decimal: str) -> Iterator[_Table]:
 
 def _headed(cells: Sequence[str], decimal: str) -> _Table:
     """A table without rows, whose heads these cells are; other cells are no heads."""
-    matches = {place: _HEAD.fullmatch(cell.lower()) for place, cell in enumerate(cells)}
+    words = [OTHER_HEADS.get(cell.lower(), cell.lower()) for cell in cells]
+    matches = {place: _HEAD.fullmatch(word) for place, word in enumerate(words)}
     heads = {match[1]: (place, match[2]) for place, match in matches.items() if match}
     return _Table(
         {name: place for name, (place, _) in heads.items()},
@@ -187,7 +197,17 @@ def read_lammps(path: Path) -> Lines:
     if np.ptp(at_rest[:, 2]) > 1e-6 * np.ptp(at_rest[:, :2]):
         raise MisfitError("its atoms are not in a plane of equal z")
     pairs = [_both(words, line) for line, words in sections["Bonds"]]
-    return Lines(at_rest[[[_node(place, name) for name in pair] for pair in pairs]][..., :2])
+    ends = at_rest[[[_node(place, name) for name in pair] for pair in pairs]][..., :2]
+    return _inside(ends, np.array(box[:2]))
+
+
+def _inside(ends: Floats, box: Floats) -> Lines:
+    """The bonds but for those around a periodic box, which are shorter the other way."""
+    reach = np.abs(ends[:, 1] - ends[:, 0])
+    around = ((reach > 0.5 * box) & (reach < (1.0 - ROUND_OFF) * box)).any(axis=1)
+    count = int(around.sum())
+    note = f"left out: {counted(count, 'bond')} around the box, longer than half of it"
+    return Lines(ends[~around], notes=(note,) if count else ())
 
 
 def _both(words: Sequence[str], line: int) -> Sequence[str]:
@@ -207,7 +227,7 @@ def _sections(text: str) -> tuple[dict[str, list[tuple[int, list[str]]]], str, l
             continue
         if words[0][0].isalpha():
             inside = sections.setdefault(" ".join(words), [])
-            style = comment.strip() if words == ["Atoms"] else style
+            style = comment.strip() if words == ["Atoms"] and comment.strip().isalpha() else style
         elif inside is not None:
             inside.append((number, words))
         elif words[2:] in AXES:

@@ -85,6 +85,13 @@ class Drawn(WallLattice):
         return lattice
 
     @classmethod
+    def idle(cls, inputs: Inputs) -> dict[str, str]:
+        """The keys of cells."""
+        own = {**cls.neutral, **cls.constants}
+        others = (key for key in inputs if key not in cls.model_fields)
+        return {key: cls.because for key in others if own.get(key) != inputs[key]}
+
+    @classmethod
     def check_file(cls, path: Path) -> list[str]:
         """Refuse a file that is no drawing; else what a reader leaves out of it."""
         from sweep.config.drawings.drawing_file import read_drawing
@@ -148,12 +155,20 @@ class Drawn(WallLattice):
 
 
 def _check_sides(lattice: Drawn, inputs: Inputs) -> None:
-    """Refuse a size that is not that of the drawing."""
-    for key in Drawn.derived:
-        size = getattr(lattice, key)
-        if not isclose(inputs.get(key, size), size, rel_tol=SIZED):
-            allowed = f"{size:.6g} m, that of the drawing; lattice.file_unit changes it"
-            raise RefusedError(f"lattice.{key}", inputs[key], allowed)
+    """Refuse sizes that are not those of the drawing."""
+    refused = [
+        RefusedError(
+            f"lattice.{key}",
+            inputs[key],
+            f"{size:.6g} m, that of the drawing; lattice.file_unit changes it",
+        )
+        for key in Drawn.derived
+        for size in [getattr(lattice, key)]
+        if not isclose(inputs.get(key, size), size, rel_tol=SIZED)
+    ]
+    if refused:
+        refused[0].also = refused[1:]
+        raise refused[0]
 
 
 @lru_cache(maxsize=256)

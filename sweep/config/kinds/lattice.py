@@ -48,7 +48,18 @@ def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
     inputs = dict(values)
     if inputs.get("kind", WORDS[0]) not in WORDS:
         raise RefusedError("lattice.kind", inputs["kind"], ", ".join(WORDS))
-    lattice = kind_of(inputs).of(inputs, density, along)
+    kind = kind_of(inputs)
+    try:
+        lattice = kind.of(inputs, density, along)
+    except RefusedError as error:
+        known = {error.key, *(other.key for other in error.also)}
+        idle = kind.idle(inputs)
+        error.also += [
+            RefusedError(f"lattice.{key}", inputs[key], f"none, as {why}")
+            for key, why in idle.items()
+            if f"lattice.{key}" not in known
+        ]
+        raise
     check_printable(lattice)
     if lattice.sheet:
         return lattice

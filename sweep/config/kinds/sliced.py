@@ -53,6 +53,7 @@ MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side
 MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
 NEAR = 0.1  # shares tried instead of one that cannot be drawn
 SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart the lines are
+DENSE = 0.5  # share from which cells of lines are nearly solid
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
@@ -352,6 +353,9 @@ def _upright(lateral: Lateral, inputs: Inputs) -> str:
     width = f'cell_size = "{size}"' if size else "a cell_size"
     walls = f'wall_thickness = "{text_in(lateral.thickness * line, "mm")}"{lateral.walls}'
     cells = f'lattice.kind = "{lateral.family}", {width}, {walls}'
+    if share and share > DENSE:
+        thick = text_in(share / (2.0 - share), "%", 2)  # a cell is 2 / share walls wide
+        cells += f", nearly solid: walls have {thick} of the width of the gaps, all of it at 100 %"
     axis = "give, without lattice.slicer and with lattice.height along the print axis"
     return f"a prism whose axis lies in the layers: {axis}, {cells}"
 

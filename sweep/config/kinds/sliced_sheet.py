@@ -34,6 +34,7 @@ from sweep.design.surfaces.names import BLOCK, SHEETS
 from sweep.numbers import at_least, at_most, in_unit, text_in
 
 LEAST_SHARE = 0.02
+HELD = "lattice.perimeters hold the sides of a block"
 
 
 class SlicedSheet(Surface):
@@ -105,6 +106,12 @@ class SlicedSheet(Surface):
         """What makes walls of these values a sheet."""
         return f'lattice.pattern is "{inputs["pattern"]}"'
 
+    @classmethod
+    def idle(cls, inputs: Inputs) -> dict[str, str]:
+        """Sides of a block that would repeat."""
+        held = inputs.get("perimeters") and inputs.get("sides", "free") != "free"
+        return {"sides": HELD} if held else {}
+
     def inputs(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""
         sides = {} if self.tied_sides else {side: self.value(side) for side in SIDES}
@@ -113,7 +120,7 @@ class SlicedSheet(Surface):
     def why_idle(self, key: str) -> str:
         """Why a key has no effect."""
         if key == "sides" and not self.tied_sides:
-            return "lattice.perimeters hold the sides of a block"
+            return HELD
         why = super().why_idle(key)
         return f"lattice.perimeters is 0: {why}" if key in ("sides", *SIDES) else why
 

@@ -83,6 +83,13 @@ class Specimen(Table):
         """
 
     @classmethod
+    def idle(cls, inputs: Inputs) -> dict[str, str]:
+        """The given keys that this kind never has, each with the reason: told where it is refused,
+        so that no case says so.
+        """
+        return {}
+
+    @classmethod
     def sheet_clause(cls, inputs: Inputs) -> str:
         """What makes walls of these values a sheet; empty if they are none."""
         return ""

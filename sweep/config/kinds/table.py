@@ -113,11 +113,13 @@ class RefusedError(MisfitError):
     """A value that contradicts the rest of its case.
 
     value: None if it is missing. since: the key that implies the value, if it is not given itself.
+    also: further refusals of the same table.
     """
 
     def __init__(self, key: str, value: object, allowed: str, since: str | None = None) -> None:
         super().__init__(key, value, allowed, since)
         self.key, self.value, self.allowed, self.since = key, value, allowed, since
+        self.also: list[RefusedError] = []
 
     def __str__(self) -> str:
         return f"{self.key} = {self.value}; allowed: {self.allowed}"

@@ -39,6 +39,7 @@ Numbers = tuple[float, ...]
 FOLDER = Path(__file__).parents[3] / "configs" / "materials"
 STRAINS = with_units("strain", STRAIN_UNITS)
 STRESSES = with_units("stress", STRESS_UNITS)
+STRETCH = "stretch"  # a head in place of the strain: 1 + strain
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
 REFERENCE_TIME = 1.0  # s; of a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
@@ -151,7 +152,8 @@ def _record(
 def _check_numbers(numbers: Mapping[str, Stated]) -> None:
     """Refuse a header without the numbers that every material needs."""
     if "density" not in numbers or "poisson" not in numbers:
-        raise RecordError("needs the lines # density_kg_m3: ... and # poisson: ...")
+        needed = "needs the lines # density_kg_m3: ... and # poisson: ..."
+        raise RecordError(f"{needed}; of a test, `crumple materials fit` makes such a file")
     for key, number in numbers.items():
         _check_limits(key, number)
     alone = [key for key, number in numbers.items() if number.value is None]
@@ -200,13 +202,16 @@ def _columns(lines: list[str]) -> tuple[Numbers, Numbers]:
     """Strain and stress below the header."""
     rows = rows_of(line for line in lines if line.strip() and not line.startswith("#"))
     heads = [word.strip() for word in rows[0]] if rows else []
-    if len(heads) != 2 or heads[0] not in STRAINS or heads[1] not in STRESSES:
+    sizes = STRAINS | {STRETCH: 1.0}
+    if len(heads) != 2 or heads[0] not in sizes or heads[1] not in STRESSES:
         wrong = "the first row must read strain,stress_Pa, with a comma between the heads"
-        raise RecordError(f"{wrong}; in other units: {', '.join([*STRAINS, *STRESSES][1:])}")
+        raise RecordError(f"{wrong}; in other units: {', '.join([*sizes, *STRESSES][1:])}")
     pairs = [_pair(row) for row in rows[1:]]
+    if heads[0] == STRETCH:
+        pairs = [(float(f"{stretch - 1.0:.12g}"), stress) for stretch, stress in pairs]
     strain, stress = (
         tuple(float(f"{size * pair[k]:.15g}") if size != 1.0 else pair[k] for pair in pairs)
-        for k, size in enumerate((STRAINS[heads[0]], STRESSES[heads[1]]))
+        for k, size in enumerate((sizes[heads[0]], STRESSES[heads[1]]))
     )
     return strain, stress
 

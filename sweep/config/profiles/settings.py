@@ -33,6 +33,10 @@ INSIDE = {
 OF_SUPERSLICER = {"infill_extrusion_spacing", "infill_dense", "fill_smooth_width"}
 GENERATIONS = 12  # of parents
 BROKEN = (zipfile.BadZipFile, zlib.error, RuntimeError, OSError, EOFError, ValueError, LookupError)
+OF_CURA = (
+    'of Cura, most of whose values are formulas of the program; write slicer = "cura" with '
+    "pattern, infill and line_width"
+)
 CHOOSE = "name one behind a #, as in profile.ini#NAME, or export it alone (File > Export Config)"
 
 
@@ -141,6 +145,8 @@ def _text(value: Any) -> str | None:
 def _of_ini(text: str, preset: str) -> Settings:
     """The settings of a flat .ini, or of one print profile of a bundle and its printer."""
     sections = _sections(text)
+    if "setting_version" in sections.get(("metadata", ""), {}):
+        raise MisfitError(OF_CURA)
     program = "superslicer" if _is_superslicer(text, sections) else "prusa"
     prints = {name: own for (kind, name), own in sections.items() if kind == "print"}
     if not prints:

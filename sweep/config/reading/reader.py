@@ -322,7 +322,7 @@ class Reader:
             return None
         except MisfitError as error:
             key = keys[name]
-            allowed = with_words(key.targets[0], key.allowed)
+            allowed = with_words(key.targets[0], key.allowed_for(raw))
             words = [*CHOICES.get(key.targets[0], ()), *key.schema.get("enum", ())]
             near = similar(raw, words) if isinstance(raw, str) else ""
             self._refuse(name, raw, f"{error}; allowed: {allowed}{near}", where)

@@ -64,6 +64,10 @@ def _check_object(text: str) -> None:
         raise MisfitError("not JSON (a number too long, or nested too deeply)") from None
     if not isinstance(document, dict):
         raise MisfitError("not a JSON object; allowed: { ... } with nodes_mm and walls")
+    if Structure.model_fields.keys().isdisjoint(document):
+        raise MisfitError(
+            "of another program; needed: nodes_mm, pairs of mm, and walls, pairs of nodes"
+        )
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:
@@ -87,7 +91,8 @@ def _misfits(error: ValidationError) -> Iterator[str]:
 def _misfit(loc: Sequence[str | int], wrong: dict[str, Any]) -> str:
     if wrong["type"] == "extra_forbidden":
         *loc, key = wrong["loc"]
-        near = get_close_matches(str(key), _KEYS, n=1, cutoff=0.0)[0]
+        keys = _KEYS if loc else [*Structure.model_fields]
+        near = get_close_matches(str(key), keys, n=1, cutoff=0.0)[0]
         return f"{_where((*loc, key))}: unknown key; the nearest is {near}"
     if wrong["type"] == "missing":
         return f"{_where(wrong['loc'])} is missing"

@@ -33,16 +33,17 @@ RETURNED = "returned: returned energy / work of the whole crush."
 SECOND = (
     "cycle 2: energy absorbed in the second cycle / in the first; other columns: the first cycle."
 )
-ELASTIC = (
-    "Walls are elastic: the rest is lost to friction, damping, snap-through or time integration."
-)
+ELASTIC = """\
+Walls are elastic: the rest is lost to friction, in the material (by damping), in snap-through or in
+time integration."""
 PLASTIC = "The rest is lost in the material, to friction and in snap-through."
 LOSSY = """\
 The rest is lost in the material (dissipated_material_J), to friction and in snap-through, or is
 still stored in walls that relax."""
 MIXED = """\
-behaviour: of the walls. The rest is lost to friction, damping, snap-through or time integration; in
-walls that are not elastic also in the material, or is still stored as they relax."""
+behaviour: of the walls. The rest is lost to friction, in the material, in snap-through or in time
+integration, or is still stored in walls that relax. In elastic walls, what is lost in the material
+is damping."""
 SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""

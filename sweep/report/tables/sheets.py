@@ -25,6 +25,7 @@ from sweep.report.tables.requirement_notes import (
     requirement_notes,
 )
 from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.size_note import size_note
 from sweep.report.tables.unfinished_notes import unfinished_notes
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-FIRST = {"peak_strain": ": least strain first", "peak_force_N": ": least force first"}
+FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
 LOST = "No design is ranked here: all cases failed ({})."
 
@@ -94,6 +95,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes=(
                 *_passed_over(rows),
                 *(_open(placed) if ranking.limited else ()),
+                *size_note(placed),
                 *narrow_note(ranking.narrow[scene]),
                 *_cut_off(rows),
                 *_not_shown(placed),

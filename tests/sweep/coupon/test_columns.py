@@ -29,6 +29,7 @@ def table(*heads, **values):
         (["時間/s", "ひずみ/%", "応力/MPa"], "time strain stress"),
         (["Time/s", "True strain/%", "Strain rate/1/s", "Width/mm"], "time"),
         (["/s", "/mm", "/N"], "time displacement force"),
+        (["TestTime/Sec", "XDisplacement/um", "LoadCell/mN"], "time displacement force"),
     ],
 )
 def test_words_and_units_say_what_a_column_is(heads, quantities):
@@ -68,6 +69,16 @@ def test_of_several_columns_the_user_is_asked_unless_they_are_the_same():
     )
 
 
+def test_of_tests_side_by_side_one_answer_chooses_the_test():
+    heads = ("Time/s", "Force/N", "Stroke/mm") * 3
+    side_by_side = columns_of(table(*heads), {}, {})
+    assert side_by_side.undecided == {"time", "force", "displacement"}
+    second = columns_of(table(*heads), {"force": "5"}, {})
+    assert second.questions == []
+    ends = [second.values[name][-1] for name in ("time", "force", "displacement")]
+    assert ends == pytest.approx([4.0, 5.0, 6e-3])
+
+
 def test_constant_columns_are_no_candidates():
     found = columns_of(table("Force/N", "Force 2/N", c1=0.0 * UP), {}, {})
     assert found.questions == []
@@ -76,7 +87,11 @@ def test_constant_columns_are_no_candidates():
 def test_units_that_are_not_known_are_asked_for_at_once():
     heads = ("Time", "Strain", "Stress/bananas")
     (question,) = columns_of(table(*heads), {}, {}).questions
-    assert question.startswith("--units time=s strain=%, or other units: none are known of Time")
+    assert question == (
+        "--units time=s strain=% stress=MPa, or other units: none are known of Time, Strain, "
+        "Stress [bananas]"
+    )
+    assert columns_of(table("Load/N", "Load cell/V"), {}, {}).undecided == set()
     given = columns_of(table(*heads), {"stress": "3"}, {"time": "s", "strain": "%", "stress": "Pa"})
     assert [*given.values] == ["time", "strain", "stress"]
 

@@ -83,6 +83,14 @@ def test_unloading_above_loading_is_refused(sign):
             assert fit(above).misfit > 0.0
 
 
+def test_a_record_that_begins_with_an_unloading_is_refused():
+    test = coupon(0.5, 0.05, 0.5, loss=0.2)
+    first = np.r_[0.2, test.strain] - 0.2
+    late = Coupon("late", np.r_[-1.0, test.time], first, np.r_[0.0, test.stress])
+    with pytest.raises(CouponError, match="late: the record begins with an unloading, from its"):
+        fit(late)
+
+
 def test_a_curve_that_no_law_with_a_loss_has_is_refused():
     test = coupon(0.5, 0.05, 0.5, loss=0.35)
     late = np.arange(test.time.size) > 200

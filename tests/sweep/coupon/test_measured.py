@@ -39,8 +39,8 @@ def test_sizes_of_the_file_are_used_and_told():
     found, columns = read(RAW, [UP, 50.0 * UP, 16.0 * UP], Answers(), lines)
     assert found.stress == pytest.approx(2e6 * UP)
     assert columns.notes == [
-        "gauge 50 mm, from the line Gage length above the heads",
-        "area 8 mm2, from the line Section above the heads",
+        "gauge 50 mm, from the line Gage length",
+        "area 8 mm2, from the line Section",
     ]
     other, _ = read(RAW, [UP, 50.0 * UP, 16.0 * UP], Answers(area=16e-6), lines)
     assert other.stress == pytest.approx(1e6 * UP)
@@ -65,6 +65,17 @@ def test_time_follows_from_the_speed():
     assert columns.questions[0].startswith('--speed "150 mm/min" of the travel, or --columns')
     strained, _ = read((("strain", "stress"), ("", "Pa")), [UP, UP], Answers(gauge=0.05, speed=0.1))
     assert strained.time[-1] == pytest.approx(0.5)
+
+
+def test_an_even_travel_follows_from_time_and_speed():
+    heads = (("time", "force"), ("s", "N"))
+    sizes = {"gauge": 0.05, "area": 8e-6}
+    found, columns = read(heads, [UP, UP], Answers(**sizes, speed=0.01))
+    assert found.strain == pytest.approx(0.2 * UP)
+    assert columns.words["displacement"] == "time and an even speed"
+    missing, columns = read(heads, [UP, UP], Answers(**sizes))
+    assert missing is None
+    assert '--speed "5 mm/min" of an even travel' in columns.questions[0]
 
 
 def test_rows_without_numbers_and_of_the_same_time_are_left_out():

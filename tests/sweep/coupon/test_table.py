@@ -44,10 +44,15 @@ def test_quoted_decimal_commas_between_commas(table):
 def test_lines_above_and_below_are_told_from_the_table(table):
     head = 'Width,5.96,"mm"\nx" y\n"Time","Load","Temp"\n"s","N","°C"\n'
     found = table("\ufeff" + head + lines() + "Mean,1\n1,2,3\n4,5,6\n")
-    assert found.preamble[0] == ["Width", "5.96", "mm"]
+    assert found.lines[0] == ["Width", "5.96", "mm"]
     assert (found.heads, found.units) == (("Time", "Load", "Temp"), ("s", "N", "°C"))
     assert found.values.shape == ROWS.shape
     assert found.notes[1].endswith("not read: 2 further rows of numbers")
+
+
+def test_lines_below_the_numbers_belong_to_the_test(table):
+    found = table("time_s,way_mm,force_N\n" + lines() + "\nDirection:,COMPRESSION\n")
+    assert found.lines == [["time_s", "way_mm", "force_N"], ["Direction:", "COMPRESSION"]]
 
 
 def test_comments_are_left_out_unless_they_are_the_heads(table):

@@ -39,6 +39,8 @@ def test_a_head_is_parted_from_its_unit(head, found):
         ("-", "strain", 1.0),
         ("%", "strain", 0.01),
         ("sec", "time", 1.0),
+        ("Sec", "time", 1.0),
+        ("MM", "displacement", 1e-3),
         ("min", "time", 60.0),
         ("in", "displacement", 0.0254),
         ("mm", "force", None),

@@ -154,7 +154,7 @@ def test_under_a_dead_load_the_least_sink_wins():
     assert ranking.by == ranking.energy
     loaded, crushed = ranking_sheets(ranking, table)
     assert (loaded.title, crushed.title) == (
-        "dead load of 5 N, glued platens: least strain first",
+        "dead load of 5 N, glued platens: smallest strain first",
         "crushed to 50 %, glued platens",
     )
     assert loaded.heads == ["#", "mass g", "strain %"]

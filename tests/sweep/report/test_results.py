@@ -7,6 +7,7 @@ import pytest
 
 from sweep.ranking.question import RankError
 from sweep.report.results import Picture, Results
+from sweep.store.errors import StoreError
 from sweep.store.read import read_history
 from tests.support.results.specimens import designs, summary, write
 
@@ -30,6 +31,11 @@ def test_table_has_the_cases_of_the_sweep_in_its_order(file):
     assert len(Results(file)) == 3
     assert list(results.failed["case_id"]) == ids[:1]
     assert repr(results) == f"<Results of 2 cases, 1 failed, in {file}>"
+
+
+def test_what_is_no_path_is_told():
+    with pytest.raises(StoreError, match="3 is no path; needed: that of a results file"):
+        Results(3)
 
 
 def test_curve_is_that_of_the_row_or_id(file):

@@ -40,6 +40,17 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
     assert ends.max() < 90.0
 
 
+def test_beside_strokes_what_is_only_filled_is_left_out(tmp_path):
+    """Also where a style sheet or a group says so; the black fill of CSS is no stroke."""
+    line = '<line x1="0" y1="0" x2="10" y2="5" {}/>'
+    filled = '<rect width="9" height="9" style="fill:#fff;stroke:none"/><circle r="2"/>'
+    style = "<style>.wall {stroke: red}</style>"
+    for strokes in (line.format('stroke="red"'), f"<g stroke='red'>{line.format('')}</g>",
+                    style + line.format('class="wall"')):  # fmt: skip
+        assert len(read_svg(written(tmp_path / "a.svg", filled + strokes)).ends) == 1
+    assert len(read_svg(written(tmp_path / "a.svg", filled + LINE)).ends) > 1 + 4
+
+
 @pytest.mark.parametrize(
     ("page", "unit"),
     [

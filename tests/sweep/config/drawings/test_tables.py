@@ -27,6 +27,8 @@ def test_heads_may_name_no_unit_and_walls_a_thickness(tmp_path):
     assert lines.ends.tolist() == [[[0, 0], [9, 0]], [[9, 0], [0, 9]]]
     assert lines.thickness.tolist() == [0.5, 1.0]
     assert lines.unit is None
+    path.write_text("id,x,y\na,0,0\nb,9,0\n\nSource,Target,weight\na,b,1\n")
+    assert read_csv(path).ends.tolist() == [[[0, 0], [9, 0]]]
     path.write_text("x1_mm,y1_cm,x2 [mm],y2 (um),thickness_mm\n1,2,3,4,5\n")
     lines = read_csv(path)
     assert lines.ends[0] == pytest.approx(np.array([[1e-3, 2e-2], [3e-3, 4e-6]]))
@@ -38,6 +40,7 @@ def test_heads_may_name_no_unit_and_walls_a_thickness(tmp_path):
     [
         ("a,b\n1,2\n", "line 1 has no heads"),
         ("x,y\n1,2\n", "has no walls"),
+        ("source,target\n0,1\n", "has no nodes with positions"),
         ("x,y\n0,0\nfrom,to\n0,7\n", 'node "7", which no row has'),
         ("x1_mm,y1,x2,y2\n0,0,1,1\n", "some heads name a unit"),
         ("x1,y1,x2,y2\n0,0,1,1\n0,0,\x1b[1m,1\n", r'line 3: "\\x1b\[1m" is no number'),
@@ -99,6 +102,20 @@ def test_bonds_of_lammps_are_walls_whatever_the_style(tmp_path):
         lines = read_lammps(path)
         assert lines.ends == pytest.approx(np.array(GRID))
         assert lines.unit is None
+
+
+def test_bonds_around_a_periodic_box_are_left_out(tmp_path):
+    """And a comment of several words behind Atoms names no style."""
+    path = tmp_path / "net.lmp"
+    atoms = "1 1 1 0.0 0 0 0\n2 1 1 0.0 4 0 0\n3 1 1 0.0 9 0 0\n4 1 1 0.0 0 3 0"
+    bonds = "1 1 1 2\n2 1 2 3\n3 1 3 1\n4 1 1 4"
+    path.write_text(
+        f"net\n\n-0.5 9.5 xlo xhi\n0 3 ylo yhi\n\nAtoms # ['id', 'x']\n\n{atoms}\n\nBonds # all\n\n"
+        f"{bonds}\n"
+    )
+    lines = read_lammps(path)
+    assert lines.ends.tolist() == [[[0, 0], [4, 0]], [[4, 0], [9, 0]], [[0, 0], [0, 3]]]
+    assert lines.notes == ("left out: 1 bond around the box, longer than half of it",)
 
 
 @pytest.mark.parametrize(

@@ -37,14 +37,14 @@ UNFIT = {
         *('lattice.wall_thickness = "0.8 mm"', "0.4 mm, as lattice.infill is 20 %"),
     ),
     'infill = "20 %"\nmass = "1 g"': ('lattice.mass = "1 g"', "none where lattice.infill is given"),
-    'cell_size = "4 mm"\ncells = 4': ("lattice.cells = 4", "3, as lattice.cell_size is 0.004 m"),
+    'cell_size = "4 mm"\ncells = 4': ("lattice.cells = 4", "3, as lattice.cell_size is 4 mm"),
     'cell_size = "4 mm"\ninfill = "20 %"': (
         'lattice.cell_size = "4 mm"',
         "none where lattice.infill is given",
     ),
     'cell_size = "20 mm"': ('lattice.cell_size = "20 mm"', "12.5 mm wide, or 12.5 mm high"),
     'cell_size = "10 um"': ('lattice.cell_size = "10 um"', "1 to 50,000 fit"),
-    'infill = "2 %"': ('lattice.infill = "2 %"', "1 to 50,000 cells", "0.0004 m"),
+    'infill = "2 %"': ('lattice.infill = "2 %"', "1 to 50,000 cells", "0.4 mm"),
     'infill = "90 %"\nwidth = "25 mm"\nheight = "25 mm"\nkind = "kagome"': (
         *('lattice.infill = "90 %"', "at least twice as wide"),
     ),
@@ -55,8 +55,8 @@ UNFIT = {
     'kind = "triangle"\nwall_thickness = "1.3 mm"': (
         *('lattice.wall_thickness = "1.3 mm"', "below", "1.287 mm"),
     ),
-    "perimeters = 9": ("lattice.perimeters = 9", "at most 8 here", "0.003367 m"),
-    "solid_layers = 17": ("lattice.solid_layers = 17", "at most 16 here", "0.003367 m"),
+    "perimeters = 9": ("lattice.perimeters = 9", "at most 8 here", "3.367 mm"),
+    "solid_layers = 17": ("lattice.solid_layers = 17", "at most 16 here", "3.367 mm"),
 }
 
 

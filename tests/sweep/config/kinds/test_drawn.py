@@ -128,6 +128,15 @@ def test_what_does_not_fit_a_drawing_is_refused(tmp_path, lattice, told):
         case(lattice={k: v for k, v in table.items() if v is not None}, loading=CRUSH)
 
 
+def test_all_that_does_not_fit_a_drawing_is_told_at_once(grid, tmp_path):
+    path = as_csv(tmp_path / "grid.csv")
+    wrong = {"width": "3 cm", "height": "3 cm", "infill": "20 %", "sides": "periodic"}
+    with pytest.raises(ConfigError) as refusal:
+        drawn(path, **wrong)
+    assert {fault.key for fault in refusal.value.faults} == {f"lattice.{key}" for key in wrong}
+    drawn(path, width=f"{grid.lattice.width} m", sides="free")
+
+
 def test_the_corner_of_a_sloppy_drawing_is_its_own(tmp_path):
     """Where the lowest end is one that overshoots, the walls begin above it, and at 0."""
     off = 5e-5 * SIDE

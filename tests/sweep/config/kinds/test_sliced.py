@@ -219,6 +219,15 @@ def test_a_prism_in_the_layers_is_told_as_cells_of_equal_mass(lines, load, name)
     assert 2.0 * lattice.wall_thickness / side == pytest.approx(0.18, rel=0.05)
 
 
+@pytest.mark.parametrize(("infill", "dense"), [("18 %", False), ("90 %", True)])
+def test_a_dense_prism_in_the_layers_is_told_as_nearly_solid(lines, infill, dense):
+    """In layers at a right angle a gap is as wide as a period less a wall."""
+    (line,) = lines(
+        f'[lattice]\nslicer = "orca"\npattern = "lateral-lattice"\ninfill = "{infill}"\n'
+    )
+    assert ("walls have 82 % of the width of the gaps, all of it at 100 %" in line) == dense
+
+
 def test_the_walls_of_a_lateral_honeycomb_fill_its_share():
     line, share = 0.4, 0.2
     size = HONEYCOMB.width * line / share  # of a hexagon, from flat to flat

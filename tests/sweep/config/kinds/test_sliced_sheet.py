@@ -5,7 +5,9 @@ from math import pi, radians, sqrt
 import pytest
 
 from sweep.config.case import Case
+from sweep.config.faults import ConfigError
 from sweep.config.kinds.table import RefusedError
+from sweep.config.load import case as make_case
 from sweep.design.slicer.patterns import ROUNDED
 
 MM = 1e-3
@@ -82,6 +84,13 @@ def test_what_a_slicer_does_not_print_is_refused(values, words):
     with pytest.raises(RefusedError) as refused:
         sheet(**values)
     assert words in str(refused.value)
+
+
+def test_the_sides_of_a_block_are_refused_beside_its_share():
+    wrong = {"infill": "90 %", "sides": "periodic"}
+    with pytest.raises(ConfigError) as refusal:
+        make_case(lattice={"slicer": "orca", "pattern": "gyroid", "perimeters": 2} | wrong)
+    assert {fault.key for fault in refusal.value.faults} == {"lattice.infill", "lattice.sides"}
 
 
 def block(direction="out_of_plane", **lattice):

@@ -9,7 +9,7 @@ from sweep.config.kinds.table import RefusedError
 
 UNFIT = {
     '[lattice]\nwall_thickness = "2.5 mm"': ('lattice.wall_thickness = "2.5 mm"', "2.083 mm"),
-    "[lattice]\ncells = 20": ("lattice.wall_thickness = 0.0008 m by default", "0.0003125 m"),
+    "[lattice]\ncells = 20": ("lattice.wall_thickness = 0.8 mm by default", "0.3125 mm"),
     '[lattice]\ncells = 300\nwidth = "3 m"\nheight = "3 m"': (
         *("lattice.cells = 300", "at most 50,000", "451,801 here"),
     ),

@@ -25,6 +25,11 @@ def test_a_stated_modulus_wins(own_record):
 CURVE = "0.01,1e5\n0.1,9e5\n"
 
 
+def test_a_stretch_is_one_more_than_a_strain(own_record):
+    text = HEADER.replace("strain", "stretch") + "1,0\n1.1,9e5\n7.5,8e6\n"
+    assert read_record(own_record(text)).strain == (0.0, 0.1, 6.5)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -187,6 +187,12 @@ def test_what_is_no_profile_is_refused(tmp_path, text, told):
         read_settings(written(tmp_path, text, "profile.json"))
 
 
+def test_a_profile_of_cura_is_answered_with_the_keys_to_write(tmp_path):
+    text = "[general]\nversion = 4\n\n[metadata]\nsetting_version = 20\n\n[values]\nspeed = 40\n"
+    with pytest.raises(MisfitError, match=r'of Cura, .*write slicer = "cura" with pattern'):
+        read_settings(written(tmp_path, text, "fine.inst.cfg"))
+
+
 def test_an_archive_of_something_else_is_refused(tmp_path):
     with pytest.raises(MisfitError, match="an archive without the settings of a slicer"):
         read_settings(project(tmp_path, {"3D/3dmodel.model": "<model/>"}))

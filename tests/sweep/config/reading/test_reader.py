@@ -115,7 +115,10 @@ VALUES = {
     '[lattice]\nwidth = "1 mmm"': ('lattice.width = "1 mmm"', 'unknown unit "mmm"', SIZE),
     '[lattice]\ndepth = "-8 mm"': ('lattice.depth = "-8 mm"', RANGE, SIZE),
     '[lattice]\nwidth = "1e30 m"': ('lattice.width = "1e30 m"', RANGE, SIZE),
-    '[lattice]\nwidth = "1e999 mm"': ('lattice.width = "1e999 mm"', "not finite", SIZE),
+    '[lattice]\nwidth = "1e999 mm"': ('lattice.width = "1e999 mm"', "too large", SIZE),
+    '[loading]\nmode = "displacement"\nstrain = "150 %"': (
+        *('loading.strain = "150 %"', RANGE, '"20 %", above 0, below 100 %'),
+    ),
     "[lattice]\nwidth = true": ("lattice.width = true", "no quantity", SIZE),
     "[lattice]\ncells_x = true": ("lattice.cells_x = true", TYPE, CELLS),
     "[lattice]\ncells_y = 3.0": ("lattice.cells_y = 3.0", TYPE, CELLS),

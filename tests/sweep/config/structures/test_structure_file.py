@@ -16,6 +16,7 @@ POSITIVE = "greater than 0"
 
 WRONG = {
     "unknown key": ({"wals": []}, "wals", "the nearest is walls"),
+    "unknown key of nodes": ({"nodes": []}, "nodes", "the nearest is nodes_mm"),
     "unknown key inside": (
         *({"supports": [{"node": 0, "fixed": ["x"]}]}, "supports[0].fixed", "the nearest is fix"),
     ),
@@ -108,6 +109,7 @@ def test_all_mistakes_are_told(lines):
     [
         ("{", "not JSON at line 1, column 2"),
         ("[]", "not a JSON object"),
+        ('{"nodes": [[0, 0]], "edges": []}', "of another program; needed: nodes_mm"),
         ('{"walls": [[0, 1]]}', "nodes_mm is miss"),
     ],
 )
