@@ -129,10 +129,10 @@ _HOME = {
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"Crumple has no {name!r}; it has {', '.join(__all__)}")
-    found = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    member = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
     from sweep.arguments import explained
 
-    return explained(found) if isinstance(found, FunctionType) else found
+    return explained(member) if isinstance(member, FunctionType) else member
 
 
 def __dir__() -> list[str]:

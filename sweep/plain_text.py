@@ -14,7 +14,7 @@ def plain(text: object) -> str:
     """A text in which characters that steer a terminal, or turn the direction of reading, are
     written as their escapes.
     """
-    return CONTROL.sub(lambda found: ascii(found.group())[1:-1], str(text))
+    return CONTROL.sub(lambda match: ascii(match.group())[1:-1], str(text))
 
 
 def csv_text(table: "DataFrame") -> str:

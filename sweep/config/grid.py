@@ -331,8 +331,8 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
         return _in_mm(sentence)
     scale = float(match[1]) / written.value
     in_si = re.compile(rf"([\d.e+-]+) {re.escape(unit)}(?![\w/^])")
-    told = in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
-    return told if unit == "m" else _in_mm(told)
+    text = in_si.sub(lambda quantity: f"{float(quantity[1]) * scale:.4g} {match[2]}", sentence)
+    return text if unit == "m" else _in_mm(text)
 
 
 def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:

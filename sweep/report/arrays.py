@@ -41,7 +41,9 @@ def dataset(path: Path, table: DataFrame, curves: Sequence[str] | bool = ()) -> 
     return Dataset(measures, {CASE: ids, **grid}, {"source": str(path)})
 
 
-def _curves(path: Path, ids: list[str], curves: Sequence[str] | bool, known: set[str]) -> Variables:
+def _curves(
+    path: Path, ids: list[str], curves: Sequence[str] | bool, columns: set[str]
+) -> Variables:
     """Named curves as arrays (cases, rows of the longest), NaN after the last row of a case."""
     if not curves:
         return {}
@@ -57,7 +59,7 @@ def _curves(path: Path, ids: list[str], curves: Sequence[str] | bool, known: set
             curve = rows[case_id][name]
             values[name][k, : len(curve)] = curve
     return {
-        f"{OF_CURVES}{name}" if name in known else name: (
+        f"{OF_CURVES}{name}" if name in columns else name: (
             (CASE, ROW),
             array,
             _about(describe_array("/histories", name)),

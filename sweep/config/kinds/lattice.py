@@ -52,12 +52,12 @@ def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
     try:
         lattice = kind.of(inputs, density, along)
     except RefusedError as error:
-        known = {error.key, *(other.key for other in error.also)}
+        keys = {error.key, *(other.key for other in error.also)}
         idle = kind.idle(inputs)
         error.also += [
             RefusedError(f"lattice.{key}", inputs[key], f"none, as {why}")
             for key, why in idle.items()
-            if f"lattice.{key}" not in known
+            if f"lattice.{key}" not in keys
         ]
         raise
     check_printable(lattice)

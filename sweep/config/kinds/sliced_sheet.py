@@ -109,8 +109,8 @@ class SlicedSheet(Surface):
     @classmethod
     def idle(cls, inputs: Inputs) -> dict[str, str]:
         """Sides of a block that would repeat."""
-        held = inputs.get("perimeters") and inputs.get("sides", "free") != "free"
-        return {"sides": HELD} if held else {}
+        clash = inputs.get("perimeters") and inputs.get("sides", "free") != "free"
+        return {"sides": HELD} if clash else {}
 
     def inputs(self) -> dict[str, Any]:
         """The values from which this follows: of a block all of its sides."""

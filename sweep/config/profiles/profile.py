@@ -115,8 +115,8 @@ def read_profile(path: Path, name: str) -> Profile:
         file, preset = path.with_name(before), after
     settings = read_settings(file, preset)
     names = ORCA if settings.program == "orca" else PRUSA
-    known = (*names[:2], *names.widths, *names[3:], NOZZLES)
-    if not settings.missing and not any(key in settings.values for key in known):
+    of_walls = (*names[:2], *names.widths, *names[3:], NOZZLES)
+    if not settings.missing and not any(key in settings.values for key in of_walls):
         raise MisfitError(f"states nothing about walls; needed: {NEEDED}")
     translation = _Translation(settings, names)
     values = translation.values()
@@ -139,7 +139,7 @@ class _Translation:
         spacing = self._spacing(nozzle or NOZZLE) if program == "superslicer" else None
         if spacing is not None:
             width = spacing + ROUNDED * (layer or LAYER_HEIGHT)
-        found = {
+        values = {
             "slicer": SLICERS[program],
             "pattern": self._said(names.pattern).lower() or None,
             "infill": _quantity(self._read(names.infill, _percentage), "%"),
@@ -150,7 +150,7 @@ class _Translation:
             "fill_angle": _quantity(self._read(names.angle, _number), "deg"),
             "fill_multiline": self._read(names.lines, _count),
         }
-        return {key: value for key, value in found.items() if value is not None}
+        return {key: value for key, value in values.items() if value is not None}
 
     @property
     def automatic(self) -> bool:
@@ -254,8 +254,8 @@ def _notes(name: str, values: Mapping[str, Any], translation: _Translation) -> I
         yield f"{name}: settings of single objects are not read, only those of the project"
     if missing:
         yield f'{name} inherits from "{missing}", which is not beside it: what that says is unknown'
-    asked = ("pattern", "infill", "perimeters", "line_width", "layer_height", "nozzle")
-    usual = [key for key in asked if key not in values]
+    keys = ("pattern", "infill", "perimeters", "line_width", "layer_height", "nozzle")
+    usual = [key for key in keys if key not in values]
     if usual:
         yield f"{name} does not say: {', '.join(usual)}"
     if translation.automatic:

@@ -61,8 +61,8 @@ def read_settings(path: Path, preset: str = "") -> Settings:
         name, text = _of_project(path)
         if preset:
             raise MisfitError(f'a project has no presets, such as "{preset}"; allowed: no #')
-        found = _of_json(text, None, ()) if INSIDE[name] == "json" else _of_ini(text, "")
-        return found._replace(project=True)
+        tables = _of_json(text, None, ()) if INSIDE[name] == "json" else _of_ini(text, "")
+        return tables._replace(project=True)
     text = foreign_text(path, NEEDED)
     if text.lstrip().startswith("{"):
         if preset:
@@ -91,8 +91,8 @@ def _of_project(path: Path) -> tuple[str, str]:
                 raise MisfitError(f"an archive of more than {MOST_ENTRIES:,} files")
             name = next((name for name in INSIDE if name in entries), None)
             if name is None:
-                found = "an archive without the settings of a slicer"
-                raise MisfitError(f"{found} ({' or '.join(INSIDE)}); needed: {NEEDED}")
+                wrong = "an archive without the settings of a slicer"
+                raise MisfitError(f"{wrong} ({' or '.join(INSIDE)}); needed: {NEEDED}")
             with archive.open(name) as file:
                 content = file.read(MOST_BYTES + 1)
     except MisfitError:
@@ -109,12 +109,13 @@ def _of_json(text: str, path: Path | None, children: tuple[str, ...]) -> Setting
     which has all of its settings.
     """
     try:
-        found = json.loads(text)
+        document = json.loads(text)
     except (ValueError, RecursionError):
         raise MisfitError(f"no JSON, although it begins with a brace; needed: {NEEDED}") from None
-    if not isinstance(found, dict):
-        raise MisfitError(f"no profile, but a {type(found).__name__}; needed: {NEEDED}")
-    own = {str(name): said for name, value in found.items() if (said := _text(value)) is not None}
+    if not isinstance(document, dict):
+        raise MisfitError(f"no profile, but a {type(document).__name__}; needed: {NEEDED}")
+    texts = {str(name): _text(value) for name, value in document.items()}
+    own = {name: text for name, text in texts.items() if text is not None}
     parent = own.get("inherits", "").strip()
     if path is None:
         return Settings("orca", own)

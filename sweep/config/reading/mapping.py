@@ -34,12 +34,12 @@ def document_of(mapping: Mapping[str, Any]) -> dict[str, Any]:
 
 def _add(document: dict[str, Any], table: str, values: dict[str, Any]) -> None:
     """Add keys to a table of a document."""
-    known = document.setdefault(table, {})
+    section = document.setdefault(table, {})
     for key, value in values.items():
-        if key in known:
+        if key in section:
             name = f"{table}.{key}"
             raise _fault(name, value, "set twice; allowed: in the table or by dots")
-        known[key] = value
+        section[key] = value
 
 
 def _plain(value: Any) -> Any:

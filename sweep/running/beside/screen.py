@@ -100,17 +100,17 @@ def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
     boxes = [lattice.outer_size[0] * lattice.outer_size[1] for lattice in (whole, cell)]
     mass = areas[0] / areas[1]
     density = mass * boxes[1] / boxes[0]
-    made = dict(row)
+    scaled = dict(row)
     for name, value in row.items():
         units = describe_column(name).units
         if units in EXTENSIVE:
-            made[name] = mass * value
+            scaled[name] = mass * value
         elif units in PER_AREA:
-            made[name] = density * value
+            scaled[name] = density * value
     filled = density * row["relative_density"]
-    made |= {"relative_density": filled, "solid_strain": 1.0 - filled}
+    scaled |= {"relative_density": filled, "solid_strain": 1.0 - filled}
     own = {"case_id": design.case_id, "model_version": row["model_version"]}
-    return made | design_columns(design) | design.axes | own
+    return scaled | design_columns(design) | design.axes | own
 
 
 def best_of(estimates: DataFrame, question: Question, count: int) -> list[str]:
