@@ -200,6 +200,7 @@ PUBLISHED_EXAMPLES = """examples:
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
 as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
 
+BRIEF = "tables and warnings alone"
 STORED = "results file; of a sweep also NAME or NAME.toml"
 AREA = "area to fill with specimens"
 THREADS = "threads (default: one per core, up to 8)"
@@ -308,6 +309,7 @@ def _add_run(verbs: Any) -> None:
         metavar="K/N",
         help="run the Kth of N parts, into a file of its own (crumple merge)",
     )
+    run.add_argument("--brief", action="store_true", help=BRIEF)
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
     run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
 
@@ -419,6 +421,7 @@ def _add_rank(verbs: Any) -> None:
     shape = rank.add_mutually_exclusive_group()
     for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
+    shape.add_argument("--brief", action="store_true", help=BRIEF)
     shape.add_argument(
         "--out", type=_folder, metavar="DIR", help="write tables and figures into a folder"
     )
@@ -479,6 +482,7 @@ def _add_report(verbs: Any) -> None:
     report.add_argument(
         "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
     )
+    report.add_argument("--open", action="store_true", help="open it in the browser")
 
 
 def _add_materials(verbs: Any) -> None:

@@ -68,7 +68,7 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
         config, estimates, failed = _screen(config, out, how, question, arguments.screen)
     failed += run_sweep(config, out, *how)
     failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
-    ranking = print_ranking(out, read_summary(out), question)
+    ranking = print_ranking(out, read_summary(out), question, arguments.brief)
     if estimates is not None:
         from sweep.report.tables.screen_sheets import screen_sheets
 

@@ -25,8 +25,13 @@ USUAL = 80  # columns of text; in wider tables, columns are closer
 WIDE = 10_000  # where no terminal limits the width
 
 
-def print_ranking(file: str, summary: DataFrame, question: Question) -> Ranking:
-    """Print the tables of a ranking, their legend, and the warnings; return it."""
+def print_ranking(
+    file: str, summary: DataFrame, question: Question, brief: bool = False
+) -> Ranking:
+    """Print the tables of a ranking, and the warnings; return it.
+
+    Their legend and the commands that follow are left out if it is to be ``brief``.
+    """
     from sweep.ranking.rank import answer
     from sweep.report.tables.legend import legend
     from sweep.report.tables.sheets import ranking_sheets
@@ -35,10 +40,10 @@ def print_ranking(file: str, summary: DataFrame, question: Question) -> Ranking:
     if ranking.failed < ranking.cases:
         say(_heading(question, ranking))
         print_sheets(ranking_sheets(ranking, summary))
-    if not ranking.table.empty:
+    if not ranking.table.empty and not brief:
         say(legend(ranking))
     say_all(warnings(file, ranking))
-    say_all(nearest_commands(file, ranking, summary))
+    say_all([] if brief else nearest_commands(file, ranking, summary))
     return ranking
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -142,7 +143,7 @@ def rank(arguments: Namespace) -> int:
             say(markdown(ranking_sheets(ranking, summary)), end="")
         _warn(arguments.file, ranking, summary)
     else:
-        print_ranking(arguments.file, summary, question)
+        print_ranking(arguments.file, summary, question, arguments.brief)
     return _exit_status(summary)
 
 
@@ -208,6 +209,8 @@ def report(arguments: Namespace) -> int:
     with writing(out.parent, out):
         page = write_page(arguments.file, summary, question, out)
     say(f"{page} ({text_in(page.stat().st_size, 'MB', 2)})")
+    if arguments.open and not webbrowser.open(page.resolve().as_uri()):
+        hint(["there is no browser to open it"])
     if failed := len(failed_cases(summary)):
         hint([f"{failed} of {len(summary)} cases failed: the page lists them"])
     return _exit_status(summary)

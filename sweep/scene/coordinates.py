@@ -75,7 +75,7 @@ class Numbering(BetweenPlatens):
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
 
 
-def held(numbering: Numbering, platen: str | None, base_moves: bool = False) -> Indices:
+def supports(numbering: Numbering, platen: str | None, base_moves: bool = False) -> Indices:
     """Coordinates that never move: those of clamped rows, and the lower platen.
 
     base_moves: the lower platen moves in y, and so does the row that is clamped to it.

@@ -12,7 +12,7 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, held, leaders
+from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, leaders, supports
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.terms import (
@@ -63,7 +63,7 @@ def build_scene(case: Case) -> Scene:
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
     base_moves = target_of(case.loading) is not None
-    fixed = np.union1d(held(numbering, platen, base_moves), anchor(mesh, numbering, case))
+    fixed = np.union1d(supports(numbering, platen, base_moves), anchor(mesh, numbering, case))
     if not bends(case):
         fixed = np.union1d(fixed, numbering.rotation)
     tied, below = follow_platens(numbering, platen, base_moves)

@@ -12,7 +12,7 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.scene.beams import bends
-from sweep.scene.coordinates import held, leaders
+from sweep.scene.coordinates import leaders, supports
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
 from sweep.scene.lattice import follow_platens, initial_velocity, load_of, reported, rest_of
 from sweep.scene.mesh import Ints, bow, row_nodes
@@ -72,7 +72,7 @@ def _numbering(period: Period) -> BesideEachOther:
 def _leaders(numbering: BesideEachOther, case: Case) -> Ints:
     """The coordinate that each one follows."""
     platen, base_moves = case.loading.platen or "none", target_of(case.loading) is not None
-    fixed = np.concatenate([held(numbering, platen, base_moves), numbering.unused])
+    fixed = np.concatenate([supports(numbering, platen, base_moves), numbering.unused])
     if not case.widens:
         fixed = np.append(fixed, numbering.width)
     if not bends(case):

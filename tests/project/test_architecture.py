@@ -378,3 +378,11 @@ def test_quantities_are_converted_for_people_in_one_place():
         if isinstance(side, ast.Constant) and side.value in FACTORS
     }
     assert not found, "use in_unit, to_si or text_in of sweep.numbers"
+
+
+def test_no_variable_is_a_participle():
+    """Of those that say nothing of a value: a name is a noun."""
+    for module in PROGRAM:
+        names = {n.id for n in ast.walk(tree(module)) if isinstance(n, ast.Name)}
+        names |= {n.arg for n in ast.walk(tree(module)) if isinstance(n, ast.arg)}
+        assert not names & {"found", "known", "told", "held", "made"}, module

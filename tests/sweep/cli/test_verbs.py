@@ -159,6 +159,25 @@ def test_config_of_a_file_that_cannot_be_read(capsys, tmp_path):
     assert err.startswith(f"crumple rank: {file} is damaged: ")
 
 
+def test_a_brief_ranking_is_tables_and_warnings(capsys, file):
+    _, whole, _ = crumple(capsys, "rank", file)
+    _, brief, _ = crumple(capsys, "rank", file, "--brief")
+    assert whole.startswith(brief.split("\n\n")[0])
+    assert "Pareto front" in whole
+    assert "Pareto front" not in brief
+    assert "2 of 5 cases failed" in brief
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_report_opens_the_page_in_the_browser(capsys, monkeypatch, file, tmp_path, there):
+    addresses = []
+    monkeypatch.setattr("webbrowser.open", lambda url: addresses.append(url) or there)
+    page = tmp_path / "my page.html"
+    _, _, err = crumple(capsys, "report", file, "--out", str(page), "--open")
+    assert addresses == [page.as_uri()]
+    assert ("no browser" in err) == (not there)
+
+
 def test_ranking_counts_failures_aloud(capsys, file):
     status, out, _ = crumple(capsys, "rank", file, "--by", "specific_absorption_J_per_g")
     assert status == 1
