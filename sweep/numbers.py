@@ -42,6 +42,7 @@ FACTORS = {name: factor for scales in SCALES.values() for factor, name in scales
     "g/cm3": 1e-3,
     "t/mm3": 1e-12,
     "MB": 1e-6,
+    "oz": 1.0 / 28.349523125e-3,
     "g0": 1.0 / STANDARD_GRAVITY,
 }
 """Value in a unit that people read / value in SI, by that unit."""
@@ -64,6 +65,13 @@ def to_si(values: Values, unit: str) -> Values:
 def text_in(value: float, unit: str, digits: int = 4) -> str:
     """A quantity in SI as text with its unit: (0.0123456, "mm") -> "12.35 mm"."""
     return f"{significant(in_unit(value, unit), digits)} {unit}"
+
+
+def budget_text(grams: float) -> str:
+    """A mass in g; in oz if that has at most two decimals, and g more: 42.52428 -> "1.5 oz"."""
+    ounces = in_unit(to_si(grams, "g"), "oz")
+    is_round = [abs(round(100 * mass) - 100 * mass) < 1e-6 for mass in (grams, ounces)]
+    return f"{ounces:g} oz" if is_round == [False, True] else f"{grams:.4g} g"
 
 
 def significant(value: float, digits: int = 4) -> str:

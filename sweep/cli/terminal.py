@@ -10,7 +10,7 @@ from subprocess import list2cmdline
 from textwrap import wrap
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from sweep.numbers import NOTHING, text_in
+from sweep.numbers import NOTHING, budget_text, in_unit, text_in
 from sweep.plain_text import plain
 
 if TYPE_CHECKING:
@@ -133,7 +133,9 @@ def _heading(question: Question, ranking: Ranking) -> str:
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if len(question.budgets) == 1:
-        lines.insert(0, f"At most {_written(question.budgets[0], 'g')}.")
+        budget = question.budgets[0]
+        text = budget if isinstance(budget, str) else budget_text(in_unit(budget, "g"))
+        lines.insert(0, f"At most {text}.")
     if panel := question.panel:
         sides = " x ".join(_written(side, "mm") for side in panel)
         whole = len(ranking.table) and is_period(ranking.table).all()

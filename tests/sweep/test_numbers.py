@@ -10,6 +10,7 @@ from sweep.numbers import (
     SCALES,
     at_least,
     at_most,
+    budget_text,
     in_unit,
     percent,
     short,
@@ -71,3 +72,17 @@ BOUNDS = [(1.25e-3, "0.00125", "0.00125"), (0.359277, "0.3592", "0.3593"), (51.4
 @pytest.mark.parametrize(("value", "most", "least"), BOUNDS)
 def test_bounds_are_rounded_to_the_side_on_which_they_hold(value, most, least):
     assert (at_most(value), at_least(value)) == (most, least)
+
+
+@pytest.mark.parametrize(
+    ("grams", "text"),
+    [
+        (25.0, "25 g"),
+        (42.5242847, "1.5 oz"),
+        (453.59237, "16 oz"),
+        (0.123456, "0.1235 g"),
+        (28.35, "28.35 g"),
+    ],
+)
+def test_a_budget_is_told_in_the_unit_in_which_it_is_round(grams, text):
+    assert budget_text(grams) == text

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sweep.modes import mode_of
-from sweep.numbers import in_unit
+from sweep.numbers import budget_text, in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
@@ -84,7 +84,7 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         ax.margins(y=0.15)
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.budgets_g:
-            mark(ax, budget, f"{budget:.4g} g")
+            mark(ax, budget, budget_text(budget))
         words = [_in_lines(line) for line in titled(ax.get_title("left"), ranking).split("\n")]
         for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")

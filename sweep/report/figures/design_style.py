@@ -18,7 +18,7 @@ from pandas import concat
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
 from sweep.modes import mode_of
-from sweep.numbers import energy_text, in_unit, tenths, text_in, three_digits
+from sweep.numbers import budget_text, energy_text, in_unit, tenths, text_in, three_digits
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.places import places_by
@@ -194,7 +194,11 @@ def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, 
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
     winners = [
-        (f"up to {budget:.4g} g", front[front[mass] <= limit].tail(1), rows[rows[mass] <= limit])
+        (
+            f"up to {budget_text(budget)}",
+            front[front[mass] <= limit].tail(1),
+            rows[rows[mass] <= limit],
+        )
         for budget in ranking.budgets_g
         for limit in [greatest_mass(budget)]
     ]

@@ -9,7 +9,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from sweep.modes import MODES, has, mode_of
-from sweep.numbers import energy_text, in_unit, numerals, tenths, three_digits
+from sweep.numbers import budget_text, energy_text, in_unit, numerals, tenths, three_digits
 from sweep.ranking.merit import doubtful, is_period
 from sweep.ranking.requirement_table import MEASURES
 
@@ -129,8 +129,8 @@ def _end(ranking: Ranking) -> str:
 
 
 def _within(*outcomes: Outcome) -> str:
-    budgets = ", ".join(f"{outcome.budget_g:g} g" for outcome in outcomes)
-    return "" if math.isnan(outcomes[0].budget_g) else f" up to {budgets}"
+    budgets = [outcome.budget_g for outcome in outcomes]
+    return "" if math.isnan(budgets[0]) else f" up to {', '.join(map(budget_text, budgets))}"
 
 
 def _counts(outcome: Outcome) -> str:

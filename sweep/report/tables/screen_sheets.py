@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isnan
 from typing import TYPE_CHECKING
 
-from sweep.numbers import NOTHING, three_digits
+from sweep.numbers import NOTHING, budget_text, three_digits
 from sweep.ranking.merit import merits
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -34,7 +34,7 @@ def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) 
     compared = merits(finished, usual)[0].set_index("case_id")
     for (_, scene), rows in table.groupby(["budget_g", "scene"], dropna=False, sort=False):
         column, budget = str(rows["ranked_by"].iloc[0]), rows["budget_g"].iloc[0]
-        within = f", up to {budget:g} g" if budget > 0.0 else ""
+        within = f", up to {budget_text(budget)}" if budget > 0.0 else ""
         full = compared[column] if column in compared else compared.index.to_series() * float("nan")
         both = rows.assign(full=rows["case_id"].map(full).astype(float))
         design = design_text(rows, estimates)

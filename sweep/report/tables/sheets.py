@@ -10,7 +10,7 @@ from pandas import Series
 
 from sweep.columns import end_columns
 from sweep.modes import compared, mode_of
-from sweep.numbers import in_unit, numerals, tenths
+from sweep.numbers import budget_text, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
@@ -128,7 +128,7 @@ def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> 
     """A sentence for each budget below the mass of the lightest design of a scene."""
     lightest = ranking.lightest_g.get(scene, 0.0)
     return tuple(
-        f"No design weighs {budget:g} g or less; the lightest weighs {lightest:.3g} g, "
+        f"No design weighs {budget_text(budget)} or less; the lightest weighs {lightest:.3g} g, "
         f"{named(ranking.lightest[scene])}."
         for budget in ranking.budgets_g
         if greatest_mass(budget) < lightest
@@ -167,7 +167,8 @@ def _not_shown(rows: DataFrame) -> Iterator[str]:
     groups = rows.groupby("budget_g", dropna=False, sort=False)["contenders"]
     total, shown = groups.max(), groups.size()
     more = [
-        f"{total[budget] - count} more" + (f" up to {budget:g} g" if len(total) > 1 else "")
+        f"{total[budget] - count} more"
+        + (f" up to {budget_text(budget)}" if len(total) > 1 else "")
         for budget, count in shown.items()
         if count < total[budget]
     ]

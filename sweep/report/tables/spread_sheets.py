@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from sweep.numbers import NOTHING, three_digits
+from sweep.numbers import NOTHING, budget_text, three_digits
 from sweep.ranking.spread import Spread, ends
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.sheet import Sheet
@@ -24,7 +24,7 @@ def spread_sheets(spreads: Iterable[Spread], summary: DataFrame) -> Iterator[She
     for spread in spreads:
         rows = spread.rows
         budget = rows["budget_g"].iloc[0]
-        within = f", up to {budget:g} g" if budget > 0.0 else ""
+        within = f", up to {budget_text(budget)}" if budget > 0.0 else ""
         design = _differing(rows, summary)
         texts = [list(text) for text in zip(*design.values(), strict=True)]
         labels = [", ".join(filter(None, text)) for text in texts]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pandas import concat
 
+from sweep.numbers import budget_text
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import WIDTH
 
@@ -53,7 +54,7 @@ def each_once(rows: DataFrame) -> DataFrame:
 
 def place_text(row: Series) -> str:
     """The place that a case has at least by what it had reached, or could have had."""
-    budget = f" up to {row['budget_g']:g} g" if row["budget_g"] > 0.0 else ""
+    budget = f" up to {budget_text(row['budget_g'])}" if row["budget_g"] > 0.0 else ""
     if np.isnan(row["least_place"]):
         return f"could have had place {row['best_place']}{budget}"
     better = " or better" if row["best_place"] < row["least_place"] else ""
