@@ -73,6 +73,7 @@ class Planar(NamedTuple):
     project = steps.project
     covers_projection = neighbour_lists.covers_projection
     write = base_pressure.write
+    write_share = rows.write_share
 
 
 @jit_owning

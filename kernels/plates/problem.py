@@ -82,6 +82,7 @@ class Plates(NamedTuple):
     project = steps.project
     covers_projection = neighbour_lists.covers_projection
     write = rows.write
+    write_share = rows.write_share
 
 
 @jit_owning

@@ -37,6 +37,8 @@ ROW = np.dtype(
             ("base_speed", np.float64),  # of the lower platen upwards, m/s
             ("patch_force", np.float64),  # greatest force on a patch of the base, N
             ("patch_at", np.float64),  # x of that force, m
+            ("least_height", np.float64),  # of the specimen since the row before, m
+            ("most_force", np.float64),  # of the lower reaction since the row before, N
         ],
     )
 )
@@ -77,19 +79,29 @@ def _enter(row, state):
 
 
 @jit_exact
+def write_share(problem, out, k, state, evaluation):
+    """Write height and lower reaction at the end of a share of row ``k``, and its extremes so far:
+    `Output.rows` begins with an infinite least height and no most force.
+    """
+    row, low, parts = out.rows[k], problem.scene.contact.low, state.gradients
+    row.height = height(state.x, out.top, out.base)
+    row.reaction_bottom = 0.0
+    for c in out.bottom:
+        row.reaction_bottom += evaluation.g[c]
+    if problem.scene.coordinates.mass[low] > 0.0:  # a base that moves: g has its inertia
+        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - evaluation.g[low]
+    row.least_height = min(row.least_height, row.height)
+    row.most_force = max(row.most_force, row.reaction_bottom)
+
+
+@jit_exact
 def write(problem, out, k, state, evaluation):
     """Write row ``k`` of the history, and its frame if one is asked for."""
     row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
     _enter(row, state)
     row.time, row.iterations = totals.time, totals.iterations
-    row.height = height(state.x, out.top, out.base)
-    row.reaction_bottom = 0.0
     low = problem.scene.contact.low
-    for c in out.bottom:
-        row.reaction_bottom += evaluation.g[c]
-    if problem.scene.coordinates.mass[low] > 0.0:  # a base that moves: g has its inertia
-        parts = state.gradients
-        row.reaction_bottom += parts.elastic[low] + parts.friction[low] - evaluation.g[low]
+    write_share(problem, out, k, state, evaluation)
     row.reaction_top = -totals.reaction
     if coordinates.driven < 0:
         row.reaction_top = -totals.factor * total(coordinates.load)

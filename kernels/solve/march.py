@@ -449,6 +449,8 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
             _next_share(ratio, tolerance.iterations, stage, descent, progress)
             if progress.done >= 1.0:
                 _end_row(problem, stage, state, out, control, workspace.evaluation, progress)
+            elif stage.dynamic:
+                problem.write_share(out, progress.row, state, workspace.evaluation)
             continue
         coarse = outcome == UNRESOLVED or outcome == UNBALANCED
         coarse = coarse and resolution.is_coarse(fitting, step, problem, load)

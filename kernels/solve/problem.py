@@ -209,6 +209,9 @@ class Problem(Protocol):
     def write(self, out, k, state, evaluation):
         """Write row ``k`` of the history, and its frame if one is asked for."""
 
+    def write_share(self, out, k, state, evaluation):
+        """Write what row ``k`` has of a share of it that is not its last."""
+
 
 class Scene(Protocol):
     """The constant data of a problem, with the verbs that assemble the problem."""

@@ -16,7 +16,7 @@ from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.solver import Arcs
+from sweep.config.kinds.solver import Arcs, InTime
 from sweep.numbers import percent, short, with_unit
 from sweep.result import Status
 from sweep.simulation.time_resolution import resolving_step
@@ -36,8 +36,7 @@ ADVICE = {
     outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
     outcomes.STALLED: "the minimisation stalled; try a looser solver.tolerance or smaller steps",
     outcomes.SINGULAR: "no stable equilibrium was found; check the supports{damped}",
-    outcomes.INACCURATE: "no step was short enough for solver.step_error; "
-    "try a larger one or {shorter}",
+    outcomes.INACCURATE: "no step was short enough for {asked}",
     outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
     outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
     "exceed round-off; try larger steps or loads",
@@ -47,6 +46,7 @@ APART = (
     "the minimisation stalled, as the load presses walls that nothing keeps apart; "
     'try contact.model "barrier" or a smaller load'
 )
+BALANCE = "its energy to balance; try a larger load, or another solver.integrator"
 LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
 
@@ -74,8 +74,12 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
         return APART
     if case.loading.quasi_static:
         limit <<= MOST_DOUBLINGS  # of the last attempt
+    error = isinstance(solver, InTime) and solver.step_error is not None
+    asked = f"solver.step_error; try a larger one or {shorter}" if error else BALANCE
     damped = "" if case.loading.quasi_static or case.shells else " or add damping"
-    return ADVICE[outcome].format(limit=limit, shorter=shorter, further=further, damped=damped)
+    return ADVICE[outcome].format(
+        limit=limit, shorter=shorter, further=further, damped=damped, asked=asked
+    )
 
 
 def _may_overlap(case: Case) -> bool:

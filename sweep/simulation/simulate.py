@@ -55,7 +55,7 @@ from sweep.simulation.failures import (
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.striker import closing_speed, rests, second_stop
-from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, summarise
+from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, peaks_of, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     LARGEST,
@@ -102,7 +102,8 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     scene = _scene(case)
     run = _Run(scene, case, stop)
     status, message = run.complete(seconds)
-    curves = history_columns(run.whole_rows(), case)
+    rows = run.whole_rows()
+    curves = history_columns(rows, case)
     if run.blind and isinstance(scene, Scene):
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
@@ -112,7 +113,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         if isinstance(scene, PlateScene)
         else strains_of(shapes, scene.terms)
     )
-    summary = summarise(case, scene, curves, frames, strains, run.cycles)
+    summary = summarise(case, scene, curves, frames, strains, run.cycles, peaks_of(case, rows))
     bears = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
@@ -248,6 +249,7 @@ class _Run:
         self.state = scene.at_rest()
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
+        self.rows["least_height"], self.rows["most_force"] = np.inf, -np.inf
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self.standing = scene.standing.copy()  # sorted in place
@@ -431,7 +433,7 @@ class _Run:
         """The rows so far, of the whole lattice where one of several equal parts is computed."""
         rows = self.rows[: self.done].copy()
         if isinstance(self.scene, PlateScene):
-            for name in (*BOOK.values(), "reaction_top", "reaction_bottom"):
+            for name in (*BOOK.values(), "reaction_top", "reaction_bottom", "most_force"):
                 rows[name] *= self.scene.mesh.copies
         if not self.scene.standing.size:
             rows["patch_force"] = rows["patch_at"] = np.nan

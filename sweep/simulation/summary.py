@@ -47,7 +47,7 @@ from sweep.simulation.striker import (
     striker_curves,
     work_on_lattice,
 )
-from sweep.simulation.time_resolution import integrator_share, path_error, peak_row
+from sweep.simulation.time_resolution import integrator_share, known_peak, path_error
 from sweep.simulation.until import absorbed_until
 
 BOOK = {
@@ -63,6 +63,7 @@ BOOK = {
     "energy_residual_J": "residual",
 }
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
+PEAKS = ("peak_force_at_densification_N", "peak_force_until_packed_N")
 TOUCHING = ("contact_J", "injected_by_projection_J")
 OF_A_CRUSH = (
     "plateau_stress_Pa",
@@ -127,19 +128,26 @@ def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
     return float((density[row] - density[begun]) / (strain[row] - strain[begun]))
 
 
-def summarise(
+def peaks_of(case: Case, rows: np.ndarray) -> tuple[float, float]:
+    """Greatest strain and lower reaction (N) of the rows and of all shares of them."""
+    travel = rows["height"][0] - rows["least_height"].min()
+    return float(travel / (case.height or np.nan)), float(rows["most_force"].max())
+
+
+def summarise(  # noqa: PLR0913  of one case each
     case: Case,
     scene: Scene | PlateScene,
     history: dict[str, Floats],
     frames: Frames,
     strains: tuple[Floats, ...],
     cycles: list[CycleRows],
+    peaks: tuple[float, float],
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
     strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; of
     plates, as of `plate_shapes.plate_strains`. cycles: rows at which each is loaded and unloaded;
-    energies and the curve of the loading are those of the first.
+    energies and the curve of the loading are those of the first. peaks: of `peaks_of`.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
@@ -149,7 +157,8 @@ def summarise(
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
     force = transmitted(case, history)
-    peak = peak_row(case.loading, force)
+    strain = max(peaks[0], float(history["strain"].max()))
+    peak = known_peak(case, force, peaks[1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
     return {
@@ -163,12 +172,12 @@ def summarise(
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
         "integrator_share": integrator_share(case.loading, history),
-        "path_error": path_error(case, history),
+        "path_error": path_error(case, history, strain),
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,
-        "peak_force_N": np.nan if peak is None else float(force[peak]),
-        "peak_strain": float(history["strain"].max()),
+        "peak_force_N": peak,
+        "peak_strain": strain,
         "solid_joint_share": scene.solid_joint_share if case.solver.joints == "solid" else np.nan,
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
@@ -176,6 +185,7 @@ def summarise(
         **striker_columns(case, scene, history),
         **base_columns(case, history),
         **crush_columns(case, loading),
+        **(dict.fromkeys(PEAKS, peak) if isinstance(case.loading, DeadLoad) else {}),
         **_shape_columns(case, scene, frames, strains, loading),
     }
 
@@ -252,8 +262,6 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
     if isinstance(case.loading, Crush):
         row, share, columns = packing_columns(case, loading)
     peak = np.maximum.accumulate(force)
-    if peak_row(case.loading, force) is None:
-        peak = np.full_like(force, np.nan)
     columns |= {
         "absorbed_energy_at_densification_J": float(work[row]),
         "absorbed_energy_until_packed_J": float(share @ work),

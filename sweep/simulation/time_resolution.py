@@ -22,7 +22,7 @@ of the lattice at the end, q^2 <= 2 m_l K_l.
 """
 
 from collections.abc import Mapping
-from math import nan, sqrt
+from math import inf, nan, sqrt
 
 import numpy as np
 
@@ -51,19 +51,29 @@ def integrator_share(loading: Loading, history: Curves) -> float:
     return float(np.abs(history["dissipated_integrator_J"]).max()) / work
 
 
-def path_error(case: Case, history: Curves) -> float:
+def path_error(case: Case, history: Curves, peak: float) -> float:
     """Greatest local error of the path of the top under a dead load until its greatest strain /
-    the length of that path; NaN of other loadings and in statics.
+    the length of that path; NaN of other loadings, in statics and without a motion.
+
+    peak: that strain. Infinite if the path has fewer rows than its derivative needs.
     """
     loading, solver, strain = case.loading, case.solver, history["strain"]
-    turn = int(strain.argmax())
-    if not isinstance(loading, DeadLoad) or not isinstance(solver, InTime) or turn == 0:
+    if not isinstance(loading, DeadLoad) or not isinstance(solver, InTime) or not peak > 0.0:
         return nan
     if solver.step_error is not None:  # steps are shorter than rows
-        return TYPICAL * solver.step_error / (float(strain[turn]) * case.height)
+        return TYPICAL * solver.step_error / (peak * case.height)
     order, constant = LOCAL[solver.integrator]
-    jumps = np.abs(np.diff(strain[: turn + 2], order + 1))
-    return constant * float(jumps.max(initial=0.0)) / float(strain[turn])
+    jumps = np.abs(np.diff(strain[: int(strain.argmax()) + 2], order + 1))
+    return constant * float(jumps.max()) / peak if len(jumps) else inf
+
+
+def known_peak(case: Case, force: Floats, most: float) -> float:
+    """The greatest of the forces (rows,) of a run and of its shares, of which it is ``most``, N;
+    NaN of what `peak_row` does not know in equal steps.
+    """
+    equal = isinstance(case.solver, InTime) and case.solver.step_error is None
+    unknown = equal and peak_row(case.loading, force) is None
+    return nan if unknown else max(most, float(force.max()))
 
 
 def peak_row(loading: Loading, force: Floats) -> int | None:

@@ -306,6 +306,11 @@ def covers_projection(problem, x):
 
 
 @jit_exact
+def write_share(problem, out, k, state, found):
+    """Nothing: a row has what it has at its end."""
+
+
+@jit_exact
 def write(problem, out, k, state, found):
     row, book, totals = out.rows[k], state.book[0], state.totals[0]
     row.time, row.work, row.kinetic = totals.time, book.work, book.kinetic
@@ -347,6 +352,7 @@ class Chain(NamedTuple):
     project = project
     covers_projection = covers_projection
     write = write
+    write_share = write_share
 
 
 @jit_owning
