@@ -34,7 +34,8 @@ rank: setup  ## rank the results of CONFIG again, running the sweep first if the
 	else $(PYTHON) -m sweep run "$(CONFIG)" --out "$(RESULTS)" || test $$? -eq 1; fi
 	@$(PYTHON) -m sweep rank "$(RESULTS)" --out "$(TABLES)"
 
-site: setup  ## build the documentation as a site that can be searched, into build/site/ (CONTRIBUTING.md)
+site: setup  ## build the documentation as a site that can be searched, into build/site/
+	@$(PYTHON) -c "import mkdocs, mkdocstrings" 2>/dev/null || uv pip install --quiet --python $(PYTHON) -e ".[docs]" 2>/dev/null || $(PYTHON) -m pip install --quiet -e ".[docs]"
 	@rm -rf build/pages && mkdir -p build/pages
 	@find CHANGELOG.md CONTRIBUTING.md GLOSSARY.md README.md configs docs kernels -name '*.md' -o -name '*.png' -o -name '*.ipynb' | tar cf - -T - | tar xf - -C build/pages
 	@$(PYTHON) -m mkdocs build --strict

@@ -16,7 +16,9 @@ from sweep.config.kinds.table import Inputs, Pairs, RefusedError
 
 Loading: TypeAlias = DeadLoad | Crush | Impact | OfFile
 KINDS: tuple[type[Loading], ...] = get_args(Loading)
-BY_MODE = KINDS[:-1]  # chosen by `loading.mode`, or by keys that only one has
+BY_MODE = tuple(
+    kind for kind in KINDS if kind is not OfFile
+)  # chosen by `loading.mode`, or by keys that only one has
 AnyLoading = Annotated[Loading, Field(discriminator="mode")]
 MODES = '"displacement" or "impact"'
 PLATENS_ALONG = '"glued", "clamped" or "contact"'

@@ -1,26 +1,41 @@
 // The question of the page as the part of its address behind "#", so that a link keeps it.
 
 const NONE = "none";
-const positive = (value) => (value > 0 && Number.isFinite(value) ? value : null);
 
-function linkOf({ scene, budget, panel, force, per, require }) {
-  const words = { scene, budget: budget ?? NONE, panel: panel?.join("x") ?? NONE, force: force ?? NONE, per };
-  return Object.entries({ ...words, ...require }).map(([name, value]) => `${name}=${value}`).join("&");
+function linkOf({ scene, budget, panel, force, per, require }, unit, data) {
+  const words = { scene: data.scenes[scene].label, budget: budget ?? NONE, unit, panel: panel?.join("x") ?? NONE, force: force ?? NONE, per };
+  return Object.entries({ ...words, ...require }).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 }
 
-// The question of a link, without what it cannot mean; null if there is none.
-function questionOf(link, data) {
-  const words = new Map(link.split("&").map((word) => word.split("=", 2)));
-  const scene = Number(words.get("scene") ?? NaN);
-  if (data.scenes[scene] === undefined) return null;
-  const sides = (words.get("panel") ?? "").split("x").map((side) => positive(Number(side)));
-  const limits = Object.keys(data.measures).map((name) => [name, positive(Number(words.get(name)))]);
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text; // a lone per cent sign
+  }
+}
+
+// The question of a link, and the unit of its budget. What the link does not say, or what cannot be,
+// is as in `usual`; null if it names no scene of the page.
+function questionOf(link, data, usual) {
+  const words = new Map(link.split("&").map((word) => word.split("=", 2).map(decoded)));
+  const scene = data.scenes.findIndex(({ label }) => label === words.get("scene"));
+  if (scene < 0) return null;
+  const number = (text) => (/^[\d.]+(e[-+]?\d+)?$/.test(text ?? "") && Number(text) > 0 && Number(text) < Infinity ? Number(text) : null);
+  const sides = (text) => {
+    const both = (text ?? "").split("x").map(number);
+    return both.length === 2 && both.every((side) => side !== null) ? both : null;
+  };
+  const said = (name, read) => (words.get(name) === NONE ? null : (read(words.get(name)) ?? usual[name]));
+  const limits = Object.keys(data.measures).map((name) => [name, number(words.get(name))]);
+  const isWhole = ["panel", "specimen"].includes(words.get("per")); // it says what is required
   return {
     scene,
-    budget: positive(Number(words.get("budget"))), // in g
-    panel: sides.length === 2 && sides.every((side) => side !== null) ? sides : null, // m
-    force: positive(Number(words.get("force"))), // N
-    per: words.get("per") === "panel" ? "panel" : "specimen",
-    require: Object.fromEntries(limits.filter(([, limit]) => limit !== null)),
+    budget: said("budget", number), // g
+    unit: words.get("unit"),
+    panel: said("panel", sides), // m
+    force: said("force", number), // N
+    per: isWhole ? words.get("per") : usual.per,
+    require: isWhole ? Object.fromEntries(limits.filter(([, limit]) => limit !== null)) : usual.require,
   };
 }

@@ -338,7 +338,7 @@ function showAnswer() {
 
 function* words(best) {
   const panel = best.panel
-    ? `A panel of ${panelText(best)} mm${isPeriod(best.design) ? "" : `, ${best.panel.specimens} specimens,`} weighs ${inUnit(best.mass)}`
+    ? `A panel of ${panelText(best)} mm${isPeriod(best.design) ? "" : `, ${best.panel.specimens} specimen${best.panel.specimens > 1 ? "s" : ""},`} weighs ${inUnit(best.mass)}`
     : `It weighs ${inUnit(best.mass)}`;
   const absorbs = () => `absorbs ${best.early ? "at least " : ""}${energyText(best.energy)}`;
   if (scene().least) yield `${panel}.`;
@@ -853,15 +853,22 @@ function partColor(name) {
 function keepLink() {
   clearTimeout(linking);
   linking = setTimeout(() => {
-    const link = `#${linkOf(asked)}`;
+    const link = `#${linkOf(asked, $("unit").value, data)}`;
     if (location.hash !== link) history.replaceState(null, "", link);
   }, LINKED);
 }
 
 function follow() {
-  const question = questionOf(location.hash.slice(1), data);
-  if (question) Object.assign(asked, question);
+  const { unit, ...question } = questionOf(location.hash.slice(1), data, asked) ?? {};
+  Object.assign(asked, question);
+  if ([...$("unit").options].some((option) => option.value === unit)) $("unit").value = unit;
   $("scene").value = asked.scene;
+}
+
+// A new scene has designs, curves and columns of its own.
+function enter() {
+  Object.assign(view, { chosen: null, current: null, sort: null });
+  refresh();
 }
 
 function refresh() {
@@ -889,13 +896,12 @@ function start() {
   $("scenes").hidden = data.scenes.length < 2;
   $("scene").addEventListener("change", () => {
     asked.scene = Number($("scene").value);
-    Object.assign(view, { chosen: null, current: null, sort: null });
-    refresh();
+    enter();
   });
   follow();
   window.addEventListener("hashchange", () => {
     follow();
-    refresh();
+    enter();
   });
   $("unit").addEventListener("change", refresh);
   $("panel-on").addEventListener("change", () => {

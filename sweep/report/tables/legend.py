@@ -96,7 +96,7 @@ all others."""
 COARSE = """\
 i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact
 (integrator_share), or erred by more than 0.5 % of the path of a dead load in one step (path_error).
-Forces and strains are uncertain, by 2 to 8 % or more. Shorter steps err less (solver.step_error, or
+Forces and strains may err by several percent. Shorter steps err less (solver.step_error, or
 time_step)."""
 
 
