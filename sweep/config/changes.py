@@ -19,7 +19,7 @@ def merged(tables: Mapping[str, Table], changes: Mapping[str, Inputs]) -> dict[s
     for name, change in changes.items():
         for key, value in change.items():
             if value is not None:
-                _drop(values[name], tables[name].replaced(key))
+                _drop(values[name], tables[name].overridden_by(key))
         values[name] |= change
     if _resized(changes):
         for name in ("lattice", "loading"):

@@ -128,7 +128,7 @@ def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
 
     Where no unit fits, those whose words do and whose unit is none of anything that is measured.
     """
-    moving = [k for k, values in enumerate(table.values.T) if np.ptp(_known(values)) > 0.0]
+    moving = [k for k, values in enumerate(table.values.T) if np.ptp(_finite_or_zero(values)) > 0.0]
     units = {k: given or table.units[k] for k in moving}
     columns = [k for k in moving if _may_be(table.heads[k], units[k], quantity)]
     if not columns:
@@ -138,7 +138,8 @@ def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
     return own if len(own) == 1 else columns
 
 
-def _known(values: Floats) -> Floats:
+def _finite_or_zero(values: Floats) -> Floats:
+    """The finite values, or one zero if there are none."""
     finite = values[np.isfinite(values)]
     return finite if finite.size else np.zeros(1)
 

@@ -44,7 +44,7 @@ class Loading:
         stress = self.sign * coupon.stress[self.rows]
         self.points = _sure_points(reached, stress)
         self.fitting = np.linalg.pinv(_hats(reached, self.points))
-        self.record = _rising(self.fitting @ stress)
+        self.record = _monotonic_stress(self.fitting @ stress)
         self.modulus_error = _modulus_error(reached, stress)
         first = np.maximum.accumulate(self.sign * coupon.strain[: rows[1] + 1])
         self.reference_time = float(np.interp(MIDDLE, first, coupon.time[: rows[1] + 1]))
@@ -55,8 +55,8 @@ class Loading:
         """
         at_points, stress = self.record, self.replay(self.record, memory)
         for _ in range(ROUNDS):
-            model = _rising(self.fitting @ (self.sign * stress[self.rows]))
-            at_points = _rising(at_points * self.record / model)
+            model = _monotonic_stress(self.fitting @ (self.sign * stress[self.rows]))
+            at_points = _monotonic_stress(at_points * self.record / model)
             stress = self.replay(at_points, memory)
         return at_points, stress
 
@@ -114,7 +114,7 @@ def tension_by_rules(strain: Floats, stress: Floats, cauchy: float = UPPER_WEIGH
     ``cauchy`` of Cauchy stress odd in log strain. It gives back a tension from its compression to
     5 % up to 10 % strain, to 20 % up to 30 %.
     """
-    return _rising((1.0 - cauchy) * stress + cauchy * cauchy_odd(strain, stress))
+    return _monotonic_stress((1.0 - cauchy) * stress + cauchy * cauchy_odd(strain, stress))
 
 
 def with_tension(
@@ -179,8 +179,8 @@ def _hats(strain: Floats, points: Floats) -> Floats:
     return np.column_stack([np.interp(strain, knots, row) for row in np.eye(knots.size)[1:]])
 
 
-def _rising(stress: Floats) -> Floats:
-    """Stresses that rise from point to point."""
+def _monotonic_stress(stress: Floats) -> Floats:
+    """Stresses (k,), Pa, each raised to at least (1 + RISE) times the one before."""
     values = np.array(stress)
     values[0] = max(values[0], RISE * values[-1])
     for k in range(1, values.size):

@@ -55,7 +55,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         tried.append(words)
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
-    return _told(case, best, tried, spent)
+    return _final_result(case, best, tried, spent)
 
 
 def _is_coarse(case: Case) -> bool:
@@ -90,8 +90,8 @@ def _reach(result: Result) -> tuple[bool, bool]:
     return ended, result.summary["loaded"] == 1
 
 
-def _told(case: Case, best: Result, tried: list[str], spent: float) -> Result:
-    """The result as that of ``case``, with all processor time (s).
+def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> Result:
+    """The best result under the id of ``case``, with the processor time of all attempts (s).
 
     Its message says what was tried without success, in place of advice to try that.
     """

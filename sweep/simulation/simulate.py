@@ -58,8 +58,8 @@ from sweep.simulation.striker import closing_speed, rests, second_stop
 from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, peaks_of, summarise
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
-    LARGEST,
-    LONG,
+    MOST_LOST,
+    OF_STRIKER,
     Curves,
     momentum_share,
     striker_share,
@@ -146,7 +146,7 @@ def _of_impact(
         return Status.CONVERGED, ""
     if _removes_energy(case, summary, curves):
         return energy_unresolved(case, summary["integrator_share"])
-    if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > LARGEST:
+    if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > MOST_LOST:
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
@@ -176,7 +176,7 @@ def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> b
     """Whether the integrator takes so much energy of an impact that steps do not resolve it."""
     if not isinstance(case.loading, Impact):
         return False
-    return bool(summary["integrator_share"] > LARGEST and striker_share(curves) > LONG)
+    return bool(summary["integrator_share"] > MOST_LOST and striker_share(curves) > OF_STRIKER)
 
 
 def _scene(case: Case) -> Scene | PlateScene:

@@ -35,12 +35,12 @@ from sweep.scene.mesh import Floats
 from sweep.simulation.striker import closing_speed, kinetic
 
 Curves = Mapping[str, Floats]
-LARGEST = 0.2  # share of energy or momentum that an impact may lose to its steps
-LONG = 0.05  # share of the energy that steps of a striker may lose by backward Euler
+MOST_LOST = 0.2  # share of energy or momentum that an impact may lose to its steps
+OF_STRIKER = 0.05  # share of its energy that a striker may lose to steps of backward Euler
 LOCAL = {"backward_euler": (1, 1 / 2), "newmark": (2, 1 / 12), "bdf2": (2, 2 / 9)}
 """Order p and constant C of the local error of each integrator."""
-TYPICAL = 0.1  # of `step_error`: steps are lengthened where their error is smaller
-BESIDE = 0.9  # of a peak that is resolved: the greater force of the rows before and after it
+LOCAL_OF_STEP_ERROR = 0.1  # of `step_error`: steps are lengthened where their error is smaller
+RESOLVED = 0.9  # of a peak that is resolved: the greater force of the rows before and after it
 
 
 def integrator_share(loading: Loading, history: Curves) -> float:
@@ -61,7 +61,7 @@ def path_error(case: Case, history: Curves, peak: float) -> float:
     if not isinstance(loading, DeadLoad) or not isinstance(solver, InTime) or not peak > 0.0:
         return nan
     if solver.step_error is not None:  # steps are shorter than rows
-        return TYPICAL * solver.step_error / (peak * case.height)
+        return LOCAL_OF_STEP_ERROR * solver.step_error / (peak * case.height)
     order, constant = LOCAL[solver.integrator]
     jumps = np.abs(np.diff(strain[: int(strain.argmax()) + 2], order + 1))
     return constant * float(jumps.max()) / peak if len(jumps) else inf
@@ -82,7 +82,7 @@ def peak_row(loading: Loading, force: Floats) -> int | None:
     """
     row = int(force.argmax())
     beside = np.append(force[max(row - 1, 0) : row], force[row + 1 : row + 2])
-    alone = isinstance(loading, DeadLoad) and beside.max(initial=0.0) < BESIDE * force[row]
+    alone = isinstance(loading, DeadLoad) and beside.max(initial=0.0) < RESOLVED * force[row]
     return None if alone else row
 
 

@@ -61,7 +61,7 @@ def new_part(path: Path, first: int, last: int) -> Part:
 def list_parts(path: Path) -> list[Part]:
     """Parts of a results file in order, without parts that a merged one covers."""
     parts: list[Part] = []
-    for part in sorted(_found(path), key=lambda part: (part.first, -part.last)):
+    for part in sorted(_list_all(path), key=lambda part: (part.first, -part.last)):
         if not parts or part.last > parts[-1].last:
             parts.append(part)
     return parts
@@ -150,7 +150,7 @@ def clear_leftovers(path: Path, folded: int) -> None:
     for temporary in parts_folder(path).glob("*.h5" + _TEMPORARY):
         if _NAME.fullmatch(temporary.name.removesuffix(_TEMPORARY)):
             temporary.unlink()
-    discard([part for part in _found(path) if part not in needed])
+    discard([part for part in _list_all(path) if part not in needed])
 
 
 def remove_folder(path: Path) -> None:
@@ -160,7 +160,8 @@ def remove_folder(path: Path) -> None:
         folder.rmdir()
 
 
-def _found(path: Path) -> list[Part]:
+def _list_all(path: Path) -> list[Part]:
+    """The parts beside a results file, in any order; a link in place of one is refused."""
     folder = parts_folder(path)
     _refuse_link(folder)
     names = os.listdir(folder) if folder.is_dir() else []

@@ -49,7 +49,10 @@ def _bins(places, grid):
 
 @jit_owning
 def _without_images(bins, is_image):
-    """Return the bins without what ``is_image`` (n,)."""
+    """Return bins, (start (c + 1,), order (m,)), without the points that are images.
+
+    is_image (n,): by point.
+    """
     start, order = bins
     first, kept, n = np.empty(start.size, np.int64), np.empty(order.size, np.int64), 0
     for c in range(start.size - 1):

@@ -319,7 +319,7 @@ def _share_for(lattice: Sliced, mass: float, per_area: float) -> float:
 
 
 def _checked_pattern(inputs: Inputs) -> str:
-    """The pattern, by its name in `PATTERNS`; refused is what is no prism of the slicer."""
+    """The pattern, by its name in `PATTERNS`; patterns that are no prisms are refused."""
     if inputs["slicer"] not in SLICERS:
         raise RefusedError("lattice.slicer", inputs["slicer"], ", ".join(SLICERS))
     patterns, pattern = SLICERS[inputs["slicer"]], inputs.get("pattern")

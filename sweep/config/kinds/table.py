@@ -82,9 +82,9 @@ class Table(BaseModel):
     because: ClassVar[str] = ""
 
     @classmethod
-    def replaced(cls, key: str) -> set[str]:
-        """The keys whose values a new one of a key takes away: that set it, that it sets, or of
-        which both set one.
+    def overridden_by(cls, key: str) -> set[str]:
+        """Keys that a new value of ``key`` overrides: those that it sets, those that set it, and
+        those that set one of the same.
         """
         own = {key, *cls.sets.get(key, ())}
         causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}

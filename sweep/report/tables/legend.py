@@ -222,5 +222,5 @@ def other_bow(rows: DataFrame) -> Series:
 
 
 def unprintable(rows: DataFrame) -> Series:
-    """What of each design does not print, in words."""
+    """Why each design cannot be printed as drawn, in words; "" if it can."""
     return rows["does_not_print"]

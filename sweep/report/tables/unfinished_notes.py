@@ -53,7 +53,7 @@ def each_once(rows: DataFrame) -> DataFrame:
 
 
 def place_text(row: Series) -> str:
-    """The place that a case has at least by what it had reached, or could have had."""
+    """The least or the best possible place of a stopped case, by what it had reached, in words."""
     budget = f" up to {budget_text(row['budget_g'])}" if row["budget_g"] > 0.0 else ""
     if np.isnan(row["least_place"]):
         return f"could have had place {row['best_place']}{budget}"
