@@ -1,11 +1,11 @@
 """Load and time stepping: steps through a stage with adaptive shares, and keeps the energy book.
 
-A stage is divided into equal rows, and a step is a share of a row. Where a step fails or is
-inaccurate, its share is halved, and doubled again where it is easy. Static steps of a stated
-accuracy (`load_step_error`) grow beyond one row: the rows in between are left out of the history. A
-large lattice that snaps takes many iterations in however short a static step: each failure of a
-share doubles the iterations that the next one may take. The same holds for a step of backward
-Euler in which the load alone would move the structure by more than its size: inertia hardly counts.
+A stage is divided into equal rows, and a step is a share of a row (`step_size`). Static steps of a
+stated accuracy (`load_step_error`) grow beyond one row: the rows in between are left out of the
+history. A large lattice that snaps takes many iterations in however short a static step: each
+failure of a share doubles the iterations that the next one may take. The same holds for a step of
+backward Euler in which the load alone would move the structure by more than its size: inertia
+hardly counts.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ import numpy as np
 from kernels.arrays import add, copy, zero
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.compile.reference import by_reference
-from kernels.solve import energy_book, integrators, load_step_error, resolution
+from kernels.solve import energy_book, integrators, load_step_error, resolution, step_size
 from kernels.solve.energy_book import (
     energy_gain,
     enter_step,
@@ -41,16 +41,12 @@ from kernels.solve.residual import patient
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
-DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
 MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than `Stage.fall`
 MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: one
 # that takes more goes on in very short shares, and may snap into another shape than longer steps
-LONGEST = 4  # rows that a static step may span
 SHORTEST = 0.125  # of a row: first step where steps may span rows, as it has no friction yet
 REJECTED_ERROR = 4.0  # of the allowed error: a step that spans rows is accepted below it
-SPANNING_ERROR = 0.2  # the same as `DOUBLING_ERROR`, of shares of a row and more
-MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 LARGEST_ERROR = 5e-2  # the same of the trapezoidal rule of other steps, whose loss has either sign
 UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
@@ -293,17 +289,6 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
 
 
 @jit_exact
-def _spanning(share, ratio):
-    """Return a share that spans rows, halved until its error, quadratic in it, is admissible.
-
-    ratio: of its error to the allowed one.
-    """
-    while share > 1.0 and ratio > 1.0:
-        share, ratio = 0.5 * share, 0.25 * ratio
-    return share
-
-
-@jit_exact
 def _reject(outcome, ratio, problem, step, state, workspace, descent, progress):
     """Reject a share: restore the state at its start, and shorten it.
 
@@ -315,12 +300,7 @@ def _reject(outcome, ratio, problem, step, state, workspace, descent, progress):
     progress.corrections, descent.since_factor = NOT_STARTED, np.inf
     if outcome != UNRESOLVED:
         progress.cause = outcome
-    if outcome != INACCURATE:
-        progress.failed += 1
-        progress.patience = min(2 * progress.patience + 1, MOST_PATIENCE)
-        progress.wait = progress.patience
-    shorter = progress.share * 0.5 ** max(progress.failed, 1)  # faster by repeated failures
-    progress.share = min(shorter, _spanning(progress.share, ratio))
+    step_size.shorten(ratio, outcome == INACCURATE, progress)
 
 
 @jit_exact
@@ -353,42 +333,14 @@ def _accept(problem, stage, step, state, workspace, load, descent, progress):
 
 
 @jit_exact
-def _fits(stage, progress, share):
-    """Return whether a share is one of a row, or may span rows and ends before the stage does.
-
-    Shares start at multiples of their own length, so that those of a row end with it.
-    """
-    at = progress.row + progress.done
-    if at % share != 0.0:
-        return False
-    return share <= 1.0 or (
-        stage.accuracy < np.inf and share <= LONGEST and at + share <= stage.steps
-    )
-
-
-@jit_exact
 def _next_share(ratio, iterations, stage, descent, progress):
-    """Complete a share; double the next one if this one was easy and the double fits.
-
-    A failed attempt costs more than a double share saves: after every failure more shares have to
-    be accepted before a double one is tried.
-    """
-    most = DOUBLING_ERROR if stage.dynamic else SPANNING_ERROR
-    easy = progress.share_iterations <= iterations and ratio < most
-    progress.done, progress.failed = progress.done + progress.share, 0
+    """Complete a share, and choose the next one as `step_size.adapt`."""
     progress.corrections = NOT_STARTED
     if progress.share < 1.0:
         descent.since_factor = np.inf
     else:
         progress.cause = CONVERGED
-    if progress.wait > 0:
-        progress.wait -= 1
-    elif easy and _fits(stage, progress, 2.0 * progress.share):
-        progress.share *= 2.0
-        progress.patience //= 2
-    progress.share = _spanning(progress.share, ratio)
-    while not _fits(stage, progress, progress.share):
-        progress.share *= 0.5
+    step_size.adapt(ratio, iterations, stage, progress)
 
 
 @jit_exact

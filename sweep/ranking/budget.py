@@ -1,4 +1,4 @@
-"""The budget of a ranking: which mass it limits, and with which tolerance.
+"""The budget of a ranking: which mass it limits, with which tolerance, and what is within it.
 
 Designs are often made for a budget, from a wall thickness that gives just this mass. Round-off
 must not exclude them.
@@ -17,6 +17,11 @@ ROUND_OFF = 1e-9  # relative; `merit` and `requirements` allow it for other limi
 def greatest_mass(budget: float) -> float:
     """The greatest mass within a budget: the budget, with a tolerance for round-off."""
     return budget * (1.0 + ROUND_OFF)
+
+
+def within_budget(masses: Series, budget_g: float) -> Series:
+    """Which of the masses (g) are within a budget."""
+    return masses <= greatest_mass(budget_g)
 
 
 def counted_mass(finished: DataFrame) -> tuple[str, Series]:

@@ -20,7 +20,7 @@ from pandas import DataFrame
 from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
 from sweep.modes import compared
 from sweep.numbers import in_unit
-from sweep.ranking.budget import greatest_mass
+from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
@@ -268,7 +268,7 @@ def _places(
     rows = rows.dropna(subset=by)
     rows = rows.assign(doubtful=doubtful(rows)).sort_values(order, ascending=upwards)
     rows = rows.drop(columns="doubtful")
-    return [_within(rows[rows[mass] <= greatest_mass(g)], by, g, top) for g in budgets_g]
+    return [_within(rows[within_budget(rows[mass], g)], by, g, top) for g in budgets_g]
 
 
 def _within(rows: DataFrame, by: str, budget_g: float, top: int | None) -> DataFrame:

@@ -23,7 +23,7 @@ from pandas import DataFrame
 
 from sweep.modes import MODES, has, mode_of
 from sweep.numbers import to_si
-from sweep.ranking.budget import ROUND_OFF, greatest_mass
+from sweep.ranking.budget import ROUND_OFF, within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import RankError, in_si
 from sweep.ranking.requirement_table import MEASURES
@@ -133,7 +133,7 @@ class Judged(NamedTuple):
 
     def within(self, budget_g: float) -> Judged:
         """The same of the rows within a budget."""
-        kept = self.rows[self.mass] <= greatest_mass(budget_g)
+        kept = within_budget(self.rows[self.mass], budget_g)
         parts = {
             name: getattr(self, name)[kept] for name in ("rows", "measures", "shares", "fulfil")
         }

@@ -24,7 +24,7 @@ from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
 from sweep.modes import has
-from sweep.ranking.budget import greatest_mass
+from sweep.ranking.budget import within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si
 from sweep.ranking.requirement_table import MEASURES
@@ -111,9 +111,9 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     candidates, mass = ranked.dropna(subset=by), stopped[names.mass]
     parts = []
     for budget_g in budgets_g:
-        placed = candidates[candidates[names.mass] <= greatest_mass(budget_g)]
+        placed = candidates[within_budget(candidates[names.mass], budget_g)]
         best, least = (_place(end, doubt, placed, by) for end in (better, worse))
-        fits = (mass <= greatest_mass(budget_g)) | mass.isna()
+        fits = within_budget(mass, budget_g) | mass.isna()
         first = {
             "budget_g": budget_g if np.isfinite(budget_g) else np.nan,
             "best_place": best,

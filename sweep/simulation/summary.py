@@ -21,8 +21,7 @@ from sweep.scene.terms import Scene
 from sweep.simulation.base import base_columns, patch_width
 from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles
-from sweep.simulation.iso_13314 import figures
-from sweep.simulation.packing import (
+from sweep.simulation.densification import (
     efficiency,
     last_row,
     near_maxima,
@@ -30,6 +29,7 @@ from sweep.simulation.packing import (
     span,
     weights,
 )
+from sweep.simulation.iso_13314 import figures
 from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,

@@ -243,5 +243,7 @@ def go_on(case, scene, state, stage, control=RUN, **tolerance):
 
 def floating(case):
     """The scene of a case without its supports: only the platens are held."""
-    with patch("sweep.scene.lattice.held", lambda layout, *_: np.array([layout.low, layout.high])):
+    with patch(
+        "sweep.scene.lattice.supports", lambda layout, *_: np.array([layout.low, layout.high])
+    ):
         return build_scene(case)

@@ -5,7 +5,7 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
-from sweep.simulation.packing import efficiency
+from sweep.simulation.densification import efficiency
 from sweep.simulation.summary import (
     OF_A_CRUSH,
     crush_columns,
@@ -117,7 +117,7 @@ def test_the_plateau_of_the_standard_is_between_fixed_strains():
 
 
 def test_mean_over_greatest_force_until_packed_and_in_the_whole_loading():
-    """10 N up to 50 %, packed at 47 % after 42.3 mJ (test_packing); in all 45 + 30 mJ, 50 N, 6 mm.
+    """10 N up to 50 %, packed at 47 % after 42.3 mJ (test_densification); 45 + 30 mJ, 50 N, 6 mm.
 
     Ideality and cushion factor are those of Miltz & Gruenbaum: their product is 1 / strain.
     """

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.simulation.packing import BAND, efficiency, near_maxima, packed_row, span, weights
+from sweep.simulation.densification import BAND, efficiency, near_maxima, packed_row, span, weights
 from sweep.simulation.summary import crush_columns
 
 HEIGHT, AREA = 10e-3, 1e-4
