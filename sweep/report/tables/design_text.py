@@ -52,7 +52,8 @@ def named_case(row: DataFrame, among: DataFrame) -> str:
 
 def short_id(case_id: str, among: Iterable[str]) -> str:
     """The shortest beginning of an id, of at least `ID` letters, that no other id has."""
-    others = [other for other in among if other[:ID] == case_id[:ID] and other != case_id]
+    start = case_id[:ID]
+    others = [other for other in among if other.startswith(start) and other != case_id]
     lengths = range(ID, len(case_id))
     alone = (n for n in lengths if not any(other.startswith(case_id[:n]) for other in others))
     return case_id[: next(alone, len(case_id))]
