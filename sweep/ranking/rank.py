@@ -222,7 +222,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             label: rows[names.mass].min() for label, rows in scene_rows.items() if len(rows)
         },
         lightest={
-            label: widened(rows.sort_values([names.mass, "case_id"]).iloc[:1], summary)
+            label: widened(_lightest(rows, names.mass), summary)
             for label, rows in scene_rows.items()
             if len(rows)
         },
@@ -236,6 +236,12 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             if required
         },
     )
+
+
+def _lightest(rows: DataFrame, mass: str) -> DataFrame:
+    """The row of the lightest design, of equal ones the first by its id."""
+    some = rows[~(rows[mass] > rows[mass].min())]
+    return some.sort_values([mass, "case_id"]).iloc[:1]
 
 
 def _lost(whole: DataFrame) -> DataFrame:
