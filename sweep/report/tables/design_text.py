@@ -46,7 +46,7 @@ NEUTRAL = {"grading": "1", "perimeters": "0"}
 
 def named_case(row: DataFrame, among: DataFrame) -> str:
     """The beginning of the id and the design of one row, in words."""
-    short_of = short_id(row["case_id"].item(), among["case_id"])
+    short_of = short_id(row["case_id"].item(), among["case_id"].to_numpy(object))
     return f"case {short_of}, {design_labels(row, among)[0]}"
 
 
