@@ -271,7 +271,7 @@ def _headed(table: Fitted) -> Table:
 
 
 def _lines(table: Fitted) -> Iterator[str]:
-    """The rows of a table as rich prints them, which takes 0.25 ms for each."""
+    """The rows of a table as rich would print them, in 0.25 ms each."""
     texts = zip(*map(_aligned, table.sheet.columns, table.widths), strict=True)
     for i, row in enumerate(texts):
         if i in table.sheet.opens and i:

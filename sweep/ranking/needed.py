@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pandas import concat
+
 from sweep.columns import ABSORBED_AT, COLUMNS, CORRECTION, ENDS, ERROR
 from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED
 from sweep.ranking.question import RankError
@@ -62,6 +64,8 @@ def _about(name: str) -> str:
 def widened(rows: DataFrame, summary: DataFrame, first: Collection[str] = ()) -> DataFrame:
     """Rows of `needed_columns` with all columns of the summary, which come before those added."""
     others = [name for name in summary if name not in rows]
-    whole = rows.join(summary.loc[rows.index, others])
+    more = summary.loc[rows.index, others]
+    parts = [part.reset_index(drop=True) for part in (rows, more)]  # a row may be there twice
+    whole = concat(parts, axis=1).set_axis(rows.index)
     leading = [name for name in first if name in whole]
     return whole[[*dict.fromkeys([*leading, *summary, *rows])]]

@@ -192,19 +192,18 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         for label, rows in scene_rows.items()
     ]
     parts = [
-        widened(part, summary, LEADING)
-        for rows, order in scenes
-        for part in _places(rows, names.mass, order, masses, top)
+        part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
+    leading = [name for name in LEADING if name in parts[0]]
     alike = same_scenes(scene_rows.values(), whole[interrupted(whole) | unloaded(whole)])
     stopped = [
-        widened(part, summary, FIRST).assign(scene=label)
+        part.assign(scene=label)
         for label, (rows, order), every in zip(scene_rows, scenes, alike, strict=True)
         for part in could_place(rows, every, order, masses, names, question, required)
     ]
     return Ranking(
-        table=pd.concat(parts, ignore_index=True),
-        unfinished=pd.concat(stopped, ignore_index=True),
+        table=widened(pd.concat(parts), summary, leading).reset_index(drop=True),
+        unfinished=widened(pd.concat(stopped), summary, FIRST).reset_index(drop=True),
         **names._asdict(),
         limited=allowed_force is not None,
         by=next((o for rows, o in scenes if by or not _least(rows)), scenes[0][1]),

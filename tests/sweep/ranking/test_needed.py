@@ -43,6 +43,8 @@ def test_rows_get_back_the_columns_that_they_had_before_those_that_were_added():
     others = [name for name in table if name != "mass_g"]
     assert list(whole) == ["place", "mass_g", *others]
     pd.testing.assert_frame_equal(whole[[*table]], table[::-1])
+    twice = widened(pd.concat([rows, rows]), table)
+    pd.testing.assert_frame_equal(twice[[*table]], pd.concat([table[::-1]] * 2))
 
 
 def test_a_column_that_is_missing_is_named():
