@@ -131,7 +131,7 @@ gyroid_mesh: setup  ## crush a gyroid with 8 to 16 quads a period; kept in resul
 stability: setup  ## crush 1,000 stiff and extreme scenes; goes to results/stability/ (90 min)
 	@$(PYTHON) -m tests.studies.stability results/stability
 
-torture: setup  ## damage files and inputs, kill commands, workers and schedulers; goes to results/torture/ (25 min)
+torture: setup  ## damage files and inputs, poison cases, kill commands and workers; goes to results/torture/ (25 min)
 	@$(PYTHON) -m tests.studies.torture results/torture
 
 scale: setup  ## time every verb on 20,000 and 100,000 invented cases; goes to results/scale/ (20 min, 6 GB)

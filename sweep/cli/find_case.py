@@ -43,7 +43,7 @@ def by_number(
     from sweep.ranking.merit import doubtful
     from sweep.ranking.rank import answer
 
-    ranking = answer(summary, question._replace(top=None))
+    ranking = answer(summary, question._replace(top=number))
     table = ranking.table
     placed = list(dict.fromkeys(table["scene"]))
     label = _scene(list(ranking.lightest_g) or [""], scene, (placed or [""])[0])
@@ -53,12 +53,13 @@ def by_number(
     budget = rows["budget_g"].iloc[0]
     rows = rows[rows["budget_g"].isna() if budget != budget else rows["budget_g"] == budget]
     within = f", up to {budget:g} g" if budget > 0.0 else ""
-    if number > len(rows):
-        allowed = f"allowed: 1 to {len(rows)}, or the beginning of an id"
+    count = rows["contenders"].iloc[0]
+    if number > count:
+        allowed = f"allowed: 1 to {count}, or the beginning of an id"
         raise CaseError(f"no number {number} in the ranking of {label}{within}; {allowed}")
     chosen = rows.iloc[[number - 1]]
     doubt = ", marked as unreliable" if doubtful(chosen).item() else ""
-    sentence = f"number {number} of {len(rows)}: {label}{within}{doubt}"
+    sentence = f"number {number} of {count}: {label}{within}{doubt}"
     return by_id(summary, chosen["case_id"].item()), sentence
 
 

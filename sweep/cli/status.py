@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from pandas import DataFrame
 
+NEEDED = ("case_id", "status", "message", "model_version", "git_revision", "cpu_s")
 IDS = 3  # shown for each kind of failure
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
@@ -23,7 +24,7 @@ def print_status(file: str, as_json: bool) -> bool:
     from sweep.numbers import counted
     from sweep.store.read import read_attributes, read_summary
 
-    summary, about = read_summary(file), read_attributes(file)
+    summary, about = read_summary(file, _is_needed), read_attributes(file)
     if as_json:
         say(json.dumps(status_record(file, summary, about), indent=2))
         return failed_cases(summary).empty
@@ -44,6 +45,13 @@ def print_status(file: str, as_json: bool) -> bool:
     if "compiler" in about:
         say(f"kernels: {about['compiler']} compiler")
     return failed_cases(summary).empty
+
+
+def _is_needed(column: str) -> bool:
+    """Whether the status of a file tells of a column."""
+    from sweep.columns import ERROR
+
+    return column in NEEDED or bool(ERROR.fullmatch(column))
 
 
 def _failures(file: str, summary: DataFrame) -> Iterator[str]:

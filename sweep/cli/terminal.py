@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import zip_longest
 from shlex import quote
 from subprocess import list2cmdline
 from textwrap import wrap
@@ -166,9 +167,10 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
         if sheet.heads:
             console.width = max(limit or 0, WIDE)  # rich would cut numbers off
             with console.capture() as text:
-                console.print(_terminal_table(shown))
+                console.print(_headed(shown))
             console.width = limit or WIDE
             sys.stdout.write(text.get())
+            sys.stdout.writelines(_lines(shown))
         say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
     say("")
 
@@ -263,22 +265,47 @@ def _left_out(sheet: Sheet, shown: Sheet, limit: int) -> Iterator[str]:
         yield from wrap(f"{missed} A wider one shows them, and so does {sheet.elsewhere}.", limit)
 
 
-def _terminal_table(table: Fitted) -> Table:
-    """A table of rich without title and notes."""
+def _headed(table: Fitted) -> Table:
+    """The heads of a table, with the line below them."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
 
-    sheet, padding = table.sheet, (0, table.gap - 1, 0, 0)
-    grid = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=padding)
-    for head, texts, width in zip(table.heads, sheet.columns, table.widths, strict=True):
-        side: Literal["left", "right"] = "right" if _is_number(texts) else "left"
-        grid.add_column(Text(head), justify=side, width=width, overflow="fold")
-    for i, row in enumerate(sheet.rows):
-        if i in sheet.opens and i:
-            grid.add_section()
-        grid.add_row(*map(Text, row))
+    grid = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=(0, table.gap - 1, 0, 0))
+    for head, texts, width in zip(table.heads, table.sheet.columns, table.widths, strict=True):
+        grid.add_column(Text(head), justify=_side(texts), width=width, overflow="fold")
     return grid
+
+
+def _lines(table: Fitted) -> Iterator[str]:
+    """The rows of a table as rich would print them, in 0.25 ms each."""
+    texts = zip(*map(_aligned, table.sheet.columns, table.widths), strict=True)
+    for i, row in enumerate(texts):
+        if i in table.sheet.opens and i:
+            yield f"{' ' * (table.width + table.gap - 1)}\n"
+        for line in zip_longest(*row):
+            cells = (text or " " * width for text, width in zip(line, table.widths, strict=True))
+            yield (" " * table.gap).join(cells) + " " * (table.gap - 1) + "\n"
+
+
+def _aligned(texts: list[str], width: int) -> Iterator[list[str]]:
+    """The lines of each text of a column, as wide as the column."""
+    from rich.cells import cell_len
+    from rich.console import Console
+    from rich.text import Text
+
+    console, side = Console(), _side(texts)
+    for text in texts:
+        if len(text) <= width and text.isascii() and text.isprintable():
+            yield [text.rjust(width) if side == "right" else text.ljust(width)]
+            continue
+        lines = [line.plain for line in Text(text, overflow="fold").wrap(console, width)]
+        blanks = [" " * (width - cell_len(line)) for line in lines]
+        yield [b + t if side == "right" else t + b for t, b in zip(lines, blanks, strict=True)]
+
+
+def _side(texts: list[str]) -> Literal["left", "right"]:
+    return "right" if _is_number(texts) else "left"
 
 
 def quoted(name: str) -> str:

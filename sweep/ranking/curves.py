@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sweep.modes import has
-from sweep.ranking.merit import AT_ALLOWED, panel_in
+from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED, panel_in
 from sweep.ranking.question import in_si
 from sweep.simulation.until import absorbed_until, stroke_until
 
@@ -61,8 +61,8 @@ def with_allowed(
     curves = read_curves(file, forces, READ)
     cache |= {(k, forces[k]): reached(curve, forces[k]) for k, curve in curves} if new else {}
     values = [cache[key] for key in keys]
-    added = summary.assign(**{AT_ALLOWED: np.nan, "stroke_at_allowed_m": np.nan})
-    added.loc[crushes, [AT_ALLOWED, "stroke_at_allowed_m"]] = np.array(values).reshape(-1, 2)
+    added = summary.assign(**{AT_ALLOWED: np.nan, STROKE_AT_ALLOWED: np.nan})
+    added.loc[crushes, [AT_ALLOWED, STROKE_AT_ALLOWED]] = np.array(values).reshape(-1, 2)
     return added
 
 

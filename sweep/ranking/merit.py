@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sweep.columns import (
     ABSORBED_AT,
-    COLUMNS,
     TIED_SIDES,
     absorbed_energy_column,
     correction_column,
@@ -41,6 +40,7 @@ AT_DENSIFICATION = (
 )
 UNTIL_PACKED = "absorbed_energy_until_packed_J"
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
+STROKE_AT_ALLOWED = "stroke_at_allowed_m"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
 SAME_AREA = 1e-6  # relative: periods of one area
 
@@ -65,8 +65,6 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     range for which the energy stands (`_ends`); and errors and corrections of added columns, if
     the energy has them.
     """
-    if missing := [name for name in COLUMNS if name not in finished]:
-        raise RankError(f"no {missing[0]}; needed: all columns of a summary (`read_summary`)")
     filled = None if question.panel is None else panel_in(finished, question.panel)
     count = None if filled is None else filled.specimens
     energy, force, until = _counted(finished, question, count)
@@ -253,7 +251,7 @@ def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
     whole = finished["peak_strain"] * finished["height_m"]
     crushed = has(finished, "driven")
     if limited:
-        return finished.get("stroke_at_allowed_m", whole * float("nan")).where(crushed, whole)
+        return finished.get(STROKE_AT_ALLOWED, whole * float("nan")).where(crushed, whole)
     if energy == AT_DENSIFICATION[0]:
         strain = finished["densification_strain"].fillna(finished["peak_strain"])
     else:

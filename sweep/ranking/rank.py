@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
+from dataclasses import replace
 from os import PathLike
 
 import numpy as np
@@ -24,12 +24,21 @@ from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
+from sweep.ranking.needed import needed_columns, widened
 from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
-from sweep.ranking.requirements import check, judge, limits
-from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import could_place, ended_early, loaded, same_scenes, unloaded
+from sweep.ranking.requirements import Outcome, check, judge, limits
+from sweep.ranking.scenes import by_scene, scene_keys, scene_label
+from sweep.ranking.unfinished import (
+    FIRST,
+    could_place,
+    ended_early,
+    interrupted,
+    loaded,
+    same_scenes,
+    unloaded,
+)
 
 PER = ("specimen", "panel")
 USUAL = (
@@ -163,16 +172,16 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     required, summary = limits(require), source
     if not isinstance(summary, DataFrame):
         summary = with_allowed(summary, _read(summary), question)
-    whole, names = merits(summary, question)
-    compared = finished = loaded(whole)
-    check(compared, required)
-    check_budgets(compared, question)
+    whole, names = merits(needed_columns(summary, [by]), question)
+    finished = loaded(whole)
+    check(finished, required)
+    check_budgets(finished, question)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
-    by = by and _column(compared, by)
+    by = by and _column(widened(whole[:0], summary), by)
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
         np.inf
     ]
-    scene_rows = {scene_label(rows): rows for rows in by_scene(compared)}
+    scene_rows = {scene_label(rows): rows for rows in by_scene(finished)}
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
         label: judge(rows, names, required, per, masses, allowed)
@@ -182,16 +191,19 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in scene_rows.items()
     ]
-    parts = [_places(rows, names.mass, order, masses, top) for rows, order in scenes]
-    alike = same_scenes(scene_rows.values(), whole)
+    parts = [
+        part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
+    ]
+    leading = [name for name in LEADING if name in parts[0]]
+    alike = same_scenes(scene_rows.values(), whole[interrupted(whole) | unloaded(whole)])
     stopped = [
         part.assign(scene=label)
         for label, (rows, order), every in zip(scene_rows, scenes, alike, strict=True)
         for part in could_place(rows, every, order, masses, names, question, required)
     ]
     return Ranking(
-        table=pd.concat([*chain(*parts)], ignore_index=True),
-        unfinished=pd.concat(stopped, ignore_index=True),
+        table=widened(pd.concat(parts), summary, leading).reset_index(drop=True),
+        unfinished=widened(pd.concat(stopped), summary, FIRST).reset_index(drop=True),
         **names._asdict(),
         limited=allowed_force is not None,
         by=next((o for rows, o in scenes if by or not _least(rows)), scenes[0][1]),
@@ -209,20 +221,38 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             label: rows[names.mass].min() for label, rows in scene_rows.items() if len(rows)
         },
         lightest={
-            label: rows.sort_values([names.mass, "case_id"]).iloc[:1]
+            label: widened(_lightest(rows, names.mass), summary)
             for label, rows in scene_rows.items()
             if len(rows)
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
-        lost={
-            scene_label(part): len(part)
-            for part in by_scene(whole)
-            if len(part) and loaded(part).empty
-        },
+        lost={scene_label(part): len(part) for part in by_scene(_lost(whole)) if len(part)},
         per=per,
         required=required,
-        outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},
+        outcomes={
+            label: tuple(_whole(outcome, summary) for outcome in outcomes)
+            for label, (_, outcomes) in judged.items()
+            if required
+        },
     )
+
+
+def _lightest(rows: DataFrame, mass: str) -> DataFrame:
+    """The row of the lightest design, of equal ones the first by its id."""
+    some = rows[~(rows[mass] > rows[mass].min())]
+    return some.sort_values([mass, "case_id"]).iloc[:1]
+
+
+def _lost(whole: DataFrame) -> DataFrame:
+    """The rows of the scenes in which no case completed its loading."""
+    scenes = [whole[key] for key in scene_keys(whole)]
+    return whole[~(whole["loaded"] == 1).groupby(scenes, dropna=False).transform("any")]
+
+
+def _whole(outcome: Outcome, summary: DataFrame) -> Outcome:
+    """An outcome whose rows have all columns of the summary."""
+    rows = {name: widened(getattr(outcome, name), summary) for name in ("nearest", "lightest")}
+    return replace(outcome, **rows)
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:
@@ -282,9 +312,7 @@ def _within(rows: DataFrame, by: str, budget_g: float, top: int | None) -> DataF
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
     columns |= {"sharing": sharing, "contenders": len(rows), "passed_over": passed_over(rows, by)}
     rows = rows.assign(budget_g=limit, place=place, ranked_by=by, **columns)
-    rows = rows.head(len(rows) if top is None else top)
-    first = [name for name in LEADING if name in rows]
-    return rows[first + [name for name in rows if name not in first]]
+    return rows.head(len(rows) if top is None else top)
 
 
 def _without_bar(rows: DataFrame, by: str) -> int:

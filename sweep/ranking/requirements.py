@@ -108,7 +108,7 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
     """Refuse requirements that no row can be asked for."""
     if rows.empty:
         return
-    check_modes(required, rows["loading_mode"])
+    check_modes(required, rows["loading_mode"].unique())
     if "max_stroke" in required and rows["counted_stroke_m"].isna().all():
         raise RankError(
             "max_stroke is unknown up to an allowed force without the curves: rank the file itself"

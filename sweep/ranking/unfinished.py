@@ -49,6 +49,8 @@ PLACES = ["best_place", "least_place"]
 """Columns of `could_place`: the best place that a case could have had, and the one it has at least;
 the latter is NaN where nothing is certain.
 """
+FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
+"""The first columns of `could_place`."""
 
 
 class Ends(NamedTuple):

@@ -95,13 +95,17 @@ def exists(path: str | os.PathLike[str]) -> bool:
     return Path(path).exists() or bool(list_parts(Path(path)))
 
 
-def read_summary(path: str | os.PathLike[str]) -> "DataFrame":
-    """Table of all finished cases, one row per case."""
+def read_summary(
+    path: str | os.PathLike[str], needed: Callable[[str], bool] | None = None
+) -> "DataFrame":
+    """Table of all finished cases, one row per case; of its columns only those that are needed."""
     from pandas import DataFrame
 
     with _union(Path(path)) as blocks:
         _refuse_damaged(Path(path), blocks)
-        return DataFrame(dict(arrange(newest(blocks))))
+        table = arrange(newest(blocks))
+        names = [name for name in table if needed is None or needed(name)]
+        return DataFrame({name: table[name] for name in names})
 
 
 def read_statuses(path: str | os.PathLike[str]) -> dict[str, str]:

@@ -100,8 +100,9 @@ def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
 
 def parts_of(history: DataFrame) -> dict[str, str]:
     """The `PARTS` that are not negligible in a case."""
-    least = NEGLIGIBLE * history["work_in_J"].abs().max()
-    return {name: words for name, words in PARTS.items() if history[name].abs().max() > least}
+    greatest = history[["work_in_J", *PARTS]].abs().max()
+    least = NEGLIGIBLE * greatest["work_in_J"]
+    return {name: words for name, words in PARTS.items() if greatest[name] > least}
 
 
 def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
@@ -110,9 +111,9 @@ def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, Da
     That is the work done; what time integration has gained is no part of the work, but added to it.
     """
     parts, total = parts_of(history), MODES[row["loading_mode"]].total
-    gain = -history[INTEGRATOR].clip(upper=0.0)
+    gain = -np.minimum(history[INTEGRATOR], 0.0)
     total += GAINED if INTEGRATOR in parts and gain.any() else ""
-    return history["work_in_J"] + gain, total, history[list(parts)].clip(lower=0.0)
+    return history["work_in_J"] + gain, total, np.maximum(history[list(parts)], 0.0)
 
 
 def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:

@@ -17,6 +17,7 @@ from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
+from sweep.ranking.needed import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
@@ -28,6 +29,7 @@ from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
     SCENES,
+    SELECTED_BY,
     Counted,
     front_of_others,
     group_others,
@@ -54,6 +56,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from pandas import DataFrame, Series
 
+    from sweep.ranking.ranking import Ranking
+
     Floats = NDArray[np.float64]
 
 POINTS = 60  # of a curve
@@ -61,7 +65,9 @@ LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; 
 LEAST_POINTS = 12  # of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
 FAILURES = 500
+TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
 DRAWINGS, SHAPES = 500_000, 2_700_000  # characters; kagome, 100 mm wide, has 440,000
+OF_SCENES = ("second_cycle_share", "material_memory")  # read by `meanings`
 OF_THE_RUN = {
     "created": "last run",
     "git_revision": "revision of the source",
@@ -70,26 +76,37 @@ OF_THE_RUN = {
 }
 
 
-def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, Any]:
+def first_ranking(summary: DataFrame, question: Question) -> Ranking:
+    """The ranking that a page starts with: crushes count until densification."""
+    top = TOP_OF_A_BUDGET if len(question.budgets) > 1 else TOP
+    return answer(summary, question._replace(by=None, top=top, allowed_force=None))
+
+
+def page_data(
+    file: str, summary: DataFrame, question: Question, ranking: Ranking | None = None
+) -> dict[str, Any]:
     """All that a page shows, for JSON; numbers that rank designs keep all their digits.
 
-    question : what the page starts with; budget (kg) and panel (m) are lists or None.
+    question : what the page starts with; budget (kg) and panel (m) are lists or None. ranking :
+    its `first_ranking`, where there is one already.
     """
-    finished = loaded(summary)
-    counted = _counted(summary)
+    heads = list(design_text(loaded(summary), summary))
+    counted = _counted(needed_columns(summary, OF_SCENES))
     compared = counted[0].rows
-    scenes = by_scene(loaded(compared))[:SCENES] if len(finished) else []
-    ids = select_designs(_asked_first(finished, question), counted, scenes)
-    kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
+    finished = loaded(compared)
+    scenes = by_scene(finished)[:SCENES] if len(finished) else []
+    ids = select_designs(_asked_first(ranking or first_ranking(summary, question)), counted, scenes)
+    kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
     cases = _cases(counted, kept, summary)
-    stopped = [rows[interrupted(rows)] for rows in same_scenes(scenes, compared)]
-    shown = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
+    stopped = same_scenes(scenes, compared[interrupted(compared)])
+    some = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
+    shown = [widened(rows, summary) for rows in some]
     unfinished = _cases(counted, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
-    stored, by_id = _Stored(len(cases)), summary.set_index("case_id", drop=False)
+    stored, rows_by_id = _Stored(len(cases)), _by_id([*kept, *shown])
     for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
-        row = by_id.loc[case.case_id]
+        row = rows_by_id[case.case_id]
         design = cases.get(case.case_id) or unfinished[case.case_id]
         design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
         if len(case.history) and MODES[row["loading_mode"]].driven:
@@ -105,7 +122,7 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
             for rows, some, halted, named in zip(scenes, kept, stopped, shown, strict=True)
         ],
         "energies": [_energy(each) for each in counted],
-        "heads": list(design_text(finished, summary)),
+        "heads": heads,
         "question": {
             "budgets_g": [in_unit(float(mass), "g") for mass in question.budgets],
             "panel": list(question.panel or ()) or None,
@@ -134,6 +151,11 @@ def page_data(file: str, summary: DataFrame, question: Question) -> dict[str, An
     }
 
 
+def _by_id(parts: Iterable[DataFrame]) -> dict[str, Series]:
+    """The rows of these parts of a summary by their ids."""
+    return {row["case_id"]: row for part in parts for _, row in part.iterrows()}
+
+
 def _requirements() -> dict[str, dict[str, Any]]:
     """What may be required, of which loadings, in which unit and words."""
     return {
@@ -143,10 +165,19 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 
 def _counted(summary: DataFrame) -> list[Counted]:
-    """Energies that are known for all cases: until packed, and up to the forces of the columns."""
+    """Energies that are known for all cases: until packed, and up to the forces of the columns,
+    with only the columns that differ between forces, and those that selections need.
+    """
     texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
-    forces = [None, *sorted(float(text) for text in texts)]
-    return [Counted(force, *merits(summary, Question(allowed_force=force))) for force in forces]
+    until_packed = Counted(None, *merits(summary, Question()))
+    return [until_packed, *(_up_to(force, summary) for force in sorted(map(float, texts)))]
+
+
+def _up_to(force: float, summary: DataFrame) -> Counted:
+    rows, names = merits(summary, Question(allowed_force=force))
+    energies = (names.energy, error_column(names.energy), correction_column(names.energy))
+    kept = {*SELECTED_BY, names.mass, names.per_gram, *energies}
+    return Counted(force, rows[[name for name in rows if name in kept]], names)
 
 
 def _cases(
@@ -244,11 +275,10 @@ def _energy(counted: Counted) -> dict[str, Any]:
     return {"force": counted.force, "until": counted.names.until, "bar": bar}
 
 
-def _asked_first(finished: DataFrame, question: Question) -> list[str]:
-    """Ids of the winners of the question that the page starts with, and of the nearest designs."""
-    usual = question._replace(by=None, top=3, allowed_force=None)
-    ranking = answer(finished, usual)
-    winners = ranking.table.sort_values("place", kind="stable")["case_id"]
+def _asked_first(ranking: Ranking) -> list[str]:
+    """Ids of the winners of the ranking that the page starts with, and of the nearest designs."""
+    groups = ranking.table.groupby(["scene", "budget_g"], dropna=False, sort=False)
+    winners = groups.head(TOP_OF_A_BUDGET).sort_values("place", kind="stable")["case_id"]
     nearest = [
         k for scene in ranking.outcomes.values() for o in scene for k in o.nearest["case_id"]
     ]

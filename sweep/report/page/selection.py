@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.modes import compared
+from sweep.modes import MODES, compared
 from sweep.ranking.merit import doubtful, gap_behind, through_solid
 
 if TYPE_CHECKING:
@@ -48,6 +48,13 @@ LIMITS = {
     "accelerated": "peak_target_acceleration_m_per_s2",
 }
 """Columns that requirements limit from above, by their names in the page."""
+SELECTED_BY = frozenset(
+    {
+        *("case_id", "loading_mode", "outer_width_m", "depth_m", "beyond_model", "crossed"),
+        *(mode.least.column for mode in MODES.values() if mode.least),
+    }
+)
+"""Columns that select designs, whatever the force up to which energy is counted."""
 
 
 class Counted(NamedTuple):

@@ -39,20 +39,28 @@ def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None =
         if not len(far):
             break
         far = far[np.argsort(-distance[far], kind="stable")][: most - len(kept)]
-        kept = np.union1d(kept, far)
+        kept = np.sort(np.concatenate([kept, far]))
     return [int(index) for index in kept]
 
 
 def _chords(kept: Indices) -> Indices:
     """Number of the chord between kept points to which every point belongs."""
-    return np.append(np.repeat(np.arange(len(kept) - 1), np.diff(kept)), len(kept) - 2)
+    lengths = kept[1:] - kept[:-1]
+    lengths[-1] += 1
+    return np.repeat(np.arange(len(lengths)), lengths)
 
 
 def _distances(points: Floats, start: Floats, end: Floats) -> Floats:
     """Distances (n,) of points from their chords."""
     off, way = points - start, end - start
-    along = np.clip((off * way).sum(1) / np.maximum((way * way).sum(1), TINY), 0.0, 1.0)
-    return np.linalg.norm(off - along[:, None] * way, axis=1)
+    along = _dot(off, way) / np.maximum(_dot(way, way), TINY)
+    aside = off - np.minimum(np.maximum(along, 0.0), 1.0)[:, None] * way
+    return np.sqrt(_dot(aside, aside))
+
+
+def _dot(one: Floats, other: Floats) -> Floats:
+    """Products (n,) of vectors (n, k) of few components, which `sum` would add up slowly."""
+    return np.einsum("ij,ij->i", one, other)
 
 
 def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
@@ -69,8 +77,9 @@ def _peaks(distance: Floats, kept: Indices) -> Floats:
 
 
 def _first_of_each(points: Indices, chord: Indices) -> Indices:
-    """The first of the points on each chord."""
-    return points[np.unique(chord[points], return_index=True)[1]]
+    """The first of the points, which are in order, on each chord."""
+    numbers = chord[points]
+    return points[np.append(True, numbers[1:] != numbers[:-1])]
 
 
 def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:

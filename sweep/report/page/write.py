@@ -13,10 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from sweep.numbers import counted
 from sweep.ranking.merit import doubtful
-from sweep.ranking.question import Question
-from sweep.ranking.rank import answer
 from sweep.report.figures.storyboard import PARTS
-from sweep.report.page.gather import page_data
+from sweep.report.page.gather import first_ranking, page_data
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.html import cells, html_table, paragraphs
 from sweep.report.tables.legend import legend
@@ -25,10 +23,12 @@ from sweep.report.tables.sheets import ranking_sheets
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from sweep.ranking.question import Question
+    from sweep.ranking.ranking import Ranking
+
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "plots.js", "page.js")
 IN_HTML = ("failures", "failed", "about", "config", "total", "designs")
-TOP, TOP_OF_A_BUDGET = 10, 3
 LEFT_OUT = (
     "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
     "up to the forces of the columns or below some limit, and a sample of the others. Where a "
@@ -38,7 +38,8 @@ LEFT_OUT = (
 
 def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> Path:
     """Write the page of a results file; `question`: of `page_data`."""
-    text = page(page_data(file, summary, question), tables(summary, question))
+    ranking = first_ranking(summary, question)
+    text = page(page_data(file, summary, question, ranking), tables(summary, ranking))
     out.parent.mkdir(parents=True, exist_ok=True)
     begun = out.with_name(f"{out.name}.tmp")
     begun.write_text(text, encoding="utf-8")
@@ -65,10 +66,8 @@ def page(data: Mapping[str, Any], static: str) -> str:
     )
 
 
-def tables(summary: DataFrame, question: Question) -> str:
-    """The ranking of a question: the best designs in words, then tables with their legend."""
-    top = TOP_OF_A_BUDGET if len(question.budgets) > 1 else TOP
-    ranking = answer(summary, question._replace(by=None, top=top, allowed_force=None))
+def tables(summary: DataFrame, ranking: Ranking) -> str:
+    """The best designs of a ranking in words, then tables with their legend."""
     if ranking.failed == ranking.cases:
         return "<p>No case has converged, so there is no ranking.</p>"
     sheets = "".join(html_table(sheet) for sheet in ranking_sheets(ranking, summary))

@@ -46,13 +46,14 @@ NEUTRAL = {"grading": "1", "perimeters": "0"}
 
 def named_case(row: DataFrame, among: DataFrame) -> str:
     """The beginning of the id and the design of one row, in words."""
-    short_of = short_id(row["case_id"].item(), among["case_id"])
+    short_of = short_id(row["case_id"].item(), among["case_id"].to_numpy(object))
     return f"case {short_of}, {design_labels(row, among)[0]}"
 
 
 def short_id(case_id: str, among: Iterable[str]) -> str:
     """The shortest beginning of an id, of at least `ID` letters, that no other id has."""
-    others = [other for other in among if other[:ID] == case_id[:ID] and other != case_id]
+    start = case_id[:ID]
+    others = [other for other in among if other.startswith(start) and other != case_id]
     lengths = range(ID, len(case_id))
     alone = (n for n in lengths if not any(other.startswith(case_id[:n]) for other in others))
     return case_id[: next(alone, len(case_id))]

@@ -6,7 +6,7 @@ from collections import Counter
 import pytest
 from pandas import DataFrame
 
-from tests.studies.torture import clusters, damage, fuzz, kills, lock
+from tests.studies.torture import clusters, damage, fuzz, kills, lock, poison
 from tests.studies.torture.reader import Reader
 from tests.support.results.standin import cases, write
 
@@ -100,3 +100,20 @@ def test_the_lock_is_held_for_a_part_of_a_case():
     assert 0.0 < found.lock < found.case
     (row,) = lock.sheet({"smoke": lock.Held(0.05, 0.005)}).rows
     assert row == ["smoke", "50", "5", "10", "10"]
+
+
+@pytest.mark.parametrize("place", poison.PLACES)
+def test_poisoned_cases_are_named_and_the_others_are_kept(tmp_path, place):
+    found = poison.torture(tmp_path, place, 12)
+    assert poison.is_sound({place: found})
+    assert found.cases == 12 - (place != "processes")
+    assert poison.sheet({place: found}).rows[0][:4] == [place, str(found.cases), "0", "0"]
+
+
+def test_a_poisoned_case_with_another_end_is_found():
+    assert poison.is_right(poison.DEADLY, "worker_died", "its process died")
+    assert not poison.is_right(poison.DEADLY, "converged", "")
+    assert not poison.is_right(poison.LARGE, "stopped", "no equilibrium")
+    assert not poison.is_right(poison.DEADLY - 1, "worker_died", "")
+    assert not poison.is_sound({"threads": poison.Poisoned(12, 1, 0, 1.0)})
+    assert not poison.is_sound({"threads": poison.Poisoned(12, 0, 1, 1.0)})

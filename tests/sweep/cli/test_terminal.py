@@ -6,8 +6,12 @@ import sys
 from pathlib import Path
 
 import pytest
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
-from sweep.cli.terminal import fitted, quoted
+from sweep.cli.terminal import fitted, print_sheets, quoted
 from sweep.report.tables.sheet import Sheet
 from tests.support.results.specimens import summary, write
 
@@ -92,6 +96,37 @@ def test_a_table_is_made_to_fit_without_cutting_numbers(limit, gap, heads):
     for head, width in zip(heads, shown.widths, strict=True):
         text = ROW[HEADS.index(head)]
         assert width >= (5 if head == "material" else len(text))
+
+
+DESIGNS = Sheet(
+    "",
+    ["design", "wall mm", "cells", "material"],
+    [
+        ["hex", "0.8", "3 x 4", "soft and tough TPU [dry]"],
+        ["a_word_without_blanks", "12.34", "4 x 4", "gomme élastique"],
+        ["中文 infill", "> 3", "", ""],
+    ],
+    opens=frozenset({0, 2}),
+)
+
+
+@pytest.mark.parametrize("limit", [200, 40, 30, 24])
+def test_rows_are_those_that_rich_prints(limit, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(limit))
+    shown = fitted(DESIGNS, limit, limit)
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=(0, shown.gap - 1, 0, 0))
+    sides = ("left", "right", "left", "left")
+    for head, width, side in zip(shown.heads, shown.widths, sides, strict=True):
+        table.add_column(Text(head), justify=side, width=width, overflow="fold")
+    for number, row in enumerate(shown.sheet.rows):
+        if number == 2:
+            table.add_section()
+        table.add_row(*map(Text, row))
+    console = Console(width=1000)
+    with console.capture() as text:
+        console.print(table)
+    print_sheets([DESIGNS])
+    assert capsys.readouterr().out == f"\n{text.get()}\n"
 
 
 def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(tmp_path):

@@ -253,6 +253,12 @@ def test_another_tool_reads_the_table_in_one_line(path):
     pd.testing.assert_frame_equal(table, read_summary(path))
 
 
+def test_only_the_columns_that_are_needed_are_read(path):
+    write(path, cases(9), fold=True)
+    few = read_summary(path, {"mass_g", "status", "unknown"}.__contains__)
+    pd.testing.assert_frame_equal(few, read_summary(path)[["status", "mass_g"]])
+
+
 def test_every_column_says_what_it_is(path):
     write(path, cases(2), fold=True)
     with h5py.File(path) as file:

@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 import pytest
 
 from sweep.ranking.question import Question
-from sweep.report.page.gather import page_data
+from sweep.report.page.gather import first_ranking, page_data
 from sweep.report.page.write import page, tables, write_page
 from tests.support.command import crumple
 from tests.support.results.page_data import sweep
@@ -97,7 +97,7 @@ def test_only_the_program_may_run(evil):
 
 def test_tables_are_readable_without_scripts(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
-    text = tables(table, Question(budget=[0.002, 0.004]))
+    text = tables(table, first_ranking(table, Question(budget=[0.002, 0.004])))
     read = Reader(text)
     assert "The best design up to 2 g, crushed to 50 %, glued platens" in read.text["p"]
     assert [tag for tag, _ in read.elements].count("tr") == 6
@@ -107,7 +107,8 @@ def test_tables_are_readable_without_scripts(tmp_path):
 
 def test_tables_have_only_what_is_required(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
-    read = Reader(tables(table, Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})))
+    question = Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})
+    read = Reader(tables(table, first_ranking(table, question)))
     assert "usable energy at least 200 mJ" in read.text["p"]
     assert "1 of 3 designs fulfil this" in " ".join(read.text["p"].split())
     assert [tag for tag, _ in read.elements].count("tr") == 2
