@@ -36,7 +36,7 @@ ADVICE = {
     outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
     outcomes.STALLED: "the minimisation stalled; try a looser solver.tolerance or smaller steps",
     outcomes.SINGULAR: "no stable equilibrium was found; check the supports{damped}",
-    outcomes.INACCURATE: "no step was short enough for {asked}",
+    outcomes.INACCURATE: "no step was short enough for {needed}",
     outcomes.UNBALANCED: f"work and energies do not balance; {SOUNDER}",
     outcomes.UNRESOLVED: "the forces are too small, or the steps too short, for the motion to "
     "exceed round-off; try larger steps or loads",
@@ -75,10 +75,10 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     if case.loading.quasi_static:
         limit <<= MOST_DOUBLINGS  # of the last attempt
     error = isinstance(solver, InTime) and solver.step_error is not None
-    asked = f"solver.step_error; try a larger one or {shorter}" if error else BALANCE
+    needed = f"solver.step_error; try a larger one or {shorter}" if error else BALANCE
     damped = "" if case.loading.quasi_static or case.shells else " or add damping"
     return ADVICE[outcome].format(
-        limit=limit, shorter=shorter, further=further, damped=damped, asked=asked
+        limit=limit, shorter=shorter, further=further, damped=damped, needed=needed
     )
 
 
