@@ -1,6 +1,6 @@
 """Strains of dead loads in long time steps beside short ones, by the local error of their path.
 
-python -m tests.studies.rankings.loads (a quarter of an hour): loads of configs/armor.toml in fixed
+python -m tests.studies.rankings.loads (six minutes): loads of configs/armor.toml in fixed
 steps, and with a stated error of steps, beside newmark in steps of 5 us.
 """
 
