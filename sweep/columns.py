@@ -284,7 +284,7 @@ COLUMNS: dict[str, Column] = {
     "peak_force_N": Column(
         "N",
         "greatest force on a platen or support, in an impact on the support; NaN for a dead load "
-        "whose rows are too far apart in time for its peak",
+        "whose fixed steps are too far apart for its peak",
         "less",
     ),
     "peak_force_at_densification_N": Column(

@@ -249,7 +249,6 @@ class _Run:
         self.state = scene.at_rest()
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
-        self.rows["least_height"], self.rows["most_force"] = np.inf, -np.inf
         self.probed = np.zeros((total + 1, 2, scene.probes.size))
         self.probed[0, 0] = scene.x_rest[scene.probes]
         self.standing = scene.standing.copy()  # sorted in place
@@ -278,7 +277,7 @@ class _Run:
         book.work = strained + book.kinetic
         row.work, row.kinetic, row.stretch = book.work, book.kinetic, strained
         row.speed = scene.velocity[scene.terms.contact.high]
-        row.height = height(scene.x_rest, scene.top, scene.base)
+        row.height = row.least_height = height(scene.x_rest, scene.top, scene.base)
         row.gap = row.patch_at = np.nan
 
     def complete(self, seconds: float) -> tuple[Status, str]:
@@ -376,6 +375,7 @@ class _Run:
         stage, start = phase.stage, self.done
         span = slice(start, start + stage.steps)
         self.rows["time"][span] = np.nan  # it stays so in rows that a step leaves out
+        self.rows["least_height"][span], self.rows["most_force"][span] = np.inf, -np.inf
         slots = self.slot_of[self.planned : self.planned + stage.steps]
         out = Output(
             self.rows[span],
