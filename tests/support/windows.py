@@ -18,7 +18,7 @@ LACKING = (
 )  # fmt: skip
 OTHERS = (
     "PIL.Image", "distributed", "h5py", "manifold3d", "matplotlib.pyplot", "numba", "pandas",
-    "pydantic", "rich.console", "scipy.sparse", "shapely",
+    "platformdirs", "pydantic", "rich.console", "scipy.sparse", "shapely",
 )  # fmt: skip
 FORBIDDEN = '<>:"|?*'  # in the names of files
 
