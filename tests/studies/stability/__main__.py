@@ -4,10 +4,11 @@ They are those of `configs/extreme.toml`, lattices that move by integrators of s
 material has a memory, and custom structures. python -m tests.studies.stability FOLDER [N]: the
 table is printed and written there, with a line a scene; with N, of every Nth scene only.
 
-Two kinds of scenes have no answer, and stop with a sentence about it. The load is less than
-positions resolve: nothing moves by more than round-off. Or no contact keeps walls apart under a
-dead load that would press a solid of their mass, of linear law, to less than half its height: they
-fold flat, to no length. Shares are those of all scenes and of those with an answer.
+Three kinds of scenes have no answer, and fail with a sentence about it. The load is less than
+positions resolve: nothing moves by more than round-off. No contact keeps walls apart under a dead
+load that would press a solid of their mass, of linear law, to less than half its height: they fold
+flat, to no length. Or a striker is faster than sound in the walls: its wave front would press a
+wall of linear law to no length. Shares refer to all scenes and to the scenes with an answer.
 """
 
 import csv
@@ -28,6 +29,7 @@ from sweep.config.load import load_config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.numbers import percent
+from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import warm_up
 from tests.studies.stability.audit import audit
 from tests.studies.stability.draw import CONFIGS, remembering, second_order, wide
@@ -79,10 +81,10 @@ def outcome(found):
 
 
 def has_no_answer(case, found):
-    """Whether a stopped scene has no equilibrium or motion that could be resolved."""
-    if found.status != "stopped":
-        return False
-    return ROUND_OFF in found.message or _folds_flat(case)
+    """Whether a scene that failed has no equilibrium or motion that could be resolved."""
+    if found.status == "stopped" and (ROUND_OFF in found.message or _folds_flat(case)):
+        return True
+    return found.status != "converged" and faster_than_sound(case) != ""
 
 
 def _folds_flat(case):

@@ -210,3 +210,11 @@ def test_scenes_without_an_answer_are_counted_apart():
     assert [has_no_answer(*pair) for pair in pairs] == [True, False, True, False]
     last = markdown(counted(*zip(*pairs, strict=True)))[-2:]
     assert [row.split(" | ")[-1] for row in last] == ["25 |", "50 |"]
+
+
+def test_a_striker_faster_than_sound_has_no_answer_where_it_fails():
+    fast, slow = draw.scene(267)[1], draw.scene(264)[1]  # 110 and 0.003 times the speed of sound
+    found = audit.Audit("timed_out", "over time", "", (), 0, 0.1)
+    assert has_no_answer(fast, found)
+    assert not has_no_answer(slow, found)
+    assert not has_no_answer(fast, found._replace(status="converged"))
