@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from sweep.constants import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pandas import Series
 
 Values = TypeVar("Values")
@@ -68,10 +70,27 @@ def text_in(value: float, unit: str, digits: int = 4) -> str:
 
 
 def budget_text(grams: float) -> str:
-    """A mass in g; in oz if that has at most two decimals, and g more: 42.52428 -> "1.5 oz"."""
-    ounces = in_unit(to_si(grams, "g"), "oz")
-    is_round = [abs(round(100 * mass) - 100 * mass) < 1e-6 for mass in (grams, ounces)]
-    return f"{ounces:g} oz" if is_round == [False, True] else f"{grams:.4g} g"
+    """A mass in its `budget_unit`: 42.52428 -> "1.5 oz"."""
+    unit = budget_unit([grams])
+    return f"{budget_number(grams, unit)} {unit}"
+
+
+def budget_unit(budgets_g: Iterable[float]) -> str:
+    """The unit in which masses in g were given: oz if they have at most two decimals there, and
+    more in g.
+    """
+    ounces = [in_unit(to_si(grams, "g"), "oz") for grams in budgets_g]
+    return "oz" if _are_round(ounces) and not _are_round(budgets_g) else "g"
+
+
+def budget_number(grams: float, unit: str) -> str:
+    """A mass in a unit, with four digits."""
+    return f"{in_unit(to_si(grams, 'g'), unit):.4g}"
+
+
+def _are_round(masses: Iterable[float]) -> bool:
+    """Whether masses have at most two decimals."""
+    return all(abs(round(100 * mass) - 100 * mass) < 1e-6 for mass in masses)
 
 
 def significant(value: float, digits: int = 4) -> str:

@@ -10,7 +10,9 @@ from sweep.numbers import (
     SCALES,
     at_least,
     at_most,
+    budget_number,
     budget_text,
+    budget_unit,
     in_unit,
     percent,
     short,
@@ -86,3 +88,9 @@ def test_bounds_are_rounded_to_the_side_on_which_they_hold(value, most, least):
 )
 def test_a_budget_is_told_in_the_unit_in_which_it_is_round(grams, text):
     assert budget_text(grams) == text
+
+
+def test_budgets_share_a_unit():
+    assert budget_unit([28.349523125, 42.5242846875]) == "oz"
+    assert budget_unit([25.0, 42.5242846875]) == "g"
+    assert budget_number(42.5242846875, "g") == "42.52"

@@ -10,7 +10,7 @@ from pandas import Series
 
 from sweep.columns import end_columns
 from sweep.modes import compared, mode_of
-from sweep.numbers import budget_text, in_unit, numerals, tenths
+from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.scenes import by_scene, scene_label
 from sweep.report.tables.design_text import design_text, named_case
@@ -76,10 +76,10 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             notes = (*(missed or (NO_PLACE,)), *unfinished, *requirements)
             yield Sheet(scene, [], [], notes=notes)
             continue
-        first = {}
+        first, unit = {}, budget_unit(budgets)
         if len(budgets) > 1:
-            rows = _without_repeats(rows)
-            first["up to g"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
+            rows = _without_repeats(rows, unit)
+            first[f"up to {unit}"] = rows["up_to"].where(~rows["up_to"].duplicated(), "")
         columns = {
             **first,
             "#": _places(rows),
@@ -91,13 +91,13 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             title=f"{scene}{order}",
             heads=list(columns),
             rows=[list(row) for row in zip(*columns.values(), strict=True)],
-            opens=frozenset(i for i, text in enumerate(first.get("up to g", ())) if text),
+            opens=frozenset(i for texts in first.values() for i, text in enumerate(texts) if text),
             notes=(
-                *_passed_over(rows),
+                *_passed_over(rows, unit),
                 *(_open(placed) if ranking.limited else ()),
                 *size_note(placed),
                 *narrow_note(ranking.narrow[scene]),
-                *_cut_off(rows),
+                *_cut_off(rows, unit),
                 *_not_shown(placed),
                 *unfinished,
                 *missed,
@@ -143,21 +143,21 @@ def _places(rows: DataFrame) -> Series:
     return places + rows["pareto"].map({True: "*", False: " "}) + marks(rows)
 
 
-def _passed_over(rows: DataFrame) -> Iterator[str]:
+def _passed_over(rows: DataFrame, unit: str) -> Iterator[str]:
     """A sentence for each budget whose first place a design has that others exceed by value."""
     for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
         count = int(shown["passed_over"].iloc[0])
-        within = f"Up to {shown['up_to'].iloc[0]} g: " if "up_to" in rows else ""
+        within = f"Up to {shown['up_to'].iloc[0]} {unit}: " if "up_to" in rows else ""
         if count:
             yield PASSED_OVER.format(within, f"{count} design{'s' * (count > 1)}")
 
 
-def _cut_off(rows: DataFrame) -> Iterator[str]:
+def _cut_off(rows: DataFrame, unit: str) -> Iterator[str]:
     """A sentence for each budget with designs that share the last shown place but are not shown."""
     for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
         last = shown.iloc[-1]
         left = last["sharing"] - (shown["place"] == last["place"]).sum()
-        within = f"Up to {last['up_to']} g, " if "up_to" in rows else ""
+        within = f"Up to {last['up_to']} {unit}, " if "up_to" in rows else ""
         if left:
             yield f"{within}{left} more tied for place {last['place']}."
 
@@ -176,8 +176,9 @@ def _not_shown(rows: DataFrame) -> Iterator[str]:
         yield f"Not shown: {', '.join(more)}; with --top {total.max()}, rank lists all."
 
 
-def _without_repeats(rows: DataFrame) -> DataFrame:
-    """Rows of several budgets; budgets with the same places are merged into one section, `up_to`.
+def _without_repeats(rows: DataFrame, unit: str) -> DataFrame:
+    """Rows of several budgets; budgets with the same places are merged into one section, `up_to`,
+    which has masses in a unit.
 
     A design that is the best up to 20 g and up to 50 g is the best for all budgets in between.
     """
@@ -185,7 +186,8 @@ def _without_repeats(rows: DataFrame) -> DataFrame:
     same = marked.groupby("budget_g")["marked"].agg(" ".join)
     alike = same.index.to_series().groupby(same)
     low, high = alike.transform("min"), alike.transform("max")
-    spans = {b: f"{b:g}" if b == high[b] else f"{b:g}-{high[b]:g}" for b in low}
+    ends = ({low[b], high[b]} for b in low)
+    spans = {min(b): "-".join(budget_number(mass, unit) for mass in sorted(b)) for b in ends}
     kept = rows[rows["budget_g"].isin(low)]
     return kept.assign(up_to=kept["budget_g"].map(spans))
 

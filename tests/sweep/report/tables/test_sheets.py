@@ -220,3 +220,10 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     assert [row[1] for row in sheet.rows] == ["along", "across"]
     assert design_labels(table, table) == ["pressed across", "pressed along"]
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+def test_budgets_come_back_in_ounces():
+    table = summary(CRUSHED_SOLID, SPARSE)
+    (sheet,) = ranking_sheets(ranked(table, budget=["1 oz", "1.5 oz"]), table)
+    assert sheet.heads[0] == "up to oz"
+    assert sheet.rows[0][0] == "1-1.5"
