@@ -159,10 +159,10 @@ def test_reuse_softens_as_it_says():
 
 
 def test_slicer_holds_its_numbers():
-    """Five infills of the same mass as extruded, of which honeycomb needs the least share."""
+    """Seven infills of the same mass as extruded, of which honeycomb needs the least share."""
     cases = expand(load_config(CONFIGS / "slicer.toml"))
     glued = {case.lattice.pattern: case for case in cases if case.loading.platen == "glued"}
-    assert len(cases) == 2 * len(glued) == 10
+    assert len(cases) == 2 * len(glued) == 14
     shares = {name: case.lattice.infill for name, case in glued.items()}
     assert shares["honeycomb"] == min(shares.values()) == pytest.approx(0.1769, rel=1e-3)
     summary = simulate(glued["honeycomb"]).summary

@@ -46,7 +46,7 @@ CONFIGS = Path(__file__).parents[4] / "configs"
         ("seed", 14),
         ("impact", 24),
         ("drop", 8),
-        ("slicer", 10),
+        ("slicer", 14),
         ("gyroid", 10),
         ("sheets", 6),
         ("khatri_egan_square", 72),
