@@ -15,7 +15,7 @@ from sweep.config.faults import MisfitError
 from sweep.config.kinds.specimen import LAYER_HEIGHT, NOZZLE
 from sweep.config.profiles.settings import NEEDED, Settings, read_settings
 from sweep.config.reading.other_names import present_choice
-from sweep.design.slicer.patterns import PATTERNS, PROGRAMS, ROUNDED, WIDTH_PER_NOZZLE
+from sweep.design.slicer.patterns import ROUNDED, WIDTH_PER_NOZZLE, is_lateral
 from sweep.numbers import in_unit, to_si
 
 T = TypeVar("T")
@@ -159,9 +159,7 @@ class _Translation:
     @property
     def lateral(self) -> bool:
         """Whether the lines of the pattern run along the depth, whatever their angle on the bed."""
-        own = present_choice("lattice.pattern", self._said(self.names.pattern))
-        pattern = PROGRAMS[SLICERS[self.settings.program]].patterns.get(own)
-        return pattern is not None and PATTERNS[pattern].slopes != ()
+        return is_lateral(present_choice("lattice.pattern", self._said(self.names.pattern)))
 
     @property
     def _angle(self) -> float | None:

@@ -197,6 +197,11 @@ def is_sheet(name: str) -> bool:
     return name in SHEETS or name in SHEET_PATTERNS
 
 
+def is_lateral(name: str) -> bool:
+    """Whether the layers of a lattice of this name are stacked up the drawing."""
+    return name in PATTERNS and PATTERNS[name].slopes != ()
+
+
 def family_of(name: str) -> str:
     """The family of a slicer's pattern, empty for parallel lines; other names unchanged."""
     names = {own: pattern for patterns in SLICERS.values() for own, pattern in patterns.items()}

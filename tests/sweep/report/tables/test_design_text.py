@@ -77,10 +77,12 @@ def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
     assert ("depth mm" in design_text(table, table)) == shown
 
 
-def test_what_plates_leave_out_is_told():
-    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
-    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
+def test_what_plates_and_layers_leave_out_is_told():
+    lateral = {"lattice_kind": "lateral-lattice"}
+    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8}, lateral)
+    none, usual, beyond, layered = (about_direction(row) for _, row in rows.iterrows())
     assert none == []
+    assert layered == [usual[0].replace("its cells", "its print axis")]
     assert len(usual) == 1
     assert "delamination" in usual[0]
     assert beyond[0] == usual[0]
