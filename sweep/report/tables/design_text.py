@@ -84,6 +84,8 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "material_memory"):
         columns["behaviour"] = frame["material_memory"].replace("none", "elastic").astype(str)
     by_name = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
+    if "infill %" in columns and len({*among.get("lattice.slicer", [])} - {""}) < 2:
+        by_name = by_name | {"lattice.slicer"}  # designs with a share of infill are its own
     if "lattice.file" in among and set(among["lattice.file"]) <= {"", *among["lattice_kind"]}:
         by_name = by_name | {"lattice.file"}  # drawings are named by their files
     for key in frame:

@@ -66,6 +66,14 @@ def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
 
 
+def test_a_slicer_is_named_where_there_are_two():
+    """Designs of the only one have a share of infill."""
+    rows = [{"lattice.slicer": slicer, "infill_share": 0.2} for slicer in ("orca", "cura")]
+    one, two = summary({"lattice.slicer": ""}, rows[0]), summary({"lattice.slicer": ""}, *rows)
+    assert list(design_text(one, one)) == ["infill %"]
+    assert list(design_text(two, two)) == ["infill %", "slicer"]
+
+
 UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
 
 
