@@ -367,10 +367,14 @@ def names_in(slicer: str) -> str:
 
 
 def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
-    """Why a pattern is no prism, and the nearest that is, or which slicer has it; else empty."""
+    """Why a pattern is no prism, and the nearest that is; of the pattern of another slicer its name
+    in this one, or which one has it; else empty.
+    """
     for other, program in PROGRAMS.items():
         if pattern in program.patterns:
-            return f'; "{pattern}" with lattice.slicer "{other}"'
+            same = [own for own, name in patterns.items() if name == program.patterns[pattern]]
+            elsewhere = f'"{pattern}" with lattice.slicer "{other}"'
+            return f'; here it is "{same[0]}"' if same else f"; {elsewhere}"
     why, nearest = NO_PRISMS.get(bare(pattern), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""

@@ -99,6 +99,9 @@ UNFIT = {
     SHARED.replace("grid", "2D honeycomb"): (
         *('lattice.pattern = "2D honeycomb"', '"lateral-honeycomb" with lattice.slicer "orca"'),
     ),
+    SHARED.replace("grid", "tri-hexagon"): (
+        *('lattice.pattern = "tri-hexagon"', 'here it is "stars"'),
+    ),
     f'{LATERAL}infill = "20 %"\nfill_angle = "45 deg"': (
         *('lattice.fill_angle = "45 deg"', "0 degrees: lines of lateral-lattice run along"),
     ),
