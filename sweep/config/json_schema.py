@@ -64,8 +64,10 @@ def _one(key: Key) -> Schema:
     if key.unit:
         return {"type": ["string", "number"] if key.bare else "string"}
     schema = {name: entry for name, entry in key.schema.items() if name not in OWN}
+    if "enum" not in schema:
+        return schema
     words = [word for target in key.targets for word in CHOICES.get(target, ())]
-    return schema | ({"enum": [*schema["enum"], *words]} if words else {})
+    return schema | {"enum": [*schema["enum"], *words]}
 
 
 def _defined(name: str) -> Schema:

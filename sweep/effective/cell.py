@@ -72,7 +72,7 @@ def infill_of(case: Case) -> Infill:
     lattice = case.lattice
     if case.material.bend == "none" or case.material.yield_stress is not None:
         raise MisfitError(f"walls that are springs, or that yield; allowed: {ALLOWED}")
-    if isinstance(lattice, Sliced) and (pattern := lattice.printed_as).family:
+    if isinstance(lattice, Sliced) and (pattern := lattice.printed_as).is_even:
         side = pattern.side * lattice.fill_distance
         size = side * pitch(pattern.family, _way(pattern.family, None))
         period = _period(case, pattern.family, None, size)

@@ -253,7 +253,15 @@ def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:
         return sheet_panel(source.case, wish.panel)
     layout = _layout(source, wish)
     body = solid(layout, TO_MM3 * layout.specimens * source.design.volume)
-    return body, _description(layout, source, wish)
+    return _as_printed(body, source), _description(layout, source, wish)
+
+
+def _as_printed(body: Body, source: Source | Planned) -> Body:
+    """The body with the axis of its layers upwards."""
+    from sweep.config.kinds.sliced import Sliced
+
+    lattice = source.case.lattice
+    return body.stood_up if isinstance(lattice, Sliced) and lattice.lateral else body
 
 
 def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -264,11 +272,13 @@ def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]
 
     settings = settings_of(source.case.lattice)
     layout, notes = _block(source, wish)
-    body = extruded(layout)
+    body = _as_printed(extruded(layout), source)
     write_3mf(path, body, layout.name, slicer_files(settings, layout.name, len(body.triangles)))
     prusa = "PrusaSlicer reads the settings of the object from the file. "
     prusa = prusa if prusa_reads(settings) else ""
     twice = ", and lays crossings twice, so that the block is heavier than the lattice"
+    if settings.solid_layers:
+        twice += "; it also lays perimeters in front and behind, which the drawing does not have"
     return [
         *notes,
         f"{prusa}OrcaSlicer and Bambu Studio may import only the geometry; if so, set by hand: "

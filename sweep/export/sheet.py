@@ -60,7 +60,7 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
     walls = walls._replace(points=TO_MM * walls.points)
     body = within_box(walls, [TO_MM * side for side in (first, second, lattice.pressed_height)])
     if lattice.pressed != ALONG:
-        body = body._replace(points=_laid_down(body.points))
+        body = body.stood_up
     if not body.is_closed:
         raise ExportError(f"the mesh of case {case.case_id} is not closed; allowed: another panel")
     return body, _description(case, first, second)
@@ -161,12 +161,6 @@ def _rim(quads: Ints) -> Ints:
     sides = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
     _, first, count = np.unique(np.sort(sides), axis=0, return_index=True, return_counts=True)
     return np.asarray(sides[first[count == 1]])
-
-
-def _laid_down(points: Floats) -> Floats:
-    """Points of a panel that is pressed across the print axis, y of the net: this upwards."""
-    x, y, z = points.T
-    return np.column_stack([x, z.max() - z, y])
 
 
 def _grams(case: Case, first: float, second: float) -> float:

@@ -70,8 +70,8 @@ def prusa_keys(settings: SlicerSettings) -> dict[str, str]:
         "perimeters": str(settings.perimeters),
         "perimeter_extrusion_width": outer,
         "external_perimeter_extrusion_width": outer,
-        "top_solid_layers": "0",
-        "bottom_solid_layers": "0",
+        "top_solid_layers": str(settings.solid_layers),
+        "bottom_solid_layers": str(settings.solid_layers),
         "solid_infill_below_area": "0",
         "infill_anchor": "0",
         "infill_anchor_max": "0",
@@ -97,7 +97,7 @@ def by_hand(settings: SlicerSettings) -> str:
         f"direction {keys['infill_direction']} degrees, line width "
         f"{keys['sparse_infill_line_width']} mm{several}; wall loops {keys['wall_loops']}, "
         f"width {keys['outer_wall_line_width']} mm; layer height {keys['layer_height']} mm; "
-        "no top and bottom shell layers, no infill anchors"
+        f"{settings.solid_layers or 'no'} top and bottom shell layers, no infill anchors"
     )
 
 

@@ -33,6 +33,12 @@ class Body(NamedTuple):
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
     @property
+    def stood_up(self) -> Body:
+        """The same body with its y upwards, where its z was."""
+        x, y, z = self.points.T
+        return self._replace(points=np.column_stack([x, z.max() - z, y]))
+
+    @property
     def is_closed(self) -> bool:
         """True if every edge belongs to two triangles, which pass it in opposite directions.
 

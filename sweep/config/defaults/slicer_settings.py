@@ -28,12 +28,12 @@ ROUND_OFF = 1e-9
 @dataclass(frozen=True)
 class SlicerSettings:
     """slicer: "prusa", "orca" or "cura". pattern: in the slicer's words. infill: share, 0 to 1.
-    fill_multiline: number of lines of a wall.
+    fill_multiline: number of lines of a wall. solid_layers: at the bottom and top of the print.
 
     line_width, of the infill, perimeter_width and layer_height in m; fill_angle in rad from the
-    width of the design, whose layers are stacked along its depth. exact: False for a design that
-    only corresponds to these settings; then the slicer's cells may be REGULAR longer or shorter,
-    and lie otherwise in the part.
+    width of the design, whose layers are stacked along its depth, or, if it has solid ones, along
+    its height. exact: False for a design that only corresponds to these settings; then the slicer's
+    cells may be REGULAR longer or shorter, and lie otherwise in the part.
     """
 
     slicer: str
@@ -46,6 +46,7 @@ class SlicerSettings:
     perimeter_width: float
     exact: bool
     fill_multiline: int = 1
+    solid_layers: int = 0
 
     def __str__(self) -> str:
         near = "" if self.exact else ", nearly"
@@ -56,6 +57,7 @@ class SlicerSettings:
             f"layer {TO_MM * self.layer_height:.3g} mm, "
             f"angle {degrees(self.fill_angle):.3g} degrees, "
             f"{self.perimeters} perimeter{'' if self.perimeters == 1 else 's'}"
+            + (f", {self.solid_layers} solid layers" if self.solid_layers else "")
         )
 
 
@@ -144,6 +146,7 @@ def _own(lattice: Sliced | SlicedSheet) -> SlicerSettings:
         lattice.line_width,
         exact=True,
         fill_multiline=lattice.fill_multiline,
+        solid_layers=lattice.solid_layers if isinstance(lattice, Sliced) else 0,
     )
 
 

@@ -30,13 +30,11 @@ from sweep.config.kinds.table import (
 )
 from sweep.design.geometry import Geometry
 from sweep.design.slicer.patterns import (
-    LATERAL,
     NO_PRISMS,
     OVERLAP,
     PATTERNS,
     PROGRAMS,
     SLICERS,
-    Lateral,
     Pattern,
     bare,
     distance_of,
@@ -46,19 +44,22 @@ from sweep.design.slicer.patterns import (
     spread_lines,
 )
 from sweep.design.slicer.patterns import Sliced as Lay
-from sweep.numbers import at_least, at_most, in_unit, text_in
+from sweep.numbers import at_least, at_most, in_unit
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
+ALONG_DEPTH = 0.0  # fill angle of lateral patterns, rad
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
 MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
 NEAR = 0.1  # shares tried instead of one that cannot be drawn
 SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart the lines are
-DENSE = 0.5  # share from which cells of lines are nearly solid
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
 class Sliced(WallLattice):
     """An infill with the `pattern` of a slicer, within `perimeters`, layers stacked along `depth`.
+
+    Of a lateral pattern, whose lines run along the depth, layers are stacked along the height, and
+    there are solid ones at the bottom and top, about as thick as the perimeters.
 
     `infill`, the `line_distance` of parallel walls, or the `mass` as extruded, sets
     `fill_distance`, and about how many cells fit. `fill_multiline`: number of lines in each wall.
@@ -102,7 +103,11 @@ class Sliced(WallLattice):
         """The infill of these values."""
         pattern = _checked_pattern(inputs)
         width = line_width_of(inputs)
-        usual = {"perimeters": PERIMETERS, "nodes_per_wall": nodes_of(PATTERNS[pattern].family)}
+        usual = {
+            "perimeters": PERIMETERS,
+            "nodes_per_wall": nodes_of(PATTERNS[pattern].family),
+            "fill_angle": ALONG_DEPTH if PATTERNS[pattern].slopes else FILL_ANGLE,
+        }
         lattice = cls.model_validate(
             usual | own_values(inputs, cls) | UNKNOWN | {"line_width": width}
         )
@@ -121,6 +126,10 @@ class Sliced(WallLattice):
         values, follows = super().inputs(), (self.mass, self.line_distance) != (None, None)
         return {k: v for k, v in values.items() if k != "infill"} if follows else values
 
+    def implies(self, key: str, value: object) -> bool:
+        """As `Table.implies`; solid layers follow from the perimeters."""
+        return value == self.solid_layers if key == "solid_layers" else super().implies(key, value)
+
     @property
     def name(self) -> str:
         """The slicer's own name of the pattern."""
@@ -130,6 +139,11 @@ class Sliced(WallLattice):
     def printed_as(self) -> Pattern:
         """The pattern."""
         return PATTERNS[self._pattern]
+
+    @property
+    def lateral(self) -> bool:
+        """Whether its layers are stacked along the height."""
+        return bool(self.printed_as.slopes)
 
     @property
     def _pattern(self) -> str:
@@ -179,12 +193,20 @@ class Sliced(WallLattice):
     @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
-        return self.perimeters * self.line, self.perimeters * self.line
+        sides = self.perimeters * self.line
+        return sides, self.solid_layers * self.layer_height if self.lateral else sides
+
+    @property
+    def solid_layers(self) -> int:
+        """Number of solid layers at the bottom and top."""
+        return max(1, round(self.perimeters * self.line / self.layer_height)) if self.lateral else 0
 
     @property
     def geometry(self) -> Geometry:
         """The numbers that define the drawing."""
-        inset = (0.5 * self.perimeters - OVERLAP) * self.line
+        sides, caps = self.outline
+        overlaps = OVERLAP * self.line, 0.0 if self.lateral else OVERLAP * self.line
+        inset = 0.5 * sides - overlaps[0], 0.5 * caps - overlaps[1]
         lay = Lay(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
         return Geometry(
             "square",
@@ -250,9 +272,7 @@ def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any
 
 def _most_of(lattice: Sliced) -> float:
     """The share at which the narrowest cell is twice as wide as its walls."""
-    pattern = lattice.printed_as
-    filled = 0.5 * pattern.opening * pattern.directions / pattern.wall
-    return filled * lattice.spread_line / lattice.lines
+    return lattice.printed_as.most * lattice.spread_line / lattice.lines
 
 
 def _drawn(candidate: Sliced) -> float:
@@ -327,14 +347,15 @@ def _checked_pattern(inputs: Inputs) -> str:
     if pattern is None:
         raise RefusedError(key, None, f"{names}, as lattice.slicer is given")
     if pattern not in patterns:
-        near = _no_prism(pattern, patterns, inputs) or similar(pattern, names.split('"')[1::2])
+        near = _no_prism(pattern, patterns) or similar(pattern, names.split('"')[1::2])
         raise RefusedError(key, pattern, f"{names}{near}")
     if all(inputs.get(key) is None for key in SIZES):
         allowed = 'a share such as "20 %", a lattice.line_distance, or a lattice.mass'
         raise RefusedError("lattice.infill", None, allowed)
     count = inputs.get("fill_multiline", 1)
     if count > lines_at_most(inputs["slicer"], patterns[pattern]):
-        allowed = '1; more with lattice.slicer "orca" or "cura" and a pattern other than honeycomb'
+        other = "a pattern other than honeycomb and the lateral ones"
+        allowed = f'1; more with lattice.slicer "orca" or "cura" and {other}'
         raise RefusedError("lattice.fill_multiline", count, allowed)
     return patterns[pattern]
 
@@ -345,33 +366,28 @@ def names_in(slicer: str) -> str:
     return ", ".join(f'"{name}"' for name in (*program.patterns, *program.sheets))
 
 
-def _upright(lateral: Lateral, inputs: Inputs) -> str:
-    """A prism whose axis lies in the layers, as cells of which only these walls are pressed."""
-    layer, share = inputs.get("layer_height", LAYER_HEIGHT), inputs.get("infill")
-    line = line_of(inputs["slicer"], line_width_of(inputs), layer)
-    size = text_in(lateral.width * line / share, "mm") if share else ""
-    width = f'cell_size = "{size}"' if size else "a cell_size"
-    walls = f'wall_thickness = "{text_in(lateral.thickness * line, "mm")}"{lateral.walls}'
-    cells = f'lattice.kind = "{lateral.family}", {width}, {walls}'
-    if share and share > DENSE:
-        thick = text_in(share / (2.0 - share), "%", 2)  # a cell is 2 / share walls wide
-        cells += f", nearly solid: walls have {thick} of the width of the gaps, all of it at 100 %"
-    axis = "give, without lattice.slicer and with lattice.height along the print axis"
-    return f"a prism whose axis lies in the layers: {axis}, {cells}"
-
-
-def _no_prism(pattern: str, patterns: dict[str, str], inputs: Inputs) -> str:
-    """Why a pattern is no prism, and the nearest that is; empty if it is not known."""
-    if lateral := LATERAL.get(bare(pattern)):
-        return f"; {pattern} of OrcaSlicer is {_upright(lateral, inputs)}"
+def _no_prism(pattern: str, patterns: dict[str, str]) -> str:
+    """Why a pattern is no prism, and the nearest that is; of the pattern of another slicer its name
+    in this one, or which one has it; else empty.
+    """
+    for other, program in PROGRAMS.items():
+        if pattern in program.patterns:
+            same = [own for own, name in patterns.items() if name == program.patterns[pattern]]
+            elsewhere = f'"{pattern}" with lattice.slicer "{other}"'
+            return f'; here it is "{same[0]}"' if same else f"; {elsewhere}"
     why, nearest = NO_PRISMS.get(bare(pattern), ("", "grid"))
     nearest = next((own for own, name in patterns.items() if name == nearest), "grid")
     return f"; {pattern} is no prism, as {why}: the nearest is {nearest}" if why else ""
 
 
 def _check_lines(lattice: Sliced) -> None:
-    """Refuse lines that are higher than wide, and perimeters that are absent or leave no room."""
+    """Refuse lines that are higher than wide or turned out of the drawing, and perimeters that are
+    absent or leave no room.
+    """
     check_layer(lattice.layer_height, lattice.line_width)
+    if lattice.lateral and lattice.fill_angle != ALONG_DEPTH:
+        allowed = f"0 degrees: lines of {lattice.pattern} run along lattice.depth"
+        raise RefusedError("lattice.fill_angle", lattice.fill_angle, allowed)
     most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
     if not 1 <= lattice.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"

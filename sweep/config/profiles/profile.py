@@ -14,7 +14,8 @@ from typing import Any, NamedTuple, TypeVar
 from sweep.config.faults import MisfitError
 from sweep.config.kinds.specimen import LAYER_HEIGHT, NOZZLE
 from sweep.config.profiles.settings import NEEDED, Settings, read_settings
-from sweep.design.slicer.patterns import ROUNDED, WIDTH_PER_NOZZLE
+from sweep.config.reading.other_names import present_choice
+from sweep.design.slicer.patterns import ROUNDED, WIDTH_PER_NOZZLE, is_lateral
 from sweep.numbers import in_unit, to_si
 
 T = TypeVar("T")
@@ -82,6 +83,9 @@ LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
         "alternate_extra_wall": ("0",),
         "sparse_infill_rotate_template": ("",),
         "gyroid_optimized": ("0",),
+        "lateral_lattice_angle_1": ("-45",),
+        "lateral_lattice_angle_2": ("45",),
+        "infill_overhang_angle": ("60",),
         "infill_wall_overlap": ("25%",),
         "filament_flow_ratio": ("1",),
         "print_flow_ratio": ("1",),
@@ -147,10 +151,19 @@ class _Translation:
             "layer_height": _quantity(layer, "mm"),
             "nozzle": _quantity(nozzle, "mm"),
             "perimeters": self._read(names.perimeters, _count),
-            "fill_angle": _quantity(self._read(names.angle, _number), "deg"),
+            "fill_angle": None if self.lateral else _quantity(self._angle, "deg"),
             "fill_multiline": self._read(names.lines, _count),
         }
         return {key: value for key, value in values.items() if value is not None}
+
+    @property
+    def lateral(self) -> bool:
+        """Whether the lines of the pattern run along the depth, whatever their angle on the bed."""
+        return is_lateral(present_choice("lattice.pattern", self._said(self.names.pattern)))
+
+    @property
+    def _angle(self) -> float | None:
+        return self._read(self.names.angle, _number)
 
     @property
     def automatic(self) -> bool:
@@ -168,6 +181,8 @@ class _Translation:
                 neutral = (*widths,)
             if value and value.removesuffix(".0") not in neutral:
                 yield f"{name} = {value}"
+        if self.lateral and self._angle:
+            yield f"{self.names.angle} = {self._said(self.names.angle)}"
 
     def _said(self, name: str) -> str:
         """The text of a setting, of the first extruder; "" if it is not there."""

@@ -40,6 +40,16 @@ CHOICES: dict[str, dict[str, str]] = {
         "bambulab": "orca",
         "ultimaker cura": "cura",
     },
+    "lattice.pattern": {
+        "2dlattice": "lateral-lattice",
+        "2d lattice": "lateral-lattice",
+        "laterallattice": "lateral-lattice",
+        "lateral lattice": "lateral-lattice",
+        "2dhoneycomb": "lateral-honeycomb",
+        "2d honeycomb": "lateral-honeycomb",
+        "lateralhoneycomb": "lateral-honeycomb",
+        "lateral honeycomb": "lateral-honeycomb",
+    },
     "loading.mode": {
         "crush": "displacement",
         "compression": "displacement",

@@ -32,7 +32,7 @@ def build_sliced(geometry: Geometry) -> Network:
     sliced, box = _sliced(geometry), np.array(geometry.box)
     least = sliced.line + 0.5 * max(geometry.outline)
     points, walls = joined(infill(sliced, geometry.box), box, least, sliced.distance)
-    thickness = np.full(len(walls), geometry.wall_thickness)
+    thickness = sliced.line * _thickness(sliced, points[walls])
     gyration = np.full(len(walls), PATTERNS[sliced.pattern].gyration)
     for axis, outline in enumerate(geometry.outline):
         for side in (0.0, box[axis]):
@@ -69,9 +69,25 @@ def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
 def _area(geometry: Geometry, lines: Floats) -> float:
     """What is extruded along the parts of lines (s, 2, 2) that are infill / depth, m^2."""
     sliced = _sliced(geometry)
-    room = np.array(geometry.box) - 2.0 * sliced.inset
-    inside = clipped(lines - sliced.inset, room, [True, True])
-    return sliced.extruded * float(np.linalg.norm(inside[:, 1] - inside[:, 0], axis=1).sum())
+    inset = np.array(sliced.inset)
+    inside = clipped(lines - inset, geometry.box - 2.0 * inset, [True, True])
+    thickness = _thickness(sliced, inside) - PATTERNS[sliced.pattern].corners * sliced.share
+    return sliced.line * float(np.linalg.norm(inside[:, 1] - inside[:, 0], axis=1) @ thickness)
+
+
+def _thickness(sliced: Sliced, ends: Floats) -> Floats:
+    """Thickness of walls (w, 2, 2) of the infill over what the lines of one fill, (w,).
+
+    Where layers are stacked up the drawing it is the cosine of the slope of the pattern that is
+    nearest to the one of the wall.
+    """
+    pattern = PATTERNS[sliced.pattern]
+    if not pattern.slopes:
+        return np.full(len(ends), pattern.wall)
+    across, up = np.abs(ends[:, 1] - ends[:, 0]).T
+    slopes = np.array(pattern.slopes)
+    nearest = np.abs(np.arctan2(across, up)[:, None] - slopes).argmin(axis=1)
+    return np.asarray(np.cos(slopes[nearest]))
 
 
 @lru_cache(maxsize=256)

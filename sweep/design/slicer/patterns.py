@@ -13,10 +13,21 @@ extruded is m r.
 In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
 is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
 second moment 10/3 s^3 / 12. Paths cut corners, so that (4 - r) s / 3 is extruded per length.
-(libslic3r, as read in its source.) No numpy here, so that a wrong config is refused at once.
+
+OrcaSlicer's lateral lattice and lateral honeycomb are prisms whose axis lies in the layers, which
+are stacked up the drawing: where a layer cuts a wall that is inclined by an angle a from the print
+axis, it has a line, and the wall is s cos(a) thick. The lattice has lines at a distance of 2 s / r
+that move by z tan(45 deg) with the height z, and as many that move by -z tan(45 deg). The honeycomb
+has single lines, 4/3 s / r apart, over two thirds of its height, and over one third pairs that part
+by z tan(60 deg) until they meet their neighbours: regular hexagons. Of several lines side by side
+it leaves out those that overlap, which is not offered. (`FillLateralLattice` and
+`FillLateralHoneycomb` with their default angles, `src/libslic3r/Fill/FillRectilinear.cpp` of
+OrcaSlicer at commit 0210c8ac.)
+
+No numpy here, so that a wrong config is refused at once.
 """
 
-from math import pi, radians, sqrt
+from math import cos, pi, radians, sqrt
 from typing import NamedTuple
 
 from sweep.design.surfaces.names import SHEETS
@@ -27,18 +38,20 @@ ROUNDED = 1.0 - pi / 4.0
 
 
 class Pattern(NamedTuple):
-    """A pattern that is the same in all layers.
+    """A pattern that is the same in all layers, or whose axis lies in them.
 
-    family: of `design.infill`, or "" for parallel lines. directions: of its lines, n. side: the
-    unit of the family over the distance of lines. opening: clear width of the narrowest cell over
-    the distance of lines. turn: of the family's drawing at a fill angle of 0, rad. middle: of the
-    drawing, in the unit of the family. wall: mean thickness over s; gyration: radius of gyration of
-    the section over that of a rectangle of the mean thickness. corners: per share of infill, what
-    paths that cut corners save of a wall / s. multiline: whether walls may be several lines.
+    family: of `design.infill`, or "" for parallel lines. spacing: distance of its parallel walls
+    x r / s, with a share r of infill. side: the unit of the family over that distance. opening:
+    clear width of the narrowest cell over that distance. turn: of the family's drawing at a fill
+    angle of 0, rad. middle: of the drawing, in the unit of the family. wall: mean thickness over s;
+    gyration: radius of gyration of the section over that of a rectangle of the mean thickness.
+    corners: per share of infill, what paths that cut corners save of a wall / s. multiline: whether
+    walls may be several lines. slopes: angles of its walls from the print axis, rad, if its axis
+    lies in the layers.
     """
 
     family: str
-    directions: int
+    spacing: float
     side: float
     opening: float
     turn: float = 0.0
@@ -47,6 +60,18 @@ class Pattern(NamedTuple):
     gyration: float = 1.0
     corners: float = 0.0
     multiline: bool = True
+    slopes: tuple[float, ...] = ()
+
+    @property
+    def is_even(self) -> bool:
+        """Whether it has cells, between walls of one thickness."""
+        return self.family != "" and len(self.slopes) < 2
+
+    @property
+    def most(self) -> float:
+        """Share of infill, of a single line, at which cells are twice as wide as their walls."""
+        thickest = max(map(cos, self.slopes), default=self.wall)
+        return 0.5 * self.opening * self.spacing / thickest
 
 
 PATTERNS = {
@@ -66,8 +91,28 @@ PATTERNS = {
         multiline=False,
     ),
     "alignedrectilinear": Pattern("", 1, 1.0, 1.0),
+    "lateral-lattice": Pattern(
+        "diamond",
+        sqrt(2.0),
+        sqrt(2.0),
+        1.0,
+        middle=(0.5, 0.0),
+        wall=sqrt(0.5),
+        multiline=False,
+        slopes=(radians(45.0),),
+    ),
+    "lateral-honeycomb": Pattern(
+        "hex",
+        4.0 / 3.0,
+        1.0 / sqrt(3.0),
+        1.0,
+        middle=(sqrt(0.75), 1.0),
+        wall=2.0 / 3.0,
+        multiline=False,
+        slopes=(0.0, radians(60.0)),
+    ),
 }
-"""Patterns by their names in PrusaSlicer."""
+"""Patterns by their names in PrusaSlicer; those that it does not have, in OrcaSlicer."""
 
 
 class SheetPattern(NamedTuple):
@@ -105,7 +150,7 @@ class Program(NamedTuple):
 PROGRAMS = {
     "prusa": Program(
         "PrusaSlicer",
-        {name: name for name in PATTERNS},
+        {name: name for name, pattern in PATTERNS.items() if not pattern.slopes},
         {"gyroid": SheetPattern("gyroid", 2.0 * pi / 2.44)},
     ),
     "orca": Program(
@@ -116,6 +161,8 @@ PROGRAMS = {
             "tri-hexagon": "stars",
             "honeycomb": "honeycomb",
             "alignedrectilinear": "alignedrectilinear",
+            "lateral-lattice": "lateral-lattice",
+            "lateral-honeycomb": "lateral-honeycomb",
         },
         {
             "gyroid": SheetPattern("gyroid", 2.0 * pi / 2.44),
@@ -148,6 +195,11 @@ SHEET_PATTERNS = {name for program in PROGRAMS.values() for name in program.shee
 def is_sheet(name: str) -> bool:
     """Whether a lattice of this name, a kind or the pattern of a slicer, is a sheet."""
     return name in SHEETS or name in SHEET_PATTERNS
+
+
+def is_lateral(name: str) -> bool:
+    """Whether the layers of a lattice of this name are stacked up the drawing."""
+    return name in PATTERNS and PATTERNS[name].slopes != ()
 
 
 def family_of(name: str) -> str:
@@ -224,61 +276,24 @@ def bare(name: str) -> str:
     return "".join(letter for letter in name.lower() if letter not in " -_")
 
 
-class Lateral(NamedTuple):
-    """A pattern of prisms whose axis lies in the layers.
-
-    family: that is drawn like it. thickness: mean of its walls / s. width: of a cell x r / s, with
-    a share r of infill and lines s. walls: how its walls differ from those of the family, in words.
-    """
-
-    family: str
-    thickness: float
-    width: float
-    walls: str = ""
-
-
-LATTICE = Lateral("diamond", sqrt(0.5), 2.0)
-MEAN = " (a mean: upright walls are twice as thick as inclined ones)"
-HONEYCOMB = Lateral("hex", 2.0 / 3.0, 4.0 / 3.0, MEAN)
-LATERAL = {
-    "laterallattice": LATTICE,
-    "2dlattice": LATTICE,
-    "lateralhoneycomb": HONEYCOMB,
-    "2dhoneycomb": HONEYCOMB,
-}
-"""Patterns of OrcaSlicer that are prisms, whose axis lies in the layers, by their `bare` names.
-
-In every layer, at a height z, the lattice has lines at a distance of 2 s / r that are shifted by
-z tan 45 deg, and as many by -z tan 45 deg. The honeycomb has single lines over two thirds of its
-height, at 4/3 s / r, and pairs of lines over one third, that part by z tan 60 deg. A wall that is
-inclined by an angle from the print axis is s cos(angle) thick. (`FillLateralLattice`,
-`FillLateralHoneycomb` of libslic3r, with their default angles.)
-"""
-
-
 class Sliced(NamedTuple):
     """How an infill is laid; lengths in m.
 
     pattern: as in `PATTERNS`. distance: of its parallel walls. angle: of the first ones from the
-    width, rad. line: m s, what the lines of one wall fill. inset: where they end within the box.
+    width, rad. line: m s, what the lines of one wall fill. inset: where they end within the sides
+    of the box, and within its bottom and top.
     """
 
     pattern: str
     distance: float
     angle: float
     line: float
-    inset: float
+    inset: tuple[float, float]
 
     @property
     def share(self) -> float:
         """Share of infill r, as the slicer counts."""
         return share_of(self.pattern, self.distance, self.line)
-
-    @property
-    def extruded(self) -> float:
-        """What is extruded per length of wall / layer height, m."""
-        pattern = PATTERNS[self.pattern]
-        return self.line * (pattern.wall - pattern.corners * self.share)
 
 
 def line_of(slicer: str, width: float, height: float) -> float:
@@ -293,12 +308,12 @@ def width_of(slicer: str, line: float, height: float) -> float:
 
 def distance_of(pattern: str, share: float, line: float) -> float:
     """Distance (m) of the parallel walls of a pattern; line: what the lines of a wall fill."""
-    return PATTERNS[pattern].directions * line / share
+    return PATTERNS[pattern].spacing * line / share
 
 
 def share_of(pattern: str, distance: float, line: float) -> float:
     """Share of infill at a distance (m) of the parallel walls: the inverse of `distance_of`."""
-    return PATTERNS[pattern].directions * line / distance
+    return PATTERNS[pattern].spacing * line / distance
 
 
 def spread_lines(slicer: str, lines: int) -> int:

@@ -9,7 +9,7 @@ from pandas import Series
 from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import ALONG, describe_column
-from sweep.design.slicer.patterns import is_sheet
+from sweep.design.slicer.patterns import is_lateral, is_sheet
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 ID = 4  # letters of an id in a sentence, if no other id begins so
 WAYS = {"in_plane": "across", ALONG: "along"}
 """How a lattice is pressed, by the column `direction`: across its cells or along them."""
+LAYERED = "delamination of printed layers is not modelled"
 MILLIMETRES = {
     "wall_thickness_m": "wall mm",
     "width_m": "width mm",
@@ -83,6 +84,8 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
     if _varies(among, "material_memory"):
         columns["behaviour"] = frame["material_memory"].replace("none", "elastic").astype(str)
     by_name = SHOWN_BY_NAME | ({"lattice.infill"} if "infill %" in columns else set())
+    if "infill %" in columns and len({*among.get("lattice.slicer", [])} - {""}) < 2:
+        by_name = by_name | {"lattice.slicer"}  # designs with a share of infill are its own
     if "lattice.file" in among and set(among["lattice.file"]) <= {"", *among["lattice_kind"]}:
         by_name = by_name | {"lattice.file"}  # drawings are named by their files
     for key in frame:
@@ -103,13 +106,15 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
 
 
 def about_direction(row: Series) -> list[str]:
-    """Sentences about what the model of shells leaves out; none for prisms across their cells."""
-    sheet = is_sheet(row["lattice_kind"])
+    """Sentences about how a design is pressed and what is left out; none for prisms of layers that
+    are pressed in their planes.
+    """
+    sheet, how = is_sheet(row["lattice_kind"]), WAYS[row["direction"]]
+    if is_lateral(row["lattice_kind"]):
+        return [f"pressed along its print axis; {LAYERED}"]
     if row["direction"] != ALONG and not sheet:
         return []
-    how = WAYS[row["direction"]]
-    axis = "print axis" if sheet else "cells"
-    lines = [f"pressed {how} its {axis}; delamination of printed layers is not modelled"]
+    lines = [f"pressed {how} its {'print axis' if sheet else 'cells'}; {LAYERED}"]
     solid, strain = row["solid_strain"], row["peak_strain"]
     if strain > solid:
         share = text_in(solid, "%", 3)

@@ -161,11 +161,11 @@ def _greatest_share(least: Case, size: Interval, budget: float) -> float:
     per_area = least.material.density * lattice.depth
 
     def excess(share: float) -> float:
-        distance = pattern.directions * lattice.lines / share
+        distance = pattern.spacing * lattice.lines / share
         sliced = geometry.sliced and geometry.sliced._replace(distance=distance)
         return per_area * counted_area(geometry._replace(sliced=sliced)) - budget
 
-    high = min(size.high, 0.5 * pattern.opening * pattern.directions / pattern.wall)
+    high = min(size.high, pattern.most)
     if excess(size.low) > 0.0:
         return 0.0
     if excess(high) <= 0.0:

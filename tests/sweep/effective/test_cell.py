@@ -55,6 +55,19 @@ def test_the_infill_of_a_slicer_has_its_share_and_its_angle(slicer, pattern, ang
     assert infill.angle == angle
 
 
+def test_a_lateral_lattice_is_one_of_diamonds():
+    """With walls of s cos(45 deg), 2 s / r wide."""
+    laid = of(slicer="orca", pattern="lateral-lattice", infill=0.2)
+    width, wall = 10.0 * laid.lattice.line, laid.lattice.line * np.sqrt(0.5)
+    box = {"width": 3 * width, "height": 3 * width, "cells_x": 3, "cells_y": 3}
+    drawn = of(kind="diamond", wall_thickness=wall, **box)
+    one, other = (frame_of(infill_of(case)) for case in (laid, drawn))
+    assert infill_of(laid).angle == 0.0
+    assert one.period == pytest.approx(other.period)
+    assert one.filled == pytest.approx(other.filled)
+    assert one.axial == pytest.approx(other.axial)
+
+
 def test_honeycomb_bends_as_its_double_walls_do():
     """Walls 2 s, s, s thick in turn: the mean second moment is 1.41 times that of the mean."""
     lattice = {"slicer": "prusa", "pattern": "honeycomb", "infill": 0.03}
@@ -89,6 +102,7 @@ def test_turning_a_stiffness_turns_its_axes():
         {"kind": "gyroid", "width": None, "height": None},
         {"grading": 1.5},
         {"slicer": "prusa", "pattern": "alignedrectilinear", "infill": 0.2},
+        {"slicer": "orca", "pattern": "lateral-honeycomb", "infill": 0.2},
     ],
 )
 def test_what_is_no_even_frame_is_refused(lattice):

@@ -36,6 +36,14 @@ def exported(file, path, **wish):
     return found
 
 
+def extents(file):
+    """Sizes of the model in a 3MF along x, y and z, mm."""
+    with ZipFile(file) as archive:
+        model = Xml.fromstring(archive.read("3D/3dmodel.model"))
+    points = [[float(v.get(k)) for k in "xyz"] for v in model.iter() if v.tag.endswith("vertex")]
+    return trimesh.PointCloud(points).extents
+
+
 def test_stl_weighs_what_the_ranking_says(file, tmp_path):
     found = exported(file, tmp_path / "part.stl")
     mesh = trimesh.load_mesh(tmp_path / "part.stl")
@@ -124,17 +132,32 @@ def test_block_in_3mf_has_settings(file, tmp_path):
     found = exported(file, tmp_path / "block.3mf", kind="settings", panel=("30 mm", "12 mm"))
     with ZipFile(tmp_path / "block.3mf") as archive:
         config = Xml.fromstring(archive.read("Metadata/Slic3r_PE_model.config"))
-        model = Xml.fromstring(archive.read("3D/3dmodel.model"))
     share = 2 * 0.8 / (12.5 / 3)
     keys = {node.get("key"): node.get("value") for node in config.iter("metadata")}
     assert keys["fill_density"] == f"{100 * share:.4g}%"
     assert int(config.find("object/volume").get("lastid")) == 2 * 12 - 1
-    points = [[float(v.get(k)) for k in "xyz"] for v in model.iter() if v.tag.endswith("vertex")]
-    assert trimesh.bounds.to_extents(trimesh.PointCloud(points).bounds)[0] == pytest.approx(
-        [2 * 13.7 - 0.4, 13.3, 12.0]
-    )
+    assert extents(tmp_path / "block.3mf") == pytest.approx([2 * 13.7 - 0.4, 13.3, 12.0])
     assert "sparse infill grid, 38.4%, direction 0 degrees" in found.notes[2]
     assert found.notes[0].startswith("2 side by side")
+
+
+@pytest.mark.parametrize(("name", "kind"), [("walls.stl", None), ("block.3mf", "settings")])
+def test_a_lateral_pattern_stands_on_its_layers(tmp_path, name, kind):
+    """Its height is z, and its lines run along y, which is its depth."""
+    box = dict(width=24e-3, height=12e-3, depth=18e-3)
+    case = Case.of(lattice=dict(slicer="orca", pattern="lateral-lattice", infill=0.15, **box))
+    found = export_case(case, tmp_path / name, kind=kind)
+    width, height = (1e3 * side for side in case.lattice.outer_size)
+    sides = pytest.approx([width, 18.0, height], abs=1e-3)
+    if kind is None:
+        body = trimesh.load_mesh(tmp_path / name)
+        assert body.is_watertight
+        assert body.extents == sides
+    else:
+        assert extents(tmp_path / name) == sides
+        assert "lateral-lattice, 15%, direction 0 degrees" in found.notes[1]
+        assert "4 top and bottom shell layers" in found.notes[1]
+        assert "perimeters in front and behind" in found.notes[2]
 
 
 def test_outlines_have_the_printed_area(file, tmp_path):

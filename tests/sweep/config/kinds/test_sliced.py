@@ -9,7 +9,6 @@ from sweep.config.case import Case
 from sweep.config.grid import expand
 from sweep.config.kinds.table import RefusedError
 from sweep.design.slicer.network import extruded_area
-from sweep.design.slicer.patterns import HONEYCOMB
 from tests.support.designs.tables import lattice_with
 
 SLICED = '[lattice]\nwidth = "20 mm"\nheight = "20 mm"\nslicer = "prusa"\n'
@@ -31,7 +30,7 @@ def test_a_slicer_fills_in_its_own_defaults():
     assert found.wall_thickness == found.line == pytest.approx(0.407e-3, abs=0.5e-6)
     assert found.fill_distance == pytest.approx(2.0 * found.line / 0.2)
     assert found.outline == (2 * found.line,) * 2
-    assert found.geometry.sliced.inset == pytest.approx((1.0 - 0.25) * found.line)
+    assert found.geometry.sliced.inset == pytest.approx([(1.0 - 0.25) * found.line] * 2)
     assert sliced(nozzle=0.6e-3).line_width == pytest.approx(0.675e-3)
     cura = sliced(slicer="cura")
     assert cura.wall_thickness == cura.line == cura.line_width == 0.4e-3
@@ -82,6 +81,7 @@ def test_a_mass_is_that_which_is_extruded(pattern):
 PATTERNS = '"grid", "triangles", "stars", "honeycomb", "alignedrectilinear", "gyroid"'
 SHARED = f'{GRID}infill = "20 %"\n'
 NO_PRISM = ("crosshatch is no prism", "would need prisms that turn: the nearest is")
+LATERAL = GRID.replace("prusa", "orca").replace("grid", "lateral-lattice")
 IDLE = ("no effect", "lattice.slicer is given")
 
 UNFIT = {
@@ -96,8 +96,18 @@ UNFIT = {
     SHARED.replace("grid", "cubic"): (
         *('lattice.pattern = "cubic"', "would need their joints", "the nearest is triangles"),
     ),
-    SHARED.replace("prusa", "orca").replace("grid", "lateral-honeycomb"): (
-        *('lattice.pattern = "lateral-honeycomb"', "lies in the layers", 'lattice.kind = "hex"'),
+    SHARED.replace("grid", "2D honeycomb"): (
+        *('lattice.pattern = "2D honeycomb"', '"lateral-honeycomb" with lattice.slicer "orca"'),
+    ),
+    SHARED.replace("grid", "tri-hexagon"): (
+        *('lattice.pattern = "tri-hexagon"', 'here it is "stars"'),
+    ),
+    f'{LATERAL}infill = "20 %"\nfill_angle = "45 deg"': (
+        *('lattice.fill_angle = "45 deg"', "0 degrees: lines of lateral-lattice run along"),
+    ),
+    f'{LATERAL}infill = "20 %"\nsolid_layers = 0': ("lattice.solid_layers = 0", *IDLE),
+    f'{LATERAL}infill = "20 %"\n\n[loading]\ndirection = "out_of_plane"': (
+        *('lattice.slicer = "orca"', "give kind and cells"),
     ),
     SHARED.replace("grid", "stripes"): ('lattice.pattern = "stripes"', PATTERNS),
     f'{SHARED}kind = "hex"': ('lattice.kind = "hex"', *IDLE),
@@ -143,7 +153,13 @@ def test_lines_side_by_side_are_as_many_times_farther_apart():
     )
 
 
-@pytest.mark.parametrize("wish", [{"slicer": "prusa"}, {"slicer": "orca", "pattern": "honeycomb"}])
+@pytest.mark.parametrize(
+    "wish",
+    [
+        {"slicer": "prusa"},
+        *({"slicer": "orca", "pattern": name} for name in ("honeycomb", "lateral-lattice")),
+    ],
+)
 def test_several_lines_are_of_slicers_and_patterns_that_have_them(wish):
     with pytest.raises(RefusedError, match=r"fill_multiline|1; more with lattice.slicer"):
         sliced(**{"pattern": "grid", "infill": 0.2, "fill_multiline": 2} | wish)
@@ -207,29 +223,24 @@ def test_several_lines_of_cura_stay_where_one_is():
         Case.of(lattice=box | {"infill": 0.2, "fill_multiline": 6})
 
 
-@pytest.mark.parametrize("name", ["lateral-lattice", "Lateral Lattice", "2D lattice"])
-def test_a_prism_in_the_layers_is_told_as_cells_of_equal_mass(lines, load, name):
-    """Cells and walls of the message fill the share that the slicer counts, crossings twice."""
-    text = '[lattice]\nwidth = "40 mm"\nheight = "40 mm"\n'
-    (line,) = lines(f'{text}slicer = "orca"\npattern = "{name}"\ninfill = "18 %"\n')
-    size, thickness = re.search(r'size = "(\S+ mm)", wall_thickness = "(\S+ mm)"', line).groups()
-    cells = f'kind = "diamond"\ncell_size = "{size}"\nwall_thickness = "{thickness}"\n'
-    lattice = load(text + cells).cases[0].lattice
-    side = math.sqrt(0.5) * lattice.width / lattice.cells_x
-    assert 2.0 * lattice.wall_thickness / side == pytest.approx(0.18, rel=0.05)
+@pytest.mark.parametrize(
+    ("name", "pattern"),
+    [
+        *[("2DLattice", "lateral-lattice"), ("Lateral Lattice", "lateral-lattice")],
+        *[("2dhoneycomb", "lateral-honeycomb"), ("laterallattice", "lateral-lattice")],
+    ],
+)
+def test_a_prism_in_the_layers_has_older_names(load, name, pattern):
+    (case,) = load(LATERAL.replace("lateral-lattice", name) + 'infill = "18 %"\n').cases
+    assert case.lattice.name == case.lattice.pattern == pattern
 
 
-@pytest.mark.parametrize(("infill", "dense"), [("18 %", False), ("90 %", True)])
-def test_a_dense_prism_in_the_layers_is_told_as_nearly_solid(lines, infill, dense):
-    """In layers at a right angle a gap is as wide as a period less a wall."""
-    (line,) = lines(
-        f'[lattice]\nslicer = "orca"\npattern = "lateral-lattice"\ninfill = "{infill}"\n'
-    )
-    assert ("walls have 82 % of the width of the gaps, all of it at 100 %" in line) == dense
-
-
-def test_the_walls_of_a_lateral_honeycomb_fill_its_share():
-    line, share = 0.4, 0.2
-    size = HONEYCOMB.width * line / share  # of a hexagon, from flat to flat
-    walls = math.sqrt(3.0) * size * HONEYCOMB.thickness * line
-    assert walls / (0.5 * math.sqrt(3.0) * size * size) == pytest.approx(share)
+@pytest.mark.parametrize("pattern", ["lateral-lattice", "lateral-honeycomb"])
+def test_a_prism_in_the_layers_has_them_up_the_height(pattern):
+    """Solid layers at the bottom and top begin where the infill ends."""
+    found = sliced(slicer="orca", pattern=pattern, infill=0.18)
+    assert (found.lateral, found.fill_angle, found.solid_layers) == (True, 0.0, 4)
+    assert found.outline == pytest.approx((2 * found.line, 0.8e-3))
+    assert found.geometry.sliced.inset == pytest.approx((0.75 * found.line, 0.4e-3))
+    assert Case.of(lattice=dict(found.inputs()) | {"solid_layers": 4}).lattice == found
+    assert not sliced().lateral

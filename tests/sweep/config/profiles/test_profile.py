@@ -132,6 +132,16 @@ def test_what_is_taken_over_and_left_out_is_told(ini):
     assert left.endswith("external_perimeter_extrusion_width = 0.6")
 
 
+@pytest.mark.parametrize("name", ["lateral-honeycomb", "2dlattice"])
+def test_lines_of_a_lateral_pattern_run_along_the_depth(orca, name):
+    """Whatever their angle on the bed is; angles of its walls are the usual ones."""
+    profile = orca(sparse_infill_pattern=name, infill_overhang_angle="45")
+    assert profile.values["pattern"] == name
+    assert "fill_angle" not in profile.values
+    assert profile.notes[1].endswith("infill_overhang_angle = 45, infill_direction = 45")
+    assert len(orca(sparse_infill_pattern=name, infill_direction="0").notes) == 1
+
+
 def test_the_other_gyroid_of_orcaslicer_is_left_out(orca):
     (_, left) = orca(sparse_infill_pattern="gyroid", gyroid_optimized="1").notes
     assert left.endswith("left out, as no wall here has it: gyroid_optimized = 1")

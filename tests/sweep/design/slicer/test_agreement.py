@@ -14,7 +14,7 @@ from sweep.design.lattice import build_network
 from sweep.design.slicer.network import infill
 from sweep.design.slicer.patterns import LIKE, NEAREST, PATTERNS, PROGRAMS, SLICERS, line_of
 from sweep.export.errors import ExportError
-from sweep.export.slicer import orca_keys, prusa_keys, settings_of
+from sweep.export.slicer import orca_keys, prusa_keys, prusa_reads, settings_of
 from sweep.report.figures.design_style import OF_FAMILY, _signs
 from sweep.result import design_columns
 from tests.support.designs.tables import lattice_with
@@ -24,9 +24,15 @@ SIDE = 4e-3  # m, of the unit of a drawing
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 
 
+def angle_of(pattern):
+    """A fill angle (rad) that a pattern may have."""
+    return 0.0 if PATTERNS[pattern].slopes else 0.3
+
+
 def laid(slicer, pattern, **changes):
     """A lattice of a slicer in a box of 60 mm."""
-    box = {"width": 60e-3, "height": 60e-3, "infill": 0.2, "fill_angle": 0.3, "nodes_per_wall": 1}
+    angle = angle_of(SLICERS[slicer][pattern])
+    box = {"width": 60e-3, "height": 60e-3, "infill": 0.2, "fill_angle": angle, "nodes_per_wall": 1}
     return lattice_with(slicer=slicer, pattern=pattern, **box | changes)
 
 
@@ -61,12 +67,14 @@ def test_of_a_slicer(slicer, pattern):
     width = settings.line_width
     assert sliced.line == line_of(slicer, width, settings.layer_height)
     drawn = length_per_area(infill(sliced, lattice.geometry.box), lattice.geometry.box)
-    assert drawn * sliced.line == pytest.approx(0.2, rel=0.05)
+    printed = PATTERNS[SLICERS[slicer][pattern]]
+    wall = printed.wall if printed.slopes else 1.0
+    assert drawn * wall * sliced.line == pytest.approx(0.2, rel=0.05)
     columns = design_columns(Case.of(lattice=lattice))
     assert (columns["lattice_kind"], columns["infill_share"]) == (pattern, 0.2)
     start = f"{PROGRAMS[slicer].title}: {pattern}, 20 %, line {1e3 * width:.3g} mm"
     assert columns["slicer_settings"].startswith(start)
-    assert f"angle {degrees(0.3):.3g} degrees" in columns["slicer_settings"]
+    assert f"angle {degrees(lattice.fill_angle):.3g} degrees" in columns["slicer_settings"]
 
 
 @pytest.mark.parametrize(("slicer", "pattern"), LAID)
@@ -82,15 +90,19 @@ def test_of_an_export(slicer, pattern):
     assert prusa["fill_pattern"] == SLICERS[slicer][pattern]
     assert SLICERS["orca"][orca["sparse_infill_pattern"]] == SLICERS[slicer][pattern]
     assert prusa["fill_density"] == orca["sparse_infill_density"] == "20%"
-    assert prusa["fill_angle"] == orca["infill_direction"] == f"{degrees(0.3):.4g}"
+    angle = f"{degrees(lattice.fill_angle):.4g}"
+    assert prusa["fill_angle"] == orca["infill_direction"] == angle
+    layers = "4" if lattice.lateral else "0"
+    assert prusa["top_solid_layers"] == orca["bottom_shell_layers"] == layers
+    assert lattice.lateral != prusa_reads(settings)
     assert prusa["infill_extrusion_width"] == f"{1e3 * lattice.line_width:.4g}"
 
 
 @pytest.mark.parametrize(("slicer", "pattern"), LAID)
 def test_of_names_and_signs(slicer, pattern):
-    family = PATTERNS[SLICERS[slicer][pattern]].family
-    if family:
-        assert present_choice("lattice.kind", pattern) == family
+    printed = PATTERNS[SLICERS[slicer][pattern]]
+    if family := printed.family:
+        assert printed.slopes or present_choice("lattice.kind", pattern) == family
         assert _signs([pattern]) == {pattern: OF_FAMILY[family]}
 
 

@@ -60,7 +60,7 @@ def test_no_drawing_loses_its_frame():
         if not isinstance(lattice, str):
             least = lattice.line + 0.5 * lattice.outline[0]
             check_frame(build_network(lattice.geometry), size, least)
-    assert outcome == {"drawn": 984, "lattice.infill": 264}
+    assert outcome == {"drawn": 1152, "lattice.infill": 288}
 
 
 @pytest.mark.parametrize(

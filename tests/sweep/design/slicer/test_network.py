@@ -13,11 +13,15 @@ from sweep.design.slicer.network import extruded_area, infill, share_for
 from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of, line_of
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
+LATERAL = [name for name, pattern in PATTERNS.items() if pattern.slopes]
+ANGLES = [(name, angle) for name in PATTERNS if name not in LATERAL for angle in (0.0, 30.0, 45.0)]
 
 
-def geometry(pattern, share=0.2, angle=45.0, size=20e-3, perimeters=2, line=LINE):
+def geometry(pattern, share=0.2, angle=None, size=20e-3, perimeters=2, line=LINE):
+    """The drawing of a pattern in a square, at its usual fill angle."""
+    angle = (0.0 if pattern in LATERAL else 45.0) if angle is None else angle
     distance, inset = distance_of(pattern, share, line), (0.5 * perimeters - 0.25) * line
-    sliced = Sliced(pattern, distance, radians(angle), line, inset)
+    sliced = Sliced(pattern, distance, radians(angle), line, (inset, inset))
     outline = (perimeters * line,) * 2
     wall = PATTERNS[pattern].wall * line
     return Geometry("square", None, (1, 1), (size, size), wall, outline=outline, sliced=sliced)
@@ -26,7 +30,7 @@ def geometry(pattern, share=0.2, angle=45.0, size=20e-3, perimeters=2, line=LINE
 def infill_density(pattern, share, line=LINE):
     """Share of a large part that is extruded, without its perimeters."""
     drawn = geometry(pattern, share, size=0.25, perimeters=0, line=line)
-    drawn = drawn._replace(sliced=drawn.sliced._replace(inset=0.0))
+    drawn = drawn._replace(sliced=drawn.sliced._replace(inset=(0.0, 0.0)))
     return extruded_area(drawn) / 0.25**2
 
 
@@ -38,7 +42,8 @@ def test_honeycomb_extrudes_more_than_it_says(share, printed):
 @pytest.mark.parametrize("pattern", [name for name in PATTERNS if name != "honeycomb"])
 @pytest.mark.parametrize("share", [0.1, 0.35])
 def test_other_patterns_extrude_what_they_say(pattern, share):
-    assert infill_density(pattern, share) == pytest.approx(share, rel=2e-3)
+    rows = 7e-3 if pattern in LATERAL else 2e-3  # those of a lateral pattern lie along the sides
+    assert infill_density(pattern, share) == pytest.approx(share, rel=rows)
 
 
 def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
@@ -50,18 +55,20 @@ def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
 
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_lines_turn_with_the_fill_angle(pattern):
-    """Those of honeycomb have the directions of triangles."""
+    """Those of a honeycomb have the directions of triangles."""
+    turned = {"honeycomb": 3, "lateral-honeycomb": 3, "lateral-lattice": 2}
+    count = turned.get(pattern, PATTERNS[pattern].spacing)
+    first = {"lateral-lattice": 45.0, "lateral-honeycomb": 30.0}.get(pattern, 0.0)
     for angle in (0.0, 20.0):
         lines = infill(geometry(pattern, angle=angle).sliced, (0.02, 0.02))
         along = np.diff(lines, axis=1)[:, 0]
         bearing = np.degrees(np.arctan2(along[:, 1], along[:, 0])) % 180.0
         found = np.unique(bearing.round(6) % 180.0)
-        count = 3 if pattern == "honeycomb" else PATTERNS[pattern].directions
-        assert found == pytest.approx(angle + 180.0 / count * np.arange(count), abs=1e-5)
+        expected = angle + first + 180.0 / count * np.arange(count)
+        assert found == pytest.approx(expected, abs=1e-5)
 
 
-@pytest.mark.parametrize("pattern", PATTERNS)
-@pytest.mark.parametrize("angle", [0.0, 30.0, 45.0])
+@pytest.mark.parametrize(("pattern", "angle"), [*ANGLES, *((name, 0.0) for name in LATERAL)])
 @pytest.mark.parametrize("share", [0.1, 0.25])
 def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
     drawn = geometry(pattern, share, angle)
@@ -77,7 +84,9 @@ def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
     assert (points.min(), points.max()) == (0.0, 20e-3)
     for x, y in ((0.0, 0.0), (20e-3, 0.0), (0.0, 20e-3), (20e-3, 20e-3)):
         assert ((points == (x, y)).all(axis=1)).sum() == 1
-    assert set(network.wall_thickness) == {drawn.wall_thickness, 2 * LINE}
+    slopes = PATTERNS[pattern].slopes
+    infills = {LINE * np.cos(slope) for slope in slopes} or {drawn.wall_thickness}
+    assert set(network.wall_thickness) == infills | {2 * LINE}
 
 
 @pytest.mark.parametrize("pattern", PATTERNS)
@@ -86,6 +95,46 @@ def test_patterns_look_the_same_upside_down(pattern):
     turned = 20e-3 - points
     gaps = np.linalg.norm(points[:, None] - turned, axis=2).min(axis=1)
     assert gaps.max() < 1e-9
+
+
+def lines_of_a_layer(pattern, height, s):
+    """Places of OrcaSlicer's lines in a layer at a height, with a share of 1, and their distance.
+
+    As `FillRectilinear.cpp` of OrcaSlicer at commit 0210c8ac has them: of the honeycomb, a third of
+    the vertical period is below a joint, where two lines come together, and every other period is
+    shifted.
+    """
+    if pattern == "lateral-lattice":
+        return [height, -height], 2.0 * s
+    half = 2.0 / 3.0 * s
+    third = half / np.tan(np.radians(60.0))
+    number = np.floor(height / third)
+    shift = half if (number + 1) // 3 % 2 else 0.0
+    if (number + 1) % 3:
+        return [shift], 2.0 * half
+    apart = half * (number + 1 - height / third)
+    return [shift - apart, shift + apart], 2.0 * half
+
+
+@pytest.mark.parametrize("pattern", LATERAL)
+def test_walls_are_where_layers_have_lines(pattern):
+    """From the lower end of an upright wall, or from a joint, which is the middle of the box."""
+    sliced = Sliced(pattern, distance_of(pattern, 1.0, LINE), 0.0, LINE, (0.0, 0.0))
+    ends = infill(sliced, (40.0 * LINE, 40.0 * LINE)) - 20.0 * LINE
+    side = PATTERNS[pattern].side * sliced.distance
+    zero = (sliced.distance / 2.0, -side / 2.0) if pattern == "lateral-honeycomb" else (0.0, 0.0)
+    ends = ends - zero
+    for height in np.random.default_rng(0).uniform(0.0, 6.0 * LINE, 40):
+        (x0, y0), (x1, y1) = ends[:, 0].T, ends[:, 1].T
+        cut = (y0 - height) * (y1 - height) < 0.0
+        drawn = x0[cut] + (x1 - x0)[cut] * (height - y0[cut]) / (y1 - y0)[cut]
+        drawn = drawn[np.abs(drawn) < 10.0 * LINE]
+        places, distance = lines_of_a_layer(pattern, height, LINE)
+        away = (drawn[:, None] - places) / distance
+        away = np.abs(away - away.round())
+        assert away.min(axis=1).max() < 1e-6
+        assert away.min(axis=0).max() < 1e-6
+        assert len(drawn) == pytest.approx(20.0 * LINE / distance * len(places), abs=2)
 
 
 def test_only_walls_of_honeycomb_bend_otherwise():

@@ -1,6 +1,6 @@
 """Lines and patterns of slicers: spacings, walls, names."""
 
-from math import sqrt
+from math import cos, pi, sqrt
 
 import pytest
 
@@ -23,7 +23,7 @@ LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 
 
 def laid(pattern, share, line=LINE):
-    return Sliced(pattern, distance_of(pattern, share, line), 0.0, line, 0.0)
+    return Sliced(pattern, distance_of(pattern, share, line), 0.0, line, (0.0, 0.0))
 
 
 def test_a_line_with_round_sides_fills_less_than_its_width():
@@ -42,6 +42,8 @@ def test_a_line_with_round_sides_fills_less_than_its_width():
         ("stars", sqrt(3.0)),
         ("honeycomb", 2.0 / sqrt(3.0)),
         ("alignedrectilinear", 1.0),
+        ("lateral-lattice", 2.0),
+        ("lateral-honeycomb", 4.0 / 3.0 / sqrt(3.0)),
     ],
 )
 def test_sides_are_those_of_the_slicer(pattern, side):
@@ -60,12 +62,23 @@ def test_walls_of_honeycomb_are_double_in_every_third_layer():
     assert comb.wall == pytest.approx((2.0 + 1.0 + 1.0) / 3.0)
     moment = comb.wall**3 * comb.gyration**2
     assert moment == pytest.approx((2.0**3 + 1.0 + 1.0) / 3.0)
-    assert {(p.wall, p.gyration) for p in PATTERNS.values() if p != comb} == {(1.0, 1.0)}
+    others = [pattern for pattern in PATTERNS.values() if pattern != comb and not pattern.slopes]
+    assert {(pattern.wall, pattern.gyration) for pattern in others} == {(1.0, 1.0)}
 
 
-def test_paths_of_honeycomb_cut_corners():
-    assert laid("honeycomb", 0.1).extruded == pytest.approx(1.3 * LINE)
-    assert laid("grid", 0.1).extruded == LINE
+def test_a_wall_of_layers_is_as_much_thinner_as_it_is_inclined():
+    """All walls of the lattice, and two of three equal sides of the honeycomb."""
+    assert PATTERNS["lateral-lattice"].wall == pytest.approx(cos(pi / 4.0))
+    assert PATTERNS["lateral-honeycomb"].wall == pytest.approx((1.0 + 2.0 * cos(pi / 3.0)) / 3.0)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "most"),
+    [("grid", 1.0), ("stars", 0.5), ("lateral-lattice", 1.0), ("lateral-honeycomb", 2.0 / 3.0)],
+)
+def test_at_most_cells_are_twice_as_wide_as_their_thickest_walls(pattern, most):
+    """Upright walls s of a lateral honeycomb, at 4/3 s / r = 2 s."""
+    assert PATTERNS[pattern].most == pytest.approx(most)
 
 
 def test_names_lead_to_patterns_and_families():

@@ -66,6 +66,14 @@ def test_designs_of_a_slicer_are_told_by_their_share_instead_of_cells():
     assert list(design_text(table, table)["infill %"]) == ["20", "30", "25"]
 
 
+def test_a_slicer_is_named_where_there_are_two():
+    """Designs of the only one have a share of infill."""
+    rows = [{"lattice.slicer": slicer, "infill_share": 0.2} for slicer in ("orca", "cura")]
+    one, two = summary({"lattice.slicer": ""}, rows[0]), summary({"lattice.slicer": ""}, *rows)
+    assert list(design_text(one, one)) == ["infill %"]
+    assert list(design_text(two, two)) == ["infill %", "slicer"]
+
+
 UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
 
 
@@ -77,10 +85,12 @@ def test_depth_of_a_plan_over_all_is_no_size_of_its_own(depths, shown):
     assert ("depth mm" in design_text(table, table)) == shown
 
 
-def test_what_plates_leave_out_is_told():
-    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8})
-    none, usual, beyond = (about_direction(row) for _, row in rows.iterrows())
+def test_what_plates_and_layers_leave_out_is_told():
+    lateral = {"lattice_kind": "lateral-lattice"}
+    rows = summary({}, UPRIGHT, UPRIGHT | {"peak_strain": 0.8}, lateral)
+    none, usual, beyond, layered = (about_direction(row) for _, row in rows.iterrows())
     assert none == []
+    assert layered == [usual[0].replace("its cells", "its print axis")]
     assert len(usual) == 1
     assert "delamination" in usual[0]
     assert beyond[0] == usual[0]
