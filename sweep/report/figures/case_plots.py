@@ -24,7 +24,7 @@ from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
 from sweep.modes import MODES
-from sweep.numbers import energy_text, in_unit, tenths, three_digits, to_si
+from sweep.numbers import energy_text, in_unit, scaled, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (
     PARTS,
@@ -166,12 +166,13 @@ def _energy(joules: float, row: Mapping[str, Any]) -> str:
 
 
 def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """The parts of the work done, stacked, in mJ: stored, kinetic, dissipated.
+    """The parts of the work done, stacked, in J or mJ: stored, kinetic, dissipated.
 
     Over the path of a driven platen, down and back; otherwise over time.
     """
     total, words, parts = stacked(history, row)
-    work, values = in_unit(total, "mJ"), in_unit(parts, "mJ").to_numpy().T
+    factor, unit = scaled("J", total.max())
+    work, values = factor * total, factor * parts.to_numpy().T
     place, label = path_of(history, row)
     ax.set_xlabel(label)
     for at, turn in turns(history, row).items():
@@ -179,7 +180,7 @@ def energies(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     colors, labels = [COLORS[name] for name in parts], [PARTS[name] for name in parts]
     ax.stackplot(place, *values, colors=colors, labels=labels, linewidth=0)
     ax.plot(place, work, color="black", lw=1.4, label=words)
-    ax.set_ylabel("energy, mJ")
+    ax.set_ylabel(f"energy, {unit}")
     ax.set_title(headline(row), loc="left", fontsize="medium")
     ax.margins(x=0.0, y=0.1)
     ax.set_ylim(bottom=min(0.0, work.min()))

@@ -138,6 +138,16 @@ def test_energies_add_up_to_the_work_along_the_path_of_the_platen(row):
     assert work.get_xdata()[-1] == pytest.approx(8.0)
 
 
+@pytest.mark.parametrize(("times", "unit", "factor"), [(1.0, "mJ", 1e3), (1e4, "J", 1.0)])
+def test_energies_have_a_unit_of_their_size(row, times, unit, factor):
+    history = there_and_back()
+    history[[*storyboard.PARTS, "work_in_J"]] *= times
+    ax = axes_of(case_plots.energies, history, row)
+    assert ax.get_ylabel() == f"energy, {unit}"
+    line = ax.get_lines()[-1]
+    assert line.get_ydata().max() == pytest.approx(factor * history["work_in_J"].max())
+
+
 def test_what_time_integration_gains_is_added_to_the_work(dead):
     history = under_dead_load()
     history = history.assign(**dict.fromkeys(storyboard.PARTS, 0.0))
