@@ -66,7 +66,7 @@ def heights(loops, low, high, levels):
 
 @jit_exact
 def _interval(loops, k, y):
-    """Return the interval of a polygon on a line at height ``y``, which meets no corner."""
+    """Return the interval of a polygon on a line at height ``y`` that passes through no corner."""
     begin, end = np.inf, -np.inf
     for i in range(loops.shape[1] - 1):
         (x0, y0), (x1, y1) = _corner(loops, k, i), _corner(loops, k, i + 1)
@@ -78,7 +78,7 @@ def _interval(loops, k, y):
 
 @jit_owning
 def area(loops, low, high, levels):
-    """Return the area of the union in m^2. levels (n,): all `heights`, ascending."""
+    """Return the area of the union in m^2. levels (n,): all `heights`, in ascending order."""
     active, left, right = np.empty(len(loops), np.int64), np.empty(len(loops)), np.empty(len(loops))
     count, begun, total, bottom = 0, 0, 0.0, levels[0]
     flat = FLAT * (levels[-1] - bottom)
