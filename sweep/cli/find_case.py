@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
-DIGITS = 3  # of a number in the ranking; a longer one begins an id
+DIGITS = 3  # most digits of a number in the ranking; a longer one begins an id
 
 
 class CaseError(ValueError):

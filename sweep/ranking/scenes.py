@@ -1,4 +1,4 @@
-"""Loading scenes: which cases are compared, and what their loading is called."""
+"""Loading scenes: which cases are compared, and the names of their loadings."""
 
 from __future__ import annotations
 
@@ -55,7 +55,9 @@ def scene_keys(frame: DataFrame) -> list[str]:
 
 
 def _standing(row: Series) -> list[str]:
-    """What presses the lattice of a row and what carries it, in words."""
+    """The striker or platen that presses the lattice of a row and the base that carries it, in
+    words.
+    """
     platen, striker, base = row["platen"], row["striker"], row["base"]
     plain = striker == "flat" and base == "flat"
     if plain:

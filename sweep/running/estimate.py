@@ -1,13 +1,12 @@
 """Estimates the cost of a sweep before it starts, from a few of its cases.
 
 The time of a case is assumed to be proportional to `batches.cost`, with a factor that is measured
-for each kind of loading and mesh. It depends on what a design does, such as how often walls touch:
-where cases are many or short, each kind is divided by family, wall thickness and load into groups
-with a factor of their own. A long case is stopped: its later steps are taken to be as slow as those
-in the second half of its time. Walls that are pressed along the cells take `FOLDING`, since steps
-are ten times slower after they collapse.
-Other programs share the cores as they do while the pilots run. The estimate may still be wrong by a
-factor of two.
+for each kind of loading and mesh. The factor depends on the behaviour of a design, such as how
+often walls touch: if cases are many or short, each kind is divided by family, wall thickness and
+load into groups with factors of their own. A long case is stopped: its later steps are assumed to
+be as slow as in the second half of its time. Walls that are pressed along the cells count `FOLDING`
+times, since steps are ten times slower after they collapse. Other programs are assumed to use the
+cores as they do while the pilots run. The estimate may still be wrong by a factor of two.
 """
 
 import time
@@ -69,8 +68,8 @@ class Estimate:
 
     The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
     that did not converge. The time is NaN if a pilot has no measured time. `stopped`: pilots whose
-    time is extrapolated from their first steps. `others`: threads of other programs that ran at the
-    same time, in the mean.
+    time is extrapolated from their first steps. `others`: mean number of threads of other programs
+    that ran at the same time.
     """
 
     cpu: float
@@ -82,7 +81,7 @@ class Estimate:
     others: float = 0.0
 
     def wall(self, workers: int, cores: int) -> float:
-        """Time (s) on so many workers, which share the cores with others."""
+        """Time (s) on ``workers``, which share the cores with other programs."""
         return self.cpu / workers * max((workers + self.others) / cores, 1.0)
 
 
@@ -133,8 +132,8 @@ def dry_run(
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
-    """Run one case of each kind of loading and mesh, then one of each of its groups if they are
-    short; scale their costs to all of their group.
+    """Run one case of each kind of loading and mesh and, if these are short, one of each of its
+    groups; scale their costs to their groups.
     """
     kinds: dict[tuple[str | int, ...], list[Case]] = {}
     for case in cases:
@@ -176,7 +175,9 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
 
 
 def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
-    """The function `simulate` in about `LONGEST`; it notes the processor time (s) of a case."""
+    """The function `simulate`, limited to about `LONGEST`; it records the processor time (s) of a
+    case.
+    """
     from dask.system import cpu_count
     from psutil import getloadavg
 
@@ -200,7 +201,9 @@ def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
 
 
 def _left(case: Case, middle: int, done: int) -> float:
-    """How much longer a case takes than it took for `done` steps, `middle` in half of that time."""
+    """How many times longer a case still takes after `done` steps, of which `middle` took half of
+    the time.
+    """
     count, loading = count_of(case.loading, case.solver), case.loading
     if _folds(case) and isinstance(loading, Crush) and case.solver.load_steps:
         strain = loading.strain * min(max(done, 1) / case.solver.load_steps, 1.0)
@@ -216,19 +219,19 @@ def _folds(case: Case) -> bool:
 
 
 def _limited(pilot: Case, limit: float) -> Case:
-    """The case with another time limit (s), which is no part of its id."""
+    """The case with another time limit (s), which does not enter its id."""
     solver = pilot.solver.model_copy(update={"time_limit": limit})
     return pilot.model_copy(update={"solver": solver})
 
 
 @contextmanager
 def _other_threads() -> Iterator[list[int]]:
-    """The numbers of threads, beside one of this process, that run on this machine now and then."""
+    """Numbers of threads of other programs that run on this machine, sampled now and then."""
     counts, ended = [_running() - 1], Event()
 
     def count() -> None:
         while not ended.wait(MOMENT):
-            counts.append(max(_running() - 2, 0))  # without this thread and that of the pilot
+            counts.append(max(_running() - 2, 0))  # without this thread and the thread of the pilot
 
     thread = Thread(target=count, daemon=True)
     thread.start()
@@ -240,8 +243,8 @@ def _other_threads() -> Iterator[list[int]]:
 
 
 def _running() -> int:
-    """Threads of the machine that run or could run, this one included; elsewhere than on Linux, at
-    most as many as it has cores.
+    """Threads of the machine that run or could run, including this one; on other systems than
+    Linux, at most as many as it has cores.
     """
     if LOAD.exists():
         return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
@@ -277,9 +280,9 @@ def _middle(ordered: Sequence[Case]) -> Case:
 def _groups(
     pilot: Case, alike: list[Case], spent: float, seconds: float
 ) -> list[tuple[Case, list[Case]]]:
-    """Groups of cases of one kind, each with the case that stands for it.
+    """Groups of cases of one kind, each with the case that represents it.
 
-    One group, for which `pilot` stands, unless others may run in the time `spent` (s).
+    One group, represented by `pilot`, unless others may run in the time `spent` (s).
     """
     affordable = 1.0 if isnan(seconds) else spent / max(seconds, 1e-3)
     count = int(min(GROUPS, affordable, len(alike) / SHARE))
@@ -292,7 +295,9 @@ def _groups(
 
 
 def _design(case: Case) -> tuple[str, float, float, float]:
-    """What decides how a case of its kind behaves: family, wall thickness, load, cost."""
+    """The values that determine how a case of its kind behaves: family, wall thickness, load,
+    cost.
+    """
     load = 0.0
     match case.loading:
         case DeadLoad(force=size) | Impact(energy=size) | Crush(stroke=size):

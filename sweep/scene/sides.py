@@ -60,7 +60,7 @@ def build_tied(case: Case) -> Scene:
 
 
 def _numbering(period: Period) -> BesideEachOther:
-    """The numbering of a period; its rows have the images of their nodes too."""
+    """The numbering of a period; its rows include the images of their nodes."""
     network = period.network
     bottom, top = (
         row_nodes(network, period.whole, np.flatnonzero(np.isin(network.origin, joints)))

@@ -65,7 +65,7 @@ def coupon_fit(figure: Figure, record: Curve, model: Curve, title: str) -> None:
 
 
 def _cross(ax: Axes) -> None:
-    """Axes through the origin, and what they show."""
+    """Axes through the origin, with their labels."""
     ax.axhline(0.0, color="black", lw=0.6)
     ax.axvline(0.0, color="black", lw=0.6)
     ax.set(xlabel="nominal strain", ylabel="nominal stress, MPa")
