@@ -1,8 +1,8 @@
 """The result of one case: a status, a message, a row of numbers, curves and shapes.
 
 Failure is a value: a case that does not finish is a `Result` with another status than `converged`,
-a message that says what to try, and the curves and shapes up to that point.
-Nothing here computes or opens a file.
+a message that says what to try, and the curves and shapes up to that point. Nothing here computes
+or opens a file.
 """
 
 from __future__ import annotations

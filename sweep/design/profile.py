@@ -1,6 +1,6 @@
 """Rigid profiles that press a lattice, or carry it: chains of straight lines, rounded by a radius.
 
-All lengths in m. A chain is convex and open; what it encloses is on its left
+All lengths in m. A chain is convex and open; the region it encloses is on its left
 (`kernels.geometry.profile`). A profile that moves has its tip at y = 0 and lies above it.
 """
 
@@ -28,7 +28,7 @@ class Profile(NamedTuple):
         return hull((self.chain[:, None] + disc).reshape(-1, 2))
 
     def upside_down(self) -> "Profile":
-        """The profile below its tip: what carries a lattice."""
+        """The profile below its tip, to carry a lattice."""
         return self._replace(chain=self.chain * [1.0, -1.0])
 
 
@@ -56,7 +56,7 @@ def _above(chain: list[list[float]], x: float, radius: float, tips: tuple[int, .
 
 
 def rib(x: float, radius: float, reach: float) -> Profile:
-    """A plate on edge, as thick as its round end is wide, as high as ``reach``, which points down.
+    """A plate on edge, as thick as its round end is wide and as high as ``reach``, pointing down.
 
     Its chain is one line, which encloses nothing.
     """

@@ -1,4 +1,4 @@
-"""Drawings as numbers: the JSON of a structure, CSV of nodes and walls, and LAMMPS data."""
+"""Reads drawings as numbers: the JSON of a structure, CSV of nodes and walls, and LAMMPS data."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -56,7 +56,7 @@ def read_json(path: Path) -> Lines:
 
 
 def read_csv(path: Path) -> Lines:
-    """Walls by the coordinates of their ends, or by nodes that a table above them has."""
+    """Walls by the coordinates of their ends, or by nodes in a table above them."""
     text = foreign_text(path, CSV)
     lines = (line for line in text.splitlines() if line.strip() and not line.startswith("#"))
     first = next(lines, "")
@@ -84,7 +84,9 @@ def read_csv(path: Path) -> Lines:
 
 
 class _Table(NamedTuple):
-    """Rows below a row of heads: heads -> place and size of the unit; None where it names none."""
+    """Rows below a row of heads: heads -> place and size of the unit; None if the head names
+    none.
+    """
 
     heads: dict[str, int]
     units: dict[str, float | None]
@@ -128,7 +130,7 @@ def _tables(rows: Sequence[Sequence[str]], decimal: str) -> Iterator[_Table]:
 
 
 def _headed(cells: Sequence[str], decimal: str) -> _Table:
-    """A table without rows, whose heads these cells are; other cells are no heads."""
+    """A table without rows, if these cells are heads; else None."""
     words = [OTHER_HEADS.get(cell.lower(), cell.lower()) for cell in cells]
     matches = {place: _HEAD.fullmatch(word) for place, word in enumerate(words)}
     heads = {match[1]: (place, match[2]) for place, match in matches.items() if match}
@@ -202,7 +204,7 @@ def read_lammps(path: Path) -> Lines:
 
 
 def _inside(ends: Floats, box: Floats) -> Lines:
-    """The bonds but for those around a periodic box, which are shorter the other way."""
+    """The bonds except those around a periodic box, which are shorter the other way."""
     reach = np.abs(ends[:, 1] - ends[:, 0])
     around = ((reach > 0.5 * box) & (reach < (1.0 - ROUND_OFF) * box)).any(axis=1)
     count = int(around.sum())

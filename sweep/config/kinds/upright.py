@@ -1,4 +1,4 @@
-"""A lattice that is pressed along its cells: numbers of quads, and what cannot stand upright."""
+"""A lattice that is pressed along its cells: numbers of quads, and refusals of unsuitable walls."""
 
 from typing import Any, TypeVar
 
@@ -55,7 +55,9 @@ def _check(lattice: Specimen) -> None:
 
 
 def _too_low(lattice: Specimen, thickest: float) -> RefusedError:
-    """The error of a height below that of one quad, the thickness of the thickest wall, m."""
+    """The error for a height below the height of one quad, the thickness of the thickest wall,
+    m.
+    """
     of_file = "depth" in lattice.derived
     least = f"{at_least(TO_MM * thickest)} mm" if of_file else f"{at_least(thickest)} m"
     allowed = f"at least the wall thickness, {least} here, {WHERE}"

@@ -1,1 +1,1 @@
-"""Profiles of slicers: the file, its settings, and what they mean for a lattice."""
+"""Reads profiles of slicers: the file, its settings, and their meaning for a lattice."""
