@@ -41,7 +41,9 @@ class OnePackage(build_py):
 
 
 def move(built, package):
-    """Move what was built into a package, and add what is no module of the checkout."""
+    """Move the built modules into a package, and add the files that are no modules of the
+    checkout.
+    """
     package.mkdir()
     (built / "crumple.py").rename(package / "__init__.py")
     for folder in ("kernels", "sweep"):

@@ -26,7 +26,7 @@ class Column:
 
 
 TIED_SIDES = "tied"
-ALONG = "out_of_plane"  # of the column `direction`
+ALONG = "out_of_plane"  # a value of the column `direction`
 """First word of the column `sides` where they are tied to each other."""
 
 COLUMNS: dict[str, Column] = {

@@ -54,7 +54,7 @@ class Mode(NamedTuple):
     noun: the loading in words; without: why a requirement does not apply to it. requires: the
     requirements whose values the design sets, not the loading. title: the loading of a row in
     words. curve: abscissa and ordinate of its curve. columns: its own columns of results; scene:
-    columns of which every value makes a scene.
+    columns whose values distinguish scenes.
 
     driven: a platen moves by a stroke, so that energy counts until densification and force over
     travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the

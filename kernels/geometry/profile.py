@@ -19,7 +19,7 @@ from kernels.compile.jit import jit_exact
 
 KEPT = 0.1  # share of the distance that is kept
 MOST_ROUNDS = 100  # the share reached after so many steps is admissible too
-CLOSE = 0.1  # of the distance that is kept: the advance ends when it is closer to that distance
+CLOSE = 0.1  # share of the kept distance: the advance ends when it is closer to that distance
 
 
 class Profiles(NamedTuple):

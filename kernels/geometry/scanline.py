@@ -13,9 +13,9 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
 FLAT = 1e-12  # least sine between a line and a side of a rectangle
-ANGLE = 0.4  # of the lines, rad: the rule is of first order where walls are parallel to them
+ANGLE = 0.4  # angle of the lines, rad: the rule is of first order where walls are parallel to them
 COSINE, SINE = np.cos(ANGLE), np.sin(ANGLE)
-MOST_LINES = 1 << 17  # in all: bounds the lines per wall where walls are very thin
+MOST_LINES = 1 << 17  # total number: bounds the lines per wall where walls are very thin
 
 
 class Shapes(NamedTuple):

@@ -11,7 +11,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
 PARALLEL = 1e-14  # least sine between two sides that cross elsewhere than at corners
-FLAT = 1e-15  # of the total height: a lower slab is merged with the next one
+FLAT = 1e-15  # share of the total height: a lower slab is merged with the next one
 
 
 @jit_exact

@@ -18,8 +18,8 @@ stress is a multiple of s plus a constant. Both follow from the potential
                                       slope = sum g_i (a_i x_i - c_i s)
 
 whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
-than an elastic one; only the commit goes through the branches. It also books what the elastic law
-dissipates where it softens (Mullins effect, `softening`).
+than an elastic one; only the commit goes through the branches. It also books the dissipation of the
+elastic law where it softens (Mullins effect, `softening`).
 
 Source: Y. C. Fung, Biomechanics, 1981. The energies follow by the Legendre transform of phi.
 """
@@ -34,7 +34,7 @@ from kernels.compile.jit import jit, jit_exact, jit_owning
 # Places in a state. ENERGY, STRESS and TANGENT are the response of the elastic law at STRAIN; from
 # BRANCHES on there are all s_i, then all e_i. TANGENT is zero if the point was never strained.
 STRAIN, STORED, MOST, ENERGY, STRESS, TANGENT, BRANCHES = range(7)
-SMALL = 1e-2  # of dt / tau: below it `_square` is a series
+SMALL = 1e-2  # dt / tau below which `_square` is a series
 NEAR = 1e-4  # difference of two strains below which a curve counts as straight: its energy is then
 # wrong by less than 1e-8 of the energy at a strain of 1 %
 TRIES = 60  # steps of Newton's method

@@ -140,7 +140,7 @@ def _of_compression(nominal, least, y, tension, floor):
     one, two = OCTAVE, 2 * OCTAVE
     value[:two], slope[:two] = principal(nominal, least, -y[:two])
     slope[:two] = np.maximum(slope[:two], floor)
-    apart, before = 0.0, 0.0  # what the limits add to the slope, and its integral
+    apart, before = 0.0, 0.0  # change of the slope by the limits, and its integral
     for k in range(two, y.size):
         wanted = pressed_rise[k] - 0.5 * (tension[1][k - one] - 0.5 * slope[k - two])
         slope[k] = min(max(wanted, floor), 2.0 * (tension[1][k + one] - floor))

@@ -15,7 +15,7 @@ from kernels.arrays import pair
 from kernels.compile.jit import jit_exact
 from kernels.geometry.distance import closest, normal
 
-SWEEPS = 100  # at most
+SWEEPS = 100  # greatest number
 TOLERANCE = 1e-6  # share of the contact distance by which a pair may be too close
 
 

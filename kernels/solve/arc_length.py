@@ -59,9 +59,9 @@ PATH_PROGRESS = np.dtype(
 )
 POINT = np.dtype((np.record, [("factor", np.float64), ("unstable", np.float64)]))
 CORRECTIONS = 20  # most Newton iterations of an arc
-ARC_TOLERANCE = 1e-6  # of |u|_w^2 - s^2, relative to s^2
+ARC_TOLERANCE = 1e-6  # tolerance of |u|_w^2 - s^2, relative to s^2
 LEAST_COSINE = 0.7  # between an arc and the tangent at its start: less means another branch
-LARGEST_LOAD_STEP = 0.05  # of the full load: bounds the predicted load increment of an arc
+LARGEST_LOAD_STEP = 0.05  # share of the full load: bounds the predicted load increment of an arc
 
 
 class Arc(NamedTuple):

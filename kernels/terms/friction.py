@@ -148,7 +148,7 @@ def _nearness(contact, pairs, touching, i, v):
 @jit_exact
 def _claim(lagged_contacts, contact, pairs, first, v, nearness, wanted):
     """Claim ``wanted`` in N, in proportion, from the loads of a node with this ``nearness`` to
-    vertex ``v``; return what exceeds these loads.
+    vertex ``v``; return the part that exceeds these loads.
     """
     touching, load = lagged_contacts.touching, lagged_contacts.load
     total, j = 0.0, first

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from sweep.config.faults import MisfitError
 
-FOLDER = "results"  # of the files that `run` writes
+FOLDER = "results"  # folder of the files that `run` writes
 
 
 def results_file(text: str) -> str:

@@ -238,7 +238,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
 
 
 def _keys_to_use(recipe: Recipe) -> list[str]:
-    """The keys of a case that a config sets, of which every one must have an effect."""
+    """The keys of a case that a config sets, each of which must have an effect."""
     stated = [
         key for key, value in recipe.base.items() if not (key in MAY_BE_UNUSED or value.implied)
     ]
@@ -346,7 +346,7 @@ def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fa
 
 
 def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
-    """The line of the first of several refusals, with their number and what they share."""
+    """The line of the first of several refusals, with their number and their common values."""
     (key, line), _ = refusals[0]
     if count > 1:
         shared = _shared(key, [chosen for _, chosen in refusals], recipe)

@@ -19,10 +19,10 @@ from sweep.coupon.uncertainty import standard_errors
 from sweep.numbers import text_in
 
 BETA = 0.1  # assumed where the record does not show it
-LARGER = 1.2  # times the first peak: a second peak determines beta
+LARGER = 1.2  # ratio to the first peak from which a second peak determines beta
 SLACK = 0.02  # share of the greatest stress below which a strip may be slack
 ABOVE = 0.02  # share of the work by which noise may raise unloading above loading
-UNLOADED = 0.05  # of the greatest stress
+UNLOADED = 0.05  # share of the greatest stress
 AS_GOOD = 1.05, 5e-4  # share of the least misfit, and of the greatest stress
 STEP = 1e-3  # relative step of the numbers for finite differences
 BOUNDS = {

@@ -6,8 +6,8 @@ import numpy as np
 
 from sweep.coupon.record import Coupon, Floats
 
-TURN = 0.05  # of the greatest strain: smaller turns are noise
-POINTS = 80  # of the path of a leg
+TURN = 0.05  # share of the greatest strain: smaller turns are noise
+POINTS = 80  # most points of the path of a leg
 NAMES = ("the first loading", "unloading", "reloading")
 
 

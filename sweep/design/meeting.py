@@ -14,7 +14,7 @@ import numpy as np
 from sweep.design.drawing import Floats, Indices
 
 NEAR = 1e-4  # share of the greater side of the drawing
-FAR = 10.0  # times `NEAR`: greatest move of a point
+FAR = 10.0  # greatest move of a point / `NEAR`
 ROUND_OFF = 1e-9  # share of the same side
 ROUNDS = 20  # rounds in which lines that move by `NEAR` may meet others
 CHUNK = 256  # number of lines whose crossings are found at a time

@@ -11,7 +11,7 @@ import numpy as np
 
 from sweep.design.drawing import Floats
 
-ARC = np.deg2rad(5.0)  # of the drawing of a round part
+ARC = np.deg2rad(5.0)  # turn between points of a drawn round part
 
 
 class Profile(NamedTuple):

@@ -1,4 +1,4 @@
-"""`Ranking`, what `rank.ranked` returns: the table, and data that are not in the table."""
+"""The answer of `rank.ranked`, a `Ranking`: the table, and data that are not in the table."""
 
 from __future__ import annotations
 

@@ -41,11 +41,11 @@ from sweep.running.threads import Stop, run_on_threads
 from sweep.running.warming import real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
-BYTES = 4  # of a stored number, in single precision
+BYTES = 4  # per stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
 SPENT = 8.0  # s of processor time for the groups of all kinds
 LONGEST = 10.0  # s of processor time for a pilot; a longer one is stopped and extrapolated
-GROUPS = 9  # of one kind
+GROUPS = 9  # most groups of one kind
 SHARE = 3  # least number of cases in a group
 FOLDING = (
     (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.45, 0.5, 1.0),
@@ -55,9 +55,9 @@ FOLDING = (
 
 The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as between 45 and 50 %.
 """
-UNFOLDING = 0.25  # of the time that loading takes
+UNFOLDING = 0.25  # share of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
-LOAD = Path("/proc/loadavg")  # of Linux
+LOAD = Path("/proc/loadavg")  # in Linux
 HALF = 50.0  # % of the time of a core that is busy
 MOMENT = 0.1  # seconds between two looks at it
 

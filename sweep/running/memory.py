@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 PROC, GROUPS = Path("/proc"), Path("/sys/fs/cgroup")
-GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of the second and the first version
+GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of versions 2 and 1 of control groups
 USED, KB = 0.95, 1024  # the share of a control group that is data; the unit of /proc
 
 

@@ -33,8 +33,8 @@ from sweep.scene.terms import (
     walls_of,
 )
 
-SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
-FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
+SUDDEN = 5e-3  # share of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
+FAR = 1e3  # height of the ceiling that contact requires / size of a structure
 DIRECTIONS = ("x", "y", "rotation")
 
 

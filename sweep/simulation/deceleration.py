@@ -13,7 +13,7 @@ from sweep.scene.mesh import Floats
 
 CORNER = 2.0775  # corner over the class, Hz
 SAMPLES = 10.0  # least samples per second / class
-RINGING = 5.0  # times 1 / corner, after which the filter has forgotten
+RINGING = 5.0  # times 1 / corner after which the filter has settled
 ROUND_OFF = 1e-9
 
 

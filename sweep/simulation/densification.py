@@ -23,8 +23,8 @@ import numpy as np
 
 from sweep.scene.mesh import Floats
 
-BAND = 0.2  # of the greatest efficiency: strains within it count
-ALIKE = 0.02  # of the greatest efficiency: maxima within it may exchange their ranks
+BAND = 0.2  # share of the greatest efficiency within which strains count
+ALIKE = 0.02  # share of the greatest efficiency within which maxima may exchange their ranks
 
 
 def efficiency(stress: Floats, work_density: Floats) -> Floats:

@@ -17,9 +17,9 @@ import numpy as np
 from sweep.scene.mesh import Floats
 
 SHORT, LONG = (0.2, 0.3), (0.2, 0.4)  # strains of the two means
-PLATEAU_END = 1.3  # times the plateau stress
+PLATEAU_END = 1.3  # ratio to the plateau stress
 FIXED = 0.5  # strain up to which energies are compared
-RISE = (0.2, 0.7)  # of the plateau stress
+RISE = (0.2, 0.7)  # shares of the plateau stress
 ROUND_OFF = 1e-9
 
 

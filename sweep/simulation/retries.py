@@ -27,12 +27,12 @@ from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import EXPIRED, simulate
 from sweep.simulation.time_resolution import resolving_step
 
-SHORTER = 4  # times as many steps
+SHORTER = 4  # ratio of the numbers of steps
 TIMES = 4  # retries of an impact, each with a quarter of the previous time step
 FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
 STEADY = "backward_euler"  # creates no energy, whatever its steps
-BOWED, BOW = 1.5, 0.01  # times the imperfection; in place of none, in wall thicknesses
+BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
 
 def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 MERGE_AT = 64  # parts of one size that are merged; so there are never more than a few hundred
 MOMENT, LONGEST = 0.1, 2.0  # seconds between two attempts to replace a file, and for all of them
-NO_FSYNC = {errno.EINVAL, errno.EOPNOTSUPP}  # of a folder, on some network file systems
+NO_FSYNC = {errno.EINVAL, errno.EOPNOTSUPP}  # for folders on some network file systems
 
 _NAME = re.compile(r"(\d{1,18})-(\d{1,18})\.h5")
 _TEMPORARY = ".tmp"

@@ -128,8 +128,8 @@ def factor(matrix, scale, weights, shift, rounded):
     """Factor A + shift diag(weights) = L D L^T; ``values`` keeps A.
 
     Return (failed, pivot): unknown and value of the first negative pivot, -1 if none. scale (n,):
-    stiffness of each unknown, of its unit, beside which a pivot is zero within round-off. weights
-    (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
+    stiffness of each unknown, in its unit, relative to which a pivot is zero within round-off.
+    weights (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
     """
     _read_diagonal(matrix, weights, shift)
     matrix.failed[0] = -1

@@ -13,7 +13,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 
 # Nanoseconds, measured on one core of 2.6 GHz with AVX2; only their ratios matter.
 OPERATION = 0.027
-ENTRY = 2.5  # of a panel: copied, and read in the solves
+ENTRY = 2.5  # per entry of a panel: copied, and read in the solves
 PASSED_ON = 2.0  # an entry of an update
 SUPERNODE = 2000.0
 

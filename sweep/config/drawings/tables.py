@@ -17,7 +17,7 @@ from sweep.numbers import counted
 from sweep.plain_text import plain
 
 MOST_ROWS = 200_000
-ROUND_OFF = 1e-6  # of a box
+ROUND_OFF = 1e-6  # share of the size of a box
 LINE, NODE, WALL = ("x1", "y1", "x2", "y2"), ("x", "y"), ("from", "to")
 IDS = ("node", *WALL)
 OTHER_HEADS = {

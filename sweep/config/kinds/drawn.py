@@ -17,7 +17,7 @@ from sweep.numbers import at_most
 DRAWN: Final = "drawn"
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
 
-SIZED = 1e-6  # relative error of a size of the drawing that a config states
+SIZED = 1e-6  # relative error of a stated size of the drawing
 
 
 def _sound(drawing: Drawing) -> Drawing:

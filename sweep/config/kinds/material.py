@@ -41,7 +41,7 @@ Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bar
 Stretched = Annotated[
     float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
 ]
-IDLE_ALONG = ("plane", "poisson")  # keys of which plates take the default
+IDLE_ALONG = ("plane", "poisson")  # keys that have their defaults in plates
 SECTIONS = ("section", "fibres")  # `Material.bend` that integrates a law over the thickness
 
 

@@ -19,13 +19,13 @@ from sweep.design.surfaces.names import BLOCK, SHEETS
 from sweep.numbers import at_least, at_most
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
-CELL_SIZE = 0.5  # of the height pressed: two periods
-THICKEST = 0.2  # of a period, about half of the clear width of a channel
+CELL_SIZE = 0.5  # share of the pressed height: two periods
+THICKEST = 0.2  # share of a period, about half of the clear width of a channel
 NARROW = "where walls are below a fifth of the period"
 S = TypeVar("S", bound="Surface")
-LEAST = 0.6  # of the period wanted
+LEAST = 0.6  # share of the wanted period
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
-MOST_QUADS = 20_000  # with six unknowns for each
+MOST_QUADS = 20_000  # each with six unknowns
 SIDES = ("width", "height", "depth")
 FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
 

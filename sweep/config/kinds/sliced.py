@@ -52,7 +52,7 @@ FILL_ANGLE, PERIMETERS = radians(45.0), 2
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
 MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
 NEAR = 0.1  # shares tried instead of one that cannot be drawn
-SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart the lines are
+SIZES = ("infill", "line_distance", "mass")  # keys, one of which sets how far apart the lines are
 DENSE = 0.5  # share from which cells of lines are nearly solid
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 

@@ -18,7 +18,7 @@ from sweep.config.kinds.solver import (
 )
 from sweep.config.kinds.table import Inputs, Pairs, RefusedError, given_or, own_values
 
-BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
+BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # for a quasi-static crush without load_steps
 BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
 ALONG = {"time_limit": 3600.0, "max_iterations": 300}  # where walls snap, 60 to 200 are common
 IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")

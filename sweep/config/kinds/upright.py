@@ -9,7 +9,7 @@ from sweep.constants import TO_MM
 from sweep.numbers import at_least
 
 NODES = 5  # inside a wall: six quads across
-MOST_NODES = 20_000  # with six unknowns each
+MOST_NODES = 20_000  # each with six unknowns
 CAUSES = ("file", "cell_size", "infill", "cells_x", "cells_y", "nodes_per_wall", "layers", "depth")
 S = TypeVar("S", bound=Specimen)
 

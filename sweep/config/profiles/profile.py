@@ -96,8 +96,8 @@ WALL_WIDTHS = ("perimeter_extrusion_width", "external_perimeter_extrusion_width"
 
 
 class Profile(NamedTuple):
-    """A profile. values: keys of [lattice], as a config writes them. notes: sentences about what
-    was taken over, what was not stated, and what was left out.
+    """A profile. values: keys of [lattice], as a config writes them. notes: sentences about
+    settings that were adopted, missing or left out.
     """
 
     values: dict[str, Any]

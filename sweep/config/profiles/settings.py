@@ -31,7 +31,7 @@ INSIDE = {
 }
 """Where OrcaSlicer and Bambu Studio, PrusaSlicer and SuperSlicer keep the settings of a project."""
 OF_SUPERSLICER = {"infill_extrusion_spacing", "infill_dense", "fill_smooth_width"}
-GENERATIONS = 12  # of parents
+GENERATIONS = 12  # most generations of parents
 BROKEN = (zipfile.BadZipFile, zlib.error, RuntimeError, OSError, EOFError, ValueError, LookupError)
 OF_CURA = (
     'of Cura, most of whose values are formulas of the program; write slicer = "cura" with '

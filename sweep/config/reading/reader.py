@@ -258,7 +258,7 @@ class Reader:
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
 
     def _search(self, document: dict[str, Any]) -> dict[str, Interval | Choice]:
-        """What a search may choose: keys with an interval, or with a list of values."""
+        """The values that a search may choose: keys with an interval, or with a list of values."""
         section = _flat(self._section(document, "search"))
         for other in ("grid", "zip", "exclude") if section else ():
             if document.get(other):

@@ -9,7 +9,7 @@ from sweep.config.faults import MisfitError
 from sweep.numbers import text_in
 
 MOST_BYTES = 64_000_000  # most bytes of a file of another program
-WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # of Excel, new and old
+WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of Excel files, new and old
 
 
 def text_of(path: Path, needed: str) -> str:

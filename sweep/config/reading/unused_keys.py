@@ -19,7 +19,7 @@ from sweep.config.materials.material_file import locate, read_record
 from sweep.config.structures.structure import Structure
 
 STILL = "the crush is quasi-static"
-SIDES = ("sides", "width")  # of sheets
+SIDES = ("sides", "width")  # keys of sheets
 DRIVEN = ("solver.load_steps", "solver.accuracy")
 CHOICE = {
     "lattice": "kind",
@@ -47,7 +47,7 @@ def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case
 
 
 def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
-    """A clause that says what has no effect, and why; empty if the key has its full effect."""
+    """A clause that says which part of a value has no effect, and why; empty if all of it has."""
     if key == "lattice.file" and case.lattice.loaded:
         return _unused_part(case.lattice.loaded, case)
     why = why_unused(key, given, case)

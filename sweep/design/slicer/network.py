@@ -23,7 +23,7 @@ from sweep.design.network import Network
 from sweep.design.slicer.joining import joined
 from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of
 
-LEAST_SHARE = 0.01  # of infill, tried for a mass
+LEAST_SHARE = 0.01  # least share of infill tried for a mass
 CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once
 
 

@@ -30,7 +30,7 @@ NEWTON = 4  # steps back to the surface after a move
 LONGEST = 0.3  # such a step, in cells
 GOOD, GOOD_BESIDE_WALLS = 0.3, 0.15  # `Net.quality`; quads beside a curve are half as wide
 MORE = sorted(product(range(3), repeat=3), key=sum)  # cells
-PLACES = tuple(product((0.13, 0.63), repeat=2))  # of the box, in cells
+PLACES = tuple(product((0.13, 0.63), repeat=2))  # places of the box that are tried, in cells
 AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from the last of these
 
 

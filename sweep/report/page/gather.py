@@ -62,9 +62,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-POINTS = 60  # of a curve
+POINTS = 60  # most points of a curve
 LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
-LEAST_POINTS = 12  # of a curve in a page of many cases
+LEAST_POINTS = 12  # most points of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with

@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     Indices = NDArray[np.int64]
 
 MOST = 300  # designs
-SAMPLE = 50  # of these, from all the others
+SAMPLE = 50  # number of these that are sampled from all the others
 SCENES = 40
 PLACES = 15  # within a budget
-LIMITED = 8  # of those that are the best below some limit of a requirement
+LIMITED = 8  # number of designs that are the best below some limit of a requirement
 STOPPED, LEAST_STOPPED = 60, 10  # unfinished cases in all scenes; of each at least
 GROUPS = 256  # in all scenes
 LIMITS = {

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     Gap = Callable[[Floats, Floats, Floats], Floats]
 
 TINY = np.finfo(float).tiny
-LEAST_WORK = 1e-3  # of all work: below, an error counts relative to this work
-ALIKE = 0.5  # of the greatest distance: points so far away are added in the same round
+LEAST_WORK = 1e-3  # share of all work: below, an error counts relative to this work
+ALIKE = 0.5  # share of the greatest distance: points so far away are added in the same round
 
 
 def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None = None) -> list[int]:

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-STRAIGHT = 0.03  # of the wall thickness: nodes nearer to a straight wall are not drawn
+STRAIGHT = 0.03  # share of the wall thickness: nodes nearer to a straight wall are not drawn
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it
 GRID = 65535  # steps of a coordinate of a frame
 FRAMES = 24
-PLATEN = 0.05  # of the width of plates: by how much their platens are wider
+PLATEN = 0.05  # share of the width of plates by which their platens are wider
 
 
 class Trail(NamedTuple):

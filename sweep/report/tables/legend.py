@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-LONG_SPAN = 0.1  # of strain
+LONG_SPAN = 0.1  # span of strain
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
 CRUSHED = """\
 {noun}: energy absorbed {until}; J/g is of it.

@@ -24,7 +24,7 @@ from sweep.ranking.budget import greatest_mass
 
 SIZES = ("lattice.wall_thickness", "lattice.mass", "lattice.infill")
 USED_UP = 1.05  # shares above 1 / USED_UP stand for the greatest value: the whole budget
-OPEN = 0.999  # of the greatest wall thickness that leaves openings
+OPEN = 0.999  # share of the greatest wall thickness that leaves openings
 EXACT = 1e-10  # m of a wall thickness, or a share of infill
 
 

@@ -42,7 +42,7 @@ from sweep.store.read import Rerun, finished_ids, read_summary
 
 START = 4  # binary logarithm of the number of designs of a Sobol start
 MOST_TRIED = 1024  # most points of the cube that are tried for a first design
-POPULATION = 6  # of the best of them evolve
+POPULATION = 6  # number of the best of these that evolve
 MUTATION = 0.2, 0.6  # below scipy's value, which suits thousands of evaluations; `make search`
 IDLE = 20  # generations without a new design that end a population
 CLOSE = 1e-3  # relative scatter of the values at which a population has converged

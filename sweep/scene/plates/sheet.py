@@ -16,7 +16,7 @@ from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
 AROUND = 0.5  # share of a period: how far images of triangles extend around it
 WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
-VERTICAL_AXIS = 2  # of a net, which is pressed along it
+VERTICAL_AXIS = 2  # axis of a net along which it is pressed
 VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is vertical
 SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
 
