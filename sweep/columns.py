@@ -25,9 +25,9 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
-TIED_SIDES = "tied"
 ALONG = "out_of_plane"  # a value of the column `direction`
-"""First word of the column `sides` where they are tied to each other."""
+TIED_SIDES = "tied"
+"""First word of the column `sides` if the sides are tied to each other."""
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
@@ -482,7 +482,7 @@ RANKING_COLUMNS: dict[str, Column] = {
     "stroke_at_allowed_m": Column("m", "stroke at which the allowed force is exceeded", "less"),
     "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
 }
-"""Columns that a ranking adds to those of the summary, and by which it may sort."""
+"""Columns that a ranking adds to the columns of the summary, and by which it may sort."""
 
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),

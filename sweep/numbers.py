@@ -31,7 +31,7 @@ SCALES = {
     "rad": ((180.0 / math.pi, "deg"),),
     "1": ((1e2, "%"),),
 }
-"""Units in which quantities are shown, with the factor from SI; a unit not named is shown as it is.
+"""Units in which quantities are shown, with the factor from SI; other units are shown unchanged.
 
 A table or a sentence takes the first one in which its greatest value is at least 1.
 """

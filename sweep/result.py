@@ -26,7 +26,7 @@ MODEL_VERSION = 15
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = [name for name in COLUMNS if any(name in mode.columns for mode in MODES.values())]
-"""Columns of which each loading has its own."""
+"""Columns that only some loadings have."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 

@@ -47,7 +47,7 @@ CHOICES: dict[str, Any] = {
     "damping.model": Literal["none", "rayleigh", "kelvin_voigt"],
     "solver.integrator": Integrator,
 }
-"""The choices of keys which choose a kind, or of which a kind has only some."""
+"""The choices of keys that select a kind, or of which a kind has only some."""
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),

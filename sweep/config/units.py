@@ -64,7 +64,7 @@ PREFIXES = {
     **dict.fromkeys(("G", "giga"), 1e9),
 }
 SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
-"""Other signs in a unit -> those that are read."""
+"""Other signs in a unit -> the signs that are understood."""
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
 _POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)

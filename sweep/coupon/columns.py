@@ -42,7 +42,7 @@ OTHERS = (
     "rate speed velocity true max maximum peak lateral transverse transversal width breite "
     "temperature command target setpoint work energy modulus break count cycles"
 )
-"""Words of what else a machine records."""
+"""Words for other quantities that a machine records."""
 CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 """Where a word ends in "LoadCell" and "XForce"."""
 EQUAL = 0.01  # share of the range of a column within which two columns are the same

@@ -31,7 +31,7 @@ BOUNDS = {
     "width": (0.01, 3.0),
     "softening_beta": (0.0, 2.0),
 }
-"""Of the numbers that are fitted: softening 1 / r; width: m over the work of the first loading."""
+"""Bounds of the fitted numbers; softening: 1 / r; width: m over the work of the first loading."""
 START = {"loss": 0.3, "softening": 0.4, "width": 0.3, "softening_beta": BETA}
 
 

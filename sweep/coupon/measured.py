@@ -15,7 +15,7 @@ from sweep.numbers import counted, with_unit
 Floats = NDArray[np.float64]
 
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
-"""What a size of the specimen makes of what is measured."""
+"""Size of the specimen -> the quantity that follows from it, and the measured quantity."""
 NEEDED = {
     "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
     "area": '"8 mm^2" (section of the specimen), to make a stress of',

@@ -6,7 +6,7 @@ from sweep.config.faults import MisfitError
 from sweep.config.units import in_si
 
 SI = {"time": "s", "displacement": "m", "strain": "1", "force": "N", "stress": "Pa"}
-"""What is measured -> its unit."""
+"""Quantity -> its SI unit."""
 OTHER_NAMES = {
     **{name.lower(): name for name in ("N", "kN", "MN", "Pa", "kPa", "GPa", "mm", "ms")},
     "mpa": "MPa",
@@ -18,7 +18,7 @@ OTHER_NAMES = {
     "pct": "%",
     "-": "1",
 }
-"""Units as machines write them, in small letters -> as `sweep.config.units` reads them."""
+"""Units as machines write them, in lower case -> as `sweep.config.units` reads them."""
 BRACKETS = re.compile(r"\(([^()]*)\)|\[([^\[\]]*)\]|<([^<>]*)>")
 BEFORE_UNIT = re.compile(r"\s+in\s+|\s*[/,]\s*|[\s_]")
 POWER = re.compile(r"(?<=[a-zA-Z])([23])\b")

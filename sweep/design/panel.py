@@ -19,7 +19,9 @@ from sweep.numbers import text_in
 BESIDE = 0.4e-3  # m: gap between two specimens; closer ones would be printed as one
 
 BEHIND = {"in_plane": 0.0, "out_of_plane": BESIDE}
-"""Gap (m) between two specimens one behind the other, by the direction that they are pressed in."""
+"""Gap (m) between two specimens one behind the other, by the direction in which they are
+pressed.
+"""
 
 
 class Panel(NamedTuple):

@@ -37,7 +37,7 @@ ORCA_KEYS = {
     "infill_anchor": "infill_anchor",
     "infill_anchor_max": "infill_anchor_max",
 }
-"""Keys of PrusaSlicer -> those of OrcaSlicer and Bambu Studio."""
+"""Keys of PrusaSlicer -> keys of OrcaSlicer and Bambu Studio."""
 
 
 def settings_of(lattice: Lattice) -> SlicerSettings:

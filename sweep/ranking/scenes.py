@@ -39,7 +39,7 @@ ASSUMPTIONS = (
 )
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 OF_DESIGN = ("loading.direction",)
-"""Keys of the loading that belong to the design all the same: how a panel is laid."""
+"""Keys of the loading that belong to the design nevertheless: how a panel is laid."""
 
 
 def by_scene(frame: DataFrame) -> list[DataFrame]:

@@ -47,8 +47,8 @@ RISING = re.compile(
 """Beginnings of columns whose values only rise as a loading goes on."""
 FIXED = re.compile(r"(.+_)?mass_g$|relative_density$")
 PLACES = ["best_place", "least_place"]
-"""Columns of `could_place`: the best place that a case could have had, and the one it has at least;
-the latter is NaN where nothing is certain.
+"""Columns of `could_place`: the best place that a case could have had, and the place it has at
+least, NaN if nothing is certain.
 """
 FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
 """The first columns of `could_place`."""

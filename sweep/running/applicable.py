@@ -28,4 +28,6 @@ MEASURED: dict[str, tuple[str, Callable[[Case], bool]]] = {
     "max_base_pressure": ("a flat base below walls across it, whose sides are free", _has_patch),
     "max_target_acceleration": ("loading.target_mass", lambda case: case.loading.base_moves),
 }
-"""Requirements of which some cases have no value: what they need, and whether a case has it."""
+"""Requirements for which some cases have no value: the condition in words, and whether a case meets
+it.
+"""

@@ -51,7 +51,8 @@ FOLDING = (
     (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.45, 0.5, 1.0),
     (0.0, 0.013, 0.026, 0.064, 0.17, 0.33, 0.6, 0.87, 1.0, 2.3),
 )
-"""Strain, and the time that crushes along the cells take until then, as a share of that to 50 %.
+"""Strain, and the time that crushes along the cells take until then, as a share of the time to 50
+%.
 
 The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as between 45 and 50 %.
 """

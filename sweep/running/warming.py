@@ -11,7 +11,7 @@ OF = {
     "arcs": "arc lengths",
     "plates": "walls as shells",
 }
-"""What kernels are of, in words."""
+"""The walls or the method for which kernels are compiled, in words."""
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else the user's cache folder, is not a writable folder"
 
 

@@ -28,7 +28,7 @@ SAFER = {
     (True, False): 'try smaller steps or solver.integrator "backward_euler"',
     (True, True): "try smaller steps",
 }
-"""By whether walls are shells, which have no damping, and whether the integrator is that one."""
+"""By whether walls are shells, without damping, and whether the integrator is backward Euler."""
 FINER = "try more solver.load_steps"
 SOUNDER = "try a smaller solver.tolerance, and check for values of the wrong order of magnitude"
 ADVICE = {

@@ -227,7 +227,7 @@ SMALLEST: Mapping[str, Sequence[Inputs]] = {
     ],
 }
 """Cases of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are flat
-at rest and those that are not.
+at rest and others.
 """
 
 

@@ -90,7 +90,7 @@ OF_THE_WHOLE_RUN = (
     *("rebound_speed_m_per_s", "rebound_share"),
     *("target_speed_m_per_s", "base_impulse_Ns"),
 )
-"""Columns that only a run to its end has: of unloading, and of what is lost until then."""
+"""Columns that need a run to its end: on unloading, and on losses until then."""
 ROUND_OFF = 1e-9
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 

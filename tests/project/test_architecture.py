@@ -127,6 +127,12 @@ def nodes(module):
     return [*ast.walk(tree(module))]
 
 
+def docstrings(module):
+    """Strings that stand alone: docstrings of functions, classes, modules and constants."""
+    values = [node.value for node in nodes(module) if isinstance(node, ast.Expr)]
+    return [value for value in values if isinstance(getattr(value, "value", None), str)]
+
+
 def is_for_types(test):
     return any(isinstance(n, ast.Name) and n.id == "TYPE_CHECKING" for n in ast.walk(test))
 
@@ -238,7 +244,7 @@ def test_the_solver_and_the_physics_do_not_know_each_other():
 
 def strings(module):
     """Texts of a module that are no docstrings."""
-    stated = {id(node.value) for node in nodes(module) if isinstance(node, ast.Expr)}
+    stated = {id(value) for value in docstrings(module)}
     constants = [n for n in nodes(module) if isinstance(n, ast.Constant) and id(n) not in stated]
     return [node.value for node in constants if isinstance(node.value, str)]
 
@@ -386,3 +392,15 @@ def test_no_variable_is_a_participle():
         names = {n.id for n in ast.walk(tree(module)) if isinstance(n, ast.Name)}
         names |= {n.arg for n in ast.walk(tree(module)) if isinstance(n, ast.arg)}
         assert not names & {"found", "known", "told", "held", "made"}, module
+
+
+def test_docstrings_repeat_the_noun():
+    """A pronoun without a referent makes a reader search for it: a noun does not."""
+    riddle = re.compile(r"\b(that of|those of|as of|what is asked)\b", re.IGNORECASE)
+    found = {
+        f"{module}:{value.lineno}: {phrase.group()}"
+        for module in PROGRAM
+        for value in docstrings(module)
+        if (phrase := riddle.search(" ".join(value.value.split())))
+    }
+    assert found == set()

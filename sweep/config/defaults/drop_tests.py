@@ -11,7 +11,7 @@ from sweep.config.faults import MisfitError
 
 PRESET = re.compile(r"(\S+)\s+(\S.*)")
 FLAT = "flat striker at equal J/cm2"
-"""What a planar model can claim of a test with a dome or a head form."""
+"""The claim that a planar model allows for a test with a dome or a head form."""
 
 
 class Drop(NamedTuple):

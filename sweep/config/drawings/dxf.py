@@ -14,7 +14,7 @@ from sweep.config.faults import MisfitError
 
 LINES = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 UNITS = METRES | {"ft": 12.0 * METRES["in"], "mil": 1e-3 * METRES["in"], "µm": METRES["um"]}
-"""Those of $INSUNITS that drawings of lattices have."""
+"""Units of $INSUNITS that drawings of lattices have."""
 PLANE = 1e-6  # share of the greatest coordinate: higher points are not in the plane
 
 

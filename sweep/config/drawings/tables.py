@@ -25,7 +25,7 @@ OTHER_HEADS = {
     **dict.fromkeys(("source", "start", "node1", "node_1"), "from"),
     **dict.fromkeys(("target", "end", "node2", "node_2"), "to"),
 }
-"""Heads as graphs have them."""
+"""Other heads, as in files of graphs."""
 _HEAD = re.compile(
     rf"({'|'.join((*LINE, *NODE, *IDS, 'thickness'))})(?:[ _]*[(\[]?({'|'.join(METRES)})[)\]]?)?"
 )
@@ -35,9 +35,11 @@ ATOM_STYLES = {
     **dict.fromkeys(("bond", "angle", "molecular", "charge"), 3),
     **dict.fromkeys(("full", "sphere"), 4),
 }
-"""LAMMPS: the place of x in a line of an atom."""
+"""Place of x in an atom line of LAMMPS, by its style."""
 BY_LENGTH = {5: 2, 6: 3, 7: 4, 8: 2, 9: 3, 10: 4}
-"""The same where no style is named; lines of eight and more end in three image flags."""
+"""Place of x by the length of a line, if no style is named; from eight on, three image flags
+follow.
+"""
 
 
 def read_json(path: Path) -> Lines:

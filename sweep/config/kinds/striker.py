@@ -34,7 +34,7 @@ USUAL: dict[str, dict[str, float | None]] = {
     "punch": {"striker_width": 10e-3, "striker_tip": 0.5e-3, "striker_at": 0.5},
     "ribs": {"base_span": None, "base_radius": 1e-3},
 }
-"""The kinds of strikers and bases, with their keys and usual numbers; None has to be given."""
+"""The kinds of strikers and bases, with their keys and usual numbers; None: no default."""
 UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
 SHAPED = ("striker", "base")
 _OF_KINDS = {key for keys in USUAL.values() for key in keys}

@@ -9,7 +9,7 @@ from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import Box, Net, best_net
 
 DIAGONAL = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, np.sqrt(2.0)], [1.0, 1.0, 0.0]]) / np.sqrt(2.0)
-"""Axes x, y, z of a box that is turned, in those of the surface, row by row."""
+"""Axes x, y, z of a turned box, in the axes of the surface, row by row."""
 
 
 @lru_cache(maxsize=16)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 WORDS = {"lattice_kind": "pattern", "material": "material", "direction": "pressed"}
 HUES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#5a5a5a")
-"""Colours that a colour-blind reader tells apart (M. Okabe and K. Ito, 2008), and two more."""
+"""Colours that a colour-blind reader can distinguish (M. Okabe and K. Ito, 2008), and two more."""
 SIGNS = "o^sDvP*Xh<>pd"
 OF_FAMILY = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
 OF_FAMILY |= {"kagome": "*"}

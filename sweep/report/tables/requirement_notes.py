@@ -38,7 +38,7 @@ FELT = {
     "base kPa": ("max_base_pressure", "peak_base_pressure_Pa"),
     "target g0": ("max_target_acceleration", "peak_target_acceleration_m_per_s2"),
 }
-"""Columns of what the base feels: the requirement and the column of results that show them."""
+"""Columns on the load of the base, each with its requirement and its column of results."""
 WIDTH = 100  # most letters in a line
 DISTRUST = "marked {}: do not trust it"
 

@@ -56,7 +56,9 @@ HEADLINE = (
     "stroke_left_m",
     "rebound_share",
 )
-"""Columns with an error bar, besides the energies up to allowed forces and those of cycles."""
+"""Columns with an error bar, besides the energies up to allowed forces and the energies of
+cycles.
+"""
 
 FOLLOWING = (
     *("lost_energy_J", "lost_share", "lost_energy_J_per_g", "second_cycle_share"),
