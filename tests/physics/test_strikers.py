@@ -157,7 +157,7 @@ def _impact(**loading):
     dict(striker="punch", base="ribs", base_span=18e-3),
 ], ids=["round", "edge", "on ribs"])  # fmt: skip
 def test_momentum_and_energy_of_an_impact(loading):
-    """What the base bears over time is the change of the momentum of striker and lattice."""
+    """The impulse on the base is the change of the momentum of striker and lattice."""
     of = _impact(**loading)
     mass, n = of.scene.terms.coordinates.mass, 2 * len(of.scene.mesh.points)
     times = np.diff(of.rows["time"], prepend=0.0)

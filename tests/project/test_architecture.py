@@ -151,7 +151,7 @@ def walk(node, lazy, typed=False):
 
 @cache
 def imports(module, lazy=True, typed=False):
-    """Dotted names that a module imports; a name that is no module of ours is cut at its module."""
+    """Dotted names that a module imports; a name outside our modules is cut at its module."""
     found = set()
     for node in walk(tree(module), lazy, typed):
         if isinstance(node, ast.Import):
@@ -179,7 +179,7 @@ def called(function):
 
 
 def python(script):
-    """What a fresh interpreter makes of a script."""
+    """Result of running a script in a fresh interpreter."""
     command = [sys.executable, "-c", script]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
@@ -348,7 +348,7 @@ def test_help_and_a_refused_config_need_no_heavy_imports():
 
 @cache
 def defined(module):
-    """Names that a module binds at its top, in branches of it too."""
+    """Names that a module binds at its top, also in branches."""
     names = {"*"}
     for node in nodes(module):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
@@ -387,7 +387,7 @@ def test_quantities_are_converted_for_people_in_one_place():
 
 
 def test_no_variable_is_a_participle():
-    """Of those that say nothing of a value: a name is a noun."""
+    """A name is a noun: these participles say nothing of a value."""
     for module in PROGRAM:
         names = {n.id for n in ast.walk(tree(module)) if isinstance(n, ast.Name)}
         names |= {n.arg for n in ast.walk(tree(module)) if isinstance(n, ast.arg)}

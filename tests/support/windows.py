@@ -24,7 +24,9 @@ FORBIDDEN = '<>:"|?*'  # in the names of files
 
 
 def pretend():
-    """Take from this process what Windows lacks, and refuse what it refuses."""
+    """Remove from this process the functions that Windows lacks, and refuse operations that it
+    refuses.
+    """
     for name in OTHERS:  # they take what their own system has
         import_module(name)
     for name in LACKING:

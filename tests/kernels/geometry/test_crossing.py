@@ -1,6 +1,6 @@
-"""Crossings of elements: sure ones are counted, those within rounding are handed on.
+"""Crossings of elements: certain ones are counted, pairs within round-off are passed on.
 
-The closer look at these is tested in tests/sweep/simulation/test_shape_checks.py.
+The exact check of these pairs is tested in tests/sweep/simulation/test_shape_checks.py.
 """
 
 import numpy as np

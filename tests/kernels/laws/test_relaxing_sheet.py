@@ -83,7 +83,7 @@ def test_slopes_and_tangent_are_derivatives(name, at, duration):
 @pytest.mark.parametrize("at", [((1.0, 1.0), 0.0), *HISTORY, ((0.3, 2.0), 0.4), ((4.0, 3.0), 1.0)])
 @pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.1)])
 def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
-    """And the energy that is complementary to that of the sheet."""
+    """It also finds the complementary energy of the sheet."""
     law = law_of(name)
     energy, s, expected = relaxing_sheet._response(law, *strain(*at))
     found, complement = inverse(law.elastic, s, guess)
@@ -94,7 +94,9 @@ def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
 
 @NAMES
 def test_the_stress_is_that_by_the_logarithmic_strain(name):
-    """Work of s on the change of L is that of dW/dc on the change of c, turned axes included."""
+    """Work of s on the change of L equals work of dW/dc on the change of c, turned axes
+    included.
+    """
     law, at, move = law_of(name), strain(*HISTORY[0]), 1e-6 * np.array([0.4, -0.9, 0.7])
     g = law.elastic.respond(*at)[1]
     _, s, before = relaxing_sheet._response(law, *(at - move))

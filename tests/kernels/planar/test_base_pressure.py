@@ -86,7 +86,7 @@ def test_a_patch_as_wide_as_the_lattice_bears_all(target):
 
 
 def test_a_base_that_moves_is_borne_by_its_inertia():
-    """The row that is glued to it follows it in y; what has no weight in y has no leader."""
+    """The row glued to the base follows it in y; coordinates without mass in y have no leader."""
     scene = struck("glued")
     layout, low = scene.terms.layout, scene.terms.contact.low
     bottom = np.flatnonzero(layout.leader == low)

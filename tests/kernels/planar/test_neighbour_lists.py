@@ -72,7 +72,7 @@ def test_moves_are_as_long_as_lists_may_cover(share):
 
 
 def hits(scene, x, dx):
-    """Shares at which anything of a scene meets or folds, and those at which elements are short."""
+    """Shares at which parts of a scene meet or fold, and shares at which elements are short."""
     terms, high, low = scene.terms, x.size - 1, x.size - 2
     everything = (
         near_pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else near_pairs.empty()

@@ -111,7 +111,7 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
 
 
 def elastic(scene, x):
-    """Gradient (n,) of what is stored at ``x``."""
+    """Gradient (n,) of the stored energy at ``x``."""
     return whole(scene, scene.x_rest).found(x)[1].elastic
 
 
@@ -132,7 +132,7 @@ def test_loads_grow_by_a_twentieth_at_most():
 
 
 def test_length_of_an_arc_is_that_of_all_points():
-    """Whatever the mesh: the root of the mean square of their moves."""
+    """Whatever the mesh: the root of the mean square of the moves of all points."""
     for pieces in (4, 16):
         case = case_of(lee(pieces), arc_length=1e-3)
         weight = arc_of(build_structure(case), case).weight

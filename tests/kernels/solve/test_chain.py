@@ -31,7 +31,7 @@ def line(n, load=0.0, driven=False, held=False, friction=0.0, mass=1.0, spring=S
 
 
 def energy(chain, x):
-    """What is stored at ``x``, computed apart."""
+    """Stored energy at ``x``, computed independently."""
     wells = HEIGHT * np.sum(((x / WIDTH) ** 2 - 1.0) ** 2)
     return wells + 0.5 * chain.spring * np.sum((np.diff(x) - APART) ** 2)
 
@@ -42,7 +42,7 @@ def at(x):
 
 
 def begun(chain, x):
-    """State of rest at ``x``; what is stored there has been done as work."""
+    """State of rest at ``x``; the energy stored there counts as work done."""
     state = at(x)
     wells = HEIGHT * np.sum(((state.x / WIDTH) ** 2 - 1.0) ** 2)
     state.stored[:] = wells, energy(chain, state.x) - wells

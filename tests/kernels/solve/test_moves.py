@@ -1,4 +1,4 @@
-"""How far a minimisation goes at once: no wall passes another, and none is left short of it."""
+"""How far a minimisation moves: no wall passes another, and no wall stops short of another."""
 
 import numpy as np
 import pytest

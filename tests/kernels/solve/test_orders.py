@@ -76,7 +76,7 @@ class Descent:
         self.x = self.scene.x_rest.copy()
 
     def whole(self):
-        """What is minimised, from pairs found anew and without friction."""
+        """The minimised potential, with new pairs and without friction."""
         found = whole(self.scene, self.x, self.scene.x_rest, self.dt)
         return found.lagging(friction.none())
 
@@ -99,7 +99,7 @@ class Descent:
 
 @pytest.mark.parametrize("scene", [crushed, folded])
 def test_newton_is_quadratic_near_a_minimum(scene):
-    """What one iteration leaves of a disturbance falls with its square."""
+    """The disturbance left by one iteration falls with its square."""
     descent = scene()
     assert descent.go_on(100) == outcomes.CONVERGED
     minimum, left = descent.x.copy(), []

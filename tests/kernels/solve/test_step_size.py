@@ -64,7 +64,9 @@ def test_steps_span_rows_only_if_they_have_an_accuracy():
 
 
 def test_a_step_that_spans_rows_is_shortened_by_its_error():
-    """To what a quadratic error allows, if it is rejected or not; by half at least."""
+    """To the length that a quadratic error allows, whether it is rejected or not; by half at
+    least.
+    """
     for ratio, share in ((0.5, 2.0), (3.0, 2.0), (5.0, 1.0), (1e9, 1.0)):
         shares = Shares(4.0, accuracy=1e-3)
         shares.reject(outcomes.INACCURATE, ratio)

@@ -189,7 +189,9 @@ def test_a_wall_squeezed_to_nothing_has_infinite_energy():
 @pytest.mark.parametrize("joints", ["solid", "points"])
 @pytest.mark.parametrize("element", ["cubic", "classical"])
 def test_sections_of_a_scene_are_its_beams(plane, element, joints):
-    """With a linear curve the Hessian at rest is that of linear bending, shear included."""
+    """With a linear curve the Hessian at rest equals the Hessian of linear bending, shear
+    included.
+    """
     if element == "classical" and joints == "solid":
         joints = "points"
     built = build_scene(Case.of(

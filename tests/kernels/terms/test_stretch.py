@@ -117,7 +117,7 @@ def test_projected_hessian_is_semi_definite(strain):
 @pytest.mark.parametrize("arc", ARCS)
 @pytest.mark.parametrize("seed", range(4))
 def test_projected_hessian_is_semi_definite_in_random_states(seed, arc):
-    """Also that of stout elements, which shorten as they shear: in tension that is unstable."""
+    """Also for stout elements, which shorten as they shear: in tension they are unstable."""
     x, term = shaken(FRAME, seed, 0.4), term_of(FRAME, arc=ARCS[arc])
     assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
     assert least_share(term, x) > -1e-12

@@ -2,8 +2,8 @@
 
 python -m tests.studies.continuum.indented computes it in some minutes and prints the file; with the
 word "table", it compares our network of walls with the file. The striker is a circle that pushes
-back what is inside of it, by a spring as stiff as a layer of rubber of `LAYER` walls; walls do not
-touch one another yet. The panel is glued to its base.
+out the parts of the solid inside it, with a spring as stiff as a layer of rubber of `LAYER` walls;
+walls do not touch one another yet. The panel is glued to its base.
 """
 
 import csv
@@ -35,7 +35,7 @@ STRAINS = 0.005 * np.arange(1, 23)
 
 
 class Circle:
-    """What pushes the surface of a solid back. tip (2,): its lowest point, mm."""
+    """A circle that pushes the surface of a solid back. tip (2,): its lowest point, mm."""
 
     def __init__(self, solid, stiffness, tip):
         basis = solid.basis

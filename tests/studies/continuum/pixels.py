@@ -1,9 +1,9 @@
 """Stiffness of endless lattices of stout walls at small strain: joints against a solid of pixels.
 
 python -m tests.studies.continuum.pixels prints the errors in three minutes. `lattices` needs walls
-longer than their joints. Here the solid is what the walls cover, in plane stress, in rectangles
-with a stiffness in proportion to their covered share; the bent sides of thin walls make it too
-stiff, by the less the more pixels there are.
+longer than their joints. Here the solid is the area that the walls cover, in plane stress, in
+rectangles with a stiffness in proportion to their covered share; the bent sides of thin walls make
+it too stiff, by an error that falls with the number of pixels.
 """
 
 import sys

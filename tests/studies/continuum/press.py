@@ -1,8 +1,8 @@
 """A grid between glued platens that come together: a minimum of the energy at every strain.
 
-Newton's method on the energy with the exact Hessian. Its pivots tell whether it is positive
-definite; where it is not, a multiple of its diagonal at rest is added, and an energy that falls
-leads away from a branch that is not stable.
+Newton's method on the energy with the exact Hessian. Its pivots show whether it is positive
+definite; where it is not, a multiple of its diagonal at rest is added, and a falling energy leads
+away from an unstable branch.
 """
 
 from dataclasses import dataclass, field
@@ -52,7 +52,7 @@ def factor(matrix):
 class Press:
     """solid: the body, glued at its lowest and highest nodes. touch: its contact, if it has any.
 
-    height: of which a strain is a share, mm. tolerance: of the residual, N.
+    height: to which strains refer, mm. tolerance: of the residual, N.
     """
 
     tolerance = TOLERANCE

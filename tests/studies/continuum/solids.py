@@ -85,7 +85,7 @@ def main(chosen):
 
 
 def lacking():
-    """What to install, in a sentence, if anything is."""
+    """A sentence on packages to install, if any are missing."""
     absent = [package for module, package in NEEDED.items() if find_spec(module) is None]
     if not absent:
         return ""

@@ -1,6 +1,6 @@
 """The comparison itself: grids of slender to stout walls, and a crush until they are packed.
 
-The solids are those of solids.csv.
+The solids are read from solids.csv.
 """
 
 import csv

@@ -1,4 +1,4 @@
-"""The solid of `make continuum`: energy, elements, contact; and the network beside it."""
+"""The solid of `make continuum`: energy, elements, contact; and the network for comparison."""
 
 import numpy as np
 import pytest

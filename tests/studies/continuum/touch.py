@@ -1,7 +1,7 @@
 """Self-contact of a solid by the barrier of the incremental potential contact toolkit (ipctk).
 
-What touches is the polygon through the nodes of the boundary. Surfaces are apart by less than
-``reach``, which is to be small beside a wall.
+The polygon through the nodes of the boundary is in contact. Surfaces are apart by less than
+``reach``, which must be small compared with a wall.
 """
 
 import ipctk

@@ -1,4 +1,4 @@
-"""Bricks of rubber, their ties, and a tube of plates beside one of bricks."""
+"""Bricks of rubber, their ties, and a tube of plates against one of bricks."""
 
 import sys
 

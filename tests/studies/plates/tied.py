@@ -25,7 +25,9 @@ class Tied:
 
     @cached_property
     def _pattern(self):
-        """Places of the entries of element matrices in the sorted list of those of the whole."""
+        """Places of the entries of element matrices in the sorted list of entries of the whole
+        matrix.
+        """
         at = self.unknown[self.body.places]
         row, column = np.broadcast_arrays(at[:, :, None], at[:, None, :])
         keys, place = np.unique((column * self.size + row).ravel(), return_inverse=True)

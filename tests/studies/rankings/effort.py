@@ -85,7 +85,7 @@ def _picked(rng, values):
 
 
 def outcome(number):
-    """What becomes of the first place of a grid: a row of the study."""
+    """The outcome of the first place of a grid: a row of the study."""
     grid = drawn(number)
     few = _ranked(grid, grid.cases())
     row = {"grid": number, "cases": few.cases, "failed": few.failed}

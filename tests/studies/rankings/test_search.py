@@ -27,7 +27,7 @@ def test_designs_beside_the_searches():
 
 
 def test_rows_compare_with_the_first_beside(tmp_path):
-    """The invented energy is that of `tests.support.results.searches`."""
+    """The invented energy is defined in `tests.support.results.searches`."""
     question = cushion()
     beside = best_beside(question, tmp_path, simulate)
     one = found(question, 1, tmp_path, simulate)

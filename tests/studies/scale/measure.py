@@ -34,7 +34,7 @@ def half(folder):
 
 
 def _verb(*words):
-    """What a verb of the command line does with the results file."""
+    """Run a verb of the command line on the results file."""
 
     def act(folder):
         crumple([words[0], str(folder / "scale.h5"), *words[1:]])

@@ -1,6 +1,6 @@
 """Draw the scenes of `configs/extreme.toml`: python -m tests.studies.stability.draw FILE
 
-Every scene is drawn by a generator of its own, from its number; what no lattice can be is drawn
+Every scene is drawn by a generator of its own, from its number; an impossible lattice is drawn
 again.
 """
 
@@ -94,7 +94,9 @@ def second_order(number):
 
 
 def remembering(number):
-    """The case of a scene beyond those of `second_order` whose material has a memory."""
+    """The case of a scene whose material has a memory; its numbers follow the ones of
+    `second_order`.
+    """
     keys, _ = scene(COUNT + MEMORY + number)
     keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
     draw = Draws(number, SEED + 1)
@@ -162,7 +164,7 @@ def _memory(draw, keys):
 
 
 def case_of(keys):
-    """The case that these keys make; what is pressed at no speed has no damping."""
+    """The case of these keys; a loading without speed has no damping."""
     if keys["loading.mode"] == "displacement" and "loading.speed" not in keys:
         keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
     return Case.of(**{name: _values(ALIKE | keys, name) for name in TABLES})

@@ -1,4 +1,4 @@
-"""A block of shells within perimeters beside bricks of the solid, whose joints have a width."""
+"""A block of shells within perimeters against bricks of the solid, whose joints have a width."""
 
 import pytest
 

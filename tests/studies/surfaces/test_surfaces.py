@@ -1,4 +1,4 @@
-"""Shells of one period of a gyroid: flat ones against exact numbers, then all beside bricks."""
+"""Shells of one period of a gyroid: flat ones against exact numbers, then all against bricks."""
 
 import sys
 

@@ -45,8 +45,8 @@ class Neighbours(NamedTuple):
 
 
 class Buffers(NamedTuple):
-    """Normal forces (n,) as they were lagged; pivots and off-diagonal (n,) of the factor, diagonal
-    before it; place (1,) of the first negative pivot, -1 if there is none.
+    """Lagged normal forces (n,); pivots and off-diagonal (n,) of the factor, diagonal before it;
+    place (1,) of the first negative pivot, -1 if there is none.
     """
 
     normal: np.ndarray
@@ -307,7 +307,7 @@ def covers_projection(problem, x):
 
 @jit_exact
 def write_share(problem, out, k, state, found):
-    """Nothing: a row has what it has at its end."""
+    """Nothing: a row has only the values at its end."""
 
 
 @jit_exact

@@ -1,6 +1,6 @@
 """A results file that is copied alone: its cases are ranked, shown, exported and run again from it.
 
-The config, the file of its structure and that of its material are deleted.
+The config, the file of its structure and the file of its material are deleted.
 """
 
 import shutil

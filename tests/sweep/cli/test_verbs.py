@@ -1,4 +1,4 @@
-"""The command line: what it answers, what it refuses, and with which exit status."""
+"""The command line: its answers, its refusals, and its exit status."""
 
 import io
 import json

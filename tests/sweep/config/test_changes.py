@@ -1,4 +1,4 @@
-"""Cases changed to other values: what is replaced, what is computed anew, what stays."""
+"""Cases changed to other values: which are replaced, which computed anew, which stay."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Rubbers that are pressed give back their tension; what is no rubber gives none."""
+"""The tension of a pressed rubber is recovered; a material that is no rubber has none."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Predictions: ranges over cases, ratios over a key; and those that are stored."""
+"""Predictions: ranges over cases, ratios over a key; and stored predictions."""
 
 from dataclasses import replace
 

@@ -53,7 +53,9 @@ def test_a_spring_slows_a_weight_as_the_textbook_says(height):
 
 
 def test_a_weight_stops_where_it_first_may():
-    """Under no stress beyond 40 % the weight goes on, and what is below that is not for it."""
+    """Under no stress beyond 40 % the weight moves on, and stresses below that do not count for
+    it.
+    """
     work = 50e3 * STRAIN.clip(max=0.4)
     static, peak = cushion_curve(crushed(np.full(801, 50e3), work), 0.01)
     assert np.all(np.diff(static) > 0.0)

@@ -1,4 +1,4 @@
-"""Rankings: who is compared with whom, by what, and what is left out."""
+"""Rankings: which designs are compared, by which column, and which are left out."""
 
 import itertools
 

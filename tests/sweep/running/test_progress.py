@@ -1,4 +1,4 @@
-"""What a user is told while a sweep runs."""
+"""Output for the user while a sweep runs."""
 
 import io
 import sys
@@ -13,7 +13,7 @@ from tests.support.results.standin import cases, simulate
 
 
 class Clock:
-    """Time that passes only when it is told to."""
+    """Time that passes only on request."""
 
     def __init__(self):
         self.now = 100.0

@@ -212,13 +212,13 @@ def told():
 
 
 def took(share, numbers):
-    """Results that each took this share of what may be at risk for a worker."""
+    """Results that each took this share of the time that a worker may lose."""
     found = [simulate(case) for case in cases(len(numbers), numbers[0])]
     return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
 
 
 class AtOnce:
-    """A pool of threads that does in this one what it is asked to."""
+    """A pool of threads that runs its calls at once in this thread."""
 
     def __init__(self, *_):
         pass
@@ -236,7 +236,7 @@ class AtOnce:
 def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     tmp_path, told, monkeypatch
 ):
-    """Two workers: what is at risk is at most twice as much. NaN might be any time."""
+    """Two workers: the time at risk is at most twice as much. NaN might be any time."""
     monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]

@@ -1,4 +1,4 @@
-"""Solid joints: what their elements yield, which walls they are in, and their mesh."""
+"""Solid joints: compliance of their elements, which walls have them, and their mesh."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Stages of loading, and what counts as converged."""
+"""Stages of loading, and the criteria of convergence."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Scenes with strikers and ribs: where they touch at rest, what is held, what is in contact."""
+"""Scenes with strikers and ribs: where they touch at rest, held rows, and contact."""
 
 import numpy as np
 import pytest

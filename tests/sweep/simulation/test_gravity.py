@@ -124,7 +124,7 @@ def test_drops_have_gravity(loading, gravity):
 
 
 def test_a_heavy_box_set_down_hard():
-    """544 g from 100 mm: 17 to 20 g0, as of the curve of a crush at the speed of the touch.
+    """544 g from 100 mm: 17 to 20 g0, by the curve of a crush at the speed of the touch.
 
     Impact and curve differ as the striker slows down, and the walls have mass.
     """

@@ -1,4 +1,4 @@
-"""What is solid of a sheet: the same on any mesh, and by the slicer's lines."""
+"""The solid of a sheet: the same on any mesh, and by the slicer's lines."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A results file or a part that is not what it was: one line that names it and says what to do."""
+"""A damaged results file or part: one line that names it and says what to do."""
 
 import os
 import subprocess

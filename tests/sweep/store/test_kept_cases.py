@@ -1,4 +1,4 @@
-"""The case of every row: kept in parts and in the folded file, read only when it is asked for."""
+"""The case of every row: kept in parts and in the folded file, read only when it is requested."""
 
 import h5py
 import numpy as np
@@ -168,7 +168,7 @@ def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path
 
 
 def test_texts_written_otherwise_are_compared_by_their_ids(path):
-    """As those of an older Crumple are."""
+    """As the texts of an older Crumple are."""
     batch = cases(3)
     write(path, batch, fold=True)
     edited(path, b'"imperfection":0.002', b'"imperfection":2e-03')

@@ -60,11 +60,11 @@ class Wall:
 
     @property
     def outer(self):
-        """What the wall adds to its joints (6, 6)."""
+        """Contribution of the wall to its joints (6, 6)."""
         return self._lane(self.all_outer, 6, 6)
 
     def dense(self):
-        """Hessian (m + 6, m + 6): inner unknowns, then those of the joints."""
+        """Hessian (m + 6, m + 6): inner unknowns, then unknowns of the joints."""
         return self.full + np.diag([*self.diagonal[:, self.lane], *np.zeros(6)])
 
     def eliminate(self):

@@ -23,7 +23,7 @@ GAP = 0.4
 
 
 def lagged(x, touch, mu=MU):
-    """What is gripped at ``x``, without contact of edges, which has no friction."""
+    """The contacts lagged at ``x``, without contact of edges, which has no friction."""
     listed = pairs_of(x, touch)
     found = friction.no_contacts(listed, touch, Friction(mu, 1.0))
     friction.lag(found, x, touch, listed, 0.0, Friction(mu, 1.0))
@@ -88,7 +88,7 @@ def test_sliding_sheets_are_held_by_mu_times_the_normal_force(direction):
 
 
 def pressed_together(x, touch):
-    """Sum of the normal forces of nodes and triangles, N: half is that of the upper nodes."""
+    """Sum of the normal forces of nodes and triangles, N: half is due to the upper nodes."""
     listed = pairs_of(x, touch)
     found = touching.no_contacts(touch, listed)
     touching.detect(x, touch, listed, 0.0, found)

@@ -1,4 +1,4 @@
-"""Drawings as numbers: heads name what they are and their unit; what is missing is told."""
+"""Drawings as numbers: heads name quantities and units; missing data are reported."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Keys of a material that relaxes: how branches are written, what cannot go with a memory."""
+"""Keys of a material that relaxes: how branches are written, and keys that exclude a memory."""
 
 import pytest
 

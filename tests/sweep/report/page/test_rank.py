@@ -1,4 +1,4 @@
-"""The ranking of the page, `rank.js`, against that of Python, on random sweeps and questions."""
+"""The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
 import json
 from math import isclose
@@ -74,7 +74,7 @@ def on_the_page(question):
 
 
 def expected(table, question):
-    """For each budget and each scene, what `rank` says."""
+    """The answer of `rank` for each budget and each scene."""
     asked = {name: question[name] for name in ("panel", "require", "per")}
     budgets = question["budgets"]
     ranking = ranked(table, budgets, **asked, top=None, allowed_force=question["force"])
@@ -82,7 +82,7 @@ def expected(table, question):
 
 
 def _within(ranking, k, required):
-    """What a ranking says of each scene within its k-th budget."""
+    """The answer of a ranking for each scene within its k-th budget."""
 
     def own(rows):
         """The rows of this budget."""
@@ -126,14 +126,16 @@ def _of_requirements(outcome):
 
 
 def of_the_page(scene, names):
-    """What the page says of one scene, in the form of `expected`."""
+    """The answer of the page for one scene, in the form of `expected`."""
     misses = {name: share for name, share in scene["misses"].items() if share}
     needed = scene["needed"] and {name: scene["needed"][name] for name in NEEDED}
     return {name: (scene | {"misses": misses, "needed": needed})[name] for name in names}
 
 
 def blurred(scene):
-    """A scene but for which of two designs that miss alike is the nearest, which is round-off."""
+    """A scene without the choice of the nearest among designs that miss alike, which is
+    round-off.
+    """
     if "misses" not in scene:
         return scene
     worst = max(scene["misses"].values(), default=0.0)
@@ -153,7 +155,9 @@ def alike(one, other, tolerance):
 
 
 def asked_of_both(told, path, seed):
-    """Random questions of a random sweep, and for each scene what the page and Python say."""
+    """Random questions of a random sweep, and for each scene the answers of the page and of
+    Python.
+    """
     rng = np.random.default_rng(seed)
     table, factors = random_sweep(rng, OTHERS[seed % len(OTHERS)])
     file = write_curves(path / "random.h5", table, factors)
@@ -174,7 +178,7 @@ def asked_of_both(told, path, seed):
 
 @pytest.mark.parametrize("seed", range(SWEEPS))
 def test_page_and_python_rank_alike(told, tmp_path, seed):
-    """What the page reads from curves has four digits."""
+    """Values that the page reads from curves have four digits."""
     rows, missing, nearest, border, stopped, passed_over = [], 0, 0, 0, 0, 0
     for question, found, wanted in asked_of_both(told, tmp_path, seed):
         one, other = of_the_page(found, wanted), wanted

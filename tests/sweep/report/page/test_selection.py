@@ -1,4 +1,6 @@
-"""A page that leaves designs out: what it holds is first among all, or it says that it may not."""
+"""A page that leaves designs out: its first designs are first among all, or it says that they may
+not be.
+"""
 
 import json
 
@@ -39,7 +41,7 @@ function told({ data, questions }) {
 
 @pytest.fixture(scope="module")
 def told():
-    """What the page says to questions, for each a list of scenes."""
+    """The answers of the page to questions, for each a list of scenes."""
     script = gather.__file__.replace("gather.py", "rank.js")
     with MiniRacer() as engine, open(script, encoding="utf-8") as file:
         engine.eval(file.read() + ASK)
@@ -59,7 +61,7 @@ def few(monkeypatch):
 
 
 def many(path, seed):
-    """A file of random designs, its summary and data; energies and forces are those of curves."""
+    """A file of random designs, its summary and data; energies and forces come from curves."""
     rng = np.random.default_rng(seed)
     table, _ = random_sweep(rng, OTHERS[seed % 4], COUNT)
     factors = rng.uniform(0.5, 2.0, len(table))
@@ -98,7 +100,7 @@ def on_the_page(question):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few, tmp_path, seed):
-    """Whatever is asked: budget, panel, allowed force, requirements."""
+    """Whatever the question: budget, panel, allowed force, requirements."""
     file, table, data, rng = many(tmp_path, seed)
     assert len(data["cases"]) == SELECTED
     assert sum(scene["designs"] for scene in data["scenes"]) > 3 * SELECTED

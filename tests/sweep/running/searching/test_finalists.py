@@ -1,4 +1,4 @@
-"""Which designs are finalists, and as what they are simulated again."""
+"""Which designs are finalists, and how they are simulated again."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The search: it finds a narrow peak, is resumed by replay, and survives what fails."""
+"""The search: it finds a narrow peak, is resumed by replay, and survives failures."""
 
 import json
 from math import exp
