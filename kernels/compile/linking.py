@@ -17,7 +17,7 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
 
-WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
+WRAPPER = "_ZN7cpython"  # the names of functions that Python calls begin so
 LARGE = 250  # lines of LLVM: a linked function that has more is not inlined
 SHARED = (Linkage.weak_odr, Linkage.linkonce_odr)  # the one survives without a caller
 

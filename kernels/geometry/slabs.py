@@ -96,7 +96,7 @@ def area(loops, low, high, levels):
                 place = insert(left, right, kept, 0, begin, end)
                 for j in range(
                     kept, place, -1
-                ):  # keep the order of this slab, which is nearly that of the next one
+                ):  # keep the order of this slab, as the next one has nearly the same
                     active[j] = active[j - 1]
                 active[place] = k
                 kept += 1

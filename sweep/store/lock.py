@@ -23,7 +23,7 @@ HOW = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NON
 NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
 OWNED = ".owner"  # suffix of the lock where there are no locks
 LONGEST = 300  # bytes of the name of a holder
-LOCKED_BYTE = 1 << 30  # of the file, on Windows: what is locked there, others cannot read
+LOCKED_BYTE = 1 << 30  # of the file, on Windows: others cannot read a locked byte
 
 
 class LockedError(Exception):

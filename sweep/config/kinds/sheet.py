@@ -27,7 +27,7 @@ LEAST = 0.6  # share of the wanted period
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
 MOST_QUADS = 20_000  # each with six unknowns
 SIDES = ("width", "height", "depth")
-FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
+FINER = 1.7  # quads of a wall / quads of a sheet of equal area: curves divide it
 
 
 class Surface(Specimen):

@@ -261,7 +261,7 @@ def _corner(of: dict[str, Floats], forces: Sequence[float]) -> dict[str, Any]:
         "ends": [None, None],
         "within": None,
         "strokes": [_least(of["stroke"]), *(0 for _ in forces)],
-        "curve": [[0], [0]],  # no stroke: that of a member is read from a curve
+        "curve": [[0], [0]],  # no stroke: a member has it from its curve
         "height": 0,
     }
 

@@ -91,7 +91,7 @@ def test_a_led_chain_goes_through_minima():
         )
         np.testing.assert_allclose(x[1:3], found.x, rtol=0, atol=1e-6)
         inner = x[1:3]
-    assert rows["integrator"][-1] > 1e-3  # what the snap has released
+    assert rows["integrator"][-1] > 1e-3  # the energy released by the snap
     np.testing.assert_allclose(positions[:, -1], np.linspace(-1.2, 4.8, 41)[1:], atol=1e-14)
     assert inner is not start.x
 

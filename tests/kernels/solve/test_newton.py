@@ -16,7 +16,7 @@ from tests.support.kernels.solving import descend, ramp, reduction, residual, sh
 
 HEIGHT = 12.5e-3
 ROUND_OFF = 1e-9  # N
-BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
+BUCKLED = 0.03  # strain, above buckling of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
 
 
 def column(elements=6):

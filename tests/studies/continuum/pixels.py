@@ -16,7 +16,7 @@ from tests.studies.continuum.press import factor
 
 CORNERS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 POINTS = np.array([-1.0, 1.0]) / np.sqrt(3.0)  # of Gauss
-FINER = 6  # points across a pixel, of those that count what is covered
+FINER = 6  # points across a pixel, which count the covered area
 STOUT = {  # t over the length of the shortest wall
     "circle": (0.2, 0.4, 0.5),
     "reentrant": (0.3, 0.4, 0.5),

@@ -16,7 +16,7 @@ from tests.studies.rankings.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
 FINEST = (12, 24)
-BASE = 3  # elements of a wall, to whose cost that of others is compared
+BASE = 3  # elements of a wall, with whose cost others are compared
 MASSES = (0.6e-3, 1.2e-3, 2.0e-3)  # kg: about 0.1, 0.2 and 0.35 of a solid block
 DESIGNS = tuple(product(CELLS, product(("glued", "contact"), MASSES)))
 COLUMNS = {

@@ -22,7 +22,7 @@ from tests.support.kernels.shells import at_rest, element_hessians, plate
 STRAIGHT, WAVING = "straight", "waving"
 BUCKLING_STRAIN = 4.0 * np.pi**2 / 9.0  # over (t / b)^2
 BOW = 0.002  # in thicknesses
-WATCHED = (1.15, 1.35)  # shortening over that of buckling, between which the tangent is taken
+WATCHED = (1.15, 1.35)  # shortenings / shortening at buckling, between which the tangent is taken
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 
 

@@ -35,12 +35,12 @@ MARCH, FOLLOW = march.march, arc_length.follow
 CLOCK = SimpleNamespace(monotonic=time.process_time)  # of this process, which has one case
 GRACE = 10.0  # s beyond its limit that a case may take
 SAME = 1e-9  # of the largest force: two sums of the same forces
-EARNED = 1e-6  # of the work done: what an energy may be off
-REACH = 4.0  # times that of a contact: what may touch before the friction of a step is corrected
-MADE = 5e-3  # of the work done: what backward Euler may make
+EARNED = 1e-6  # allowed error of an energy, as a share of the work done
+REACH = 4.0  # times the reach of contact: pairs that may touch before friction is corrected
+MADE = 5e-3  # energy that backward Euler may generate, as a share of the work done
 STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
 # where walls part since then, it is less at the end of the step
-BORNE = 1e-3  # of a load: what is left of it where nothing moves
+BORNE = 1e-3  # share of a load that may remain where nothing moves
 SAID = "the time integration gained energy", "work and energies do not balance"
 
 

@@ -21,7 +21,7 @@ MEMORY = 1000  # beyond `COUNT`: first number of a scene with a memory
 MOST_NODES = 1200
 CONFIGS = Path(__file__).parents[3] / "configs"
 SWAY = 0.474  # buckling stress of a square grid / (Y' (t / L)^3), rows swaying
-# Those of the product when the scenes were drawn: with one more, other scenes would come out.
+# As in the product when the scenes were drawn: one more would change the scenes.
 FAMILIES = "brick", "circle", "diamond", "hex", "kagome", "reentrant", "square", "triangle"
 RECORDS = (
     "cheetah",

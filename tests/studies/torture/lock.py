@@ -51,7 +51,7 @@ def held(name: str, count: int) -> Held:
     cases = load_config(name).cases
     chosen = cases[:: max(len(cases) // count, 1)]
     simulate = real_simulate(chosen)
-    simulate(chosen[0], np.zeros(2, np.int64))  # loads what is loaded at the first call
+    simulate(chosen[0], np.zeros(2, np.int64))  # loads the modules that the first call loads
     with timed_kernels() as spent:
         started = time.thread_time()
         for case in chosen:

@@ -65,7 +65,7 @@ strain = 0.01
 load_steps = 2
 """,
 }
-SHARES = {"cpu_s": 0.0, "git_revision": ""}  # what differs from run to run
+SHARES = {"cpu_s": 0.0, "git_revision": ""}  # columns that differ from run to run
 
 
 @pytest.fixture(params=CONFIGS)

@@ -54,7 +54,7 @@ def test_batches_hold_about_a_second_and_shrink_towards_the_end():
     while batch := plan.take():
         sizes.append(len(batch))
         plan.learn(batch, 0.02 * len(batch))
-    assert sizes[:6] == [1, 2, 4, 8, 16, 32]  # no more than have told of the pace
+    assert sizes[:6] == [1, 2, 4, 8, 16, 32]  # no more than have been measured
     assert 49 <= sizes[6] <= max(sizes) <= 50
     assert sizes[-1] <= 5
     assert sum(sizes) == 999

@@ -27,7 +27,7 @@ from tests.support.results.specimens import summary, there_and_back, write
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
 SWEEPS, ASKED = 5, 32
-DIGITS = 1e-3  # relative: of what the page reads from curves of four digits
+DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 ASK = """
 function told({ data, questions }) {
