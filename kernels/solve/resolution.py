@@ -5,7 +5,7 @@ positions resolve (`residual.allowed`), and that force has no bound. In a very s
 alone, m / h^2, makes any load admissible: the structure would stay where it is, and lose the
 momentum that the load gives it. A point is therefore a step only if
 
-    max |r| <= LARGEST_RESIDUAL F, F: the largest force of this step and of all before,
+    max |r| <= LARGEST_RESIDUAL F,   F: the largest force of this step and of all before,
 
 or if two energies are small compared with the energies of the run: the energy that the residual can
 still release (twice the Newton decrement), and the work of the residual. This is the case at a

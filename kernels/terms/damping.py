@@ -1,6 +1,6 @@
 """Damping as a convex dissipation potential of a step: D = D_mass + D_stiffness + D_viscous.
 
-    D_mass = alpha / (2 h) |x - y|_M^2; the others: `rayleigh` and `kelvin_voigt`.
+    D_mass = alpha / (2 h) |x - y|_M^2;  the others: `rayleigh` and `kelvin_voigt`.
 
 (x - y) / h is the velocity at the end of the step (`solve.integrators`); with backward Euler y = x0
 and h = dt. M is the mass of the lattice alone: the flight of a striker is not damped. The gradient

@@ -202,8 +202,8 @@ def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
 
 
 def _left(case: Case, middle: int, done: int) -> float:
-    """How many times longer a case still takes after `done` steps, of which `middle` took half of
-    the time.
+    """How many times as long a whole case takes as its first `done` steps did, `middle` of them in
+    half of that time.
     """
     count, loading = count_of(case.loading, case.solver), case.loading
     if _folds(case) and isinstance(loading, Crush) and case.solver.load_steps:

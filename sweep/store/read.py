@@ -6,13 +6,15 @@ results file grows as `NAME.h5.tmp`; at the end it gets its name and the parts a
 results file and a part have the same layout. A reader sees the union of all of them; of two rows
 with the same case id it takes the newer one.
 
-    /summary/COLUMN (n,) a row per case; attributes `units` and `description`
-    /histories/values/COLUMN (sum of rows,) float32, the curves of all cases one after another
-    /histories/start, rows (n,) first row of the curves of a case, and their number of rows /frames,
-    /points, /edges the same; a row is a frame, a node of a frame, an element /plate_points, /quads
-    the same for plates /strikers, /bases the same; a row is a point of an outline /cases the same;
-    a row is a byte of the case as JSON (`Case.to_json`) /checksums (n,) of the rows of the summary,
-    with `start` and `rows`; the attribute `checksum` covers the other attributes
+    /summary/COLUMN            (n,) a row per case; attributes `units` and `description`
+    /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases one after another
+    /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
+    /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
+    /plate_points, /quads      the same for plates
+    /strikers, /bases          the same; a row is a point of an outline
+    /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
+    /checksums                 (n,) of the rows of the summary, with `start` and `rows`; the
+                               attribute `checksum` covers the other attributes
 """
 
 import json

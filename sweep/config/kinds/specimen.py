@@ -31,7 +31,7 @@ Imperfection = Annotated[float, Field(ge=0, le=100, json_schema_extra={"unit": "
 class Specimen(Table):
     """A specimen: its outer size over centre lines, and the mesh of its walls.
 
-    nozzle: width of a line if lines have no other use. printable: refuse walls and gaps that do not
+    nozzle: width of a line if no line width is given. printable: refuse walls and gaps that do not
     print. layers: quads up the height of a lattice that is pressed along its cells; None across
     them. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed: of
     the shape of its imperfection; None: the shape in which equal walls buckle.

@@ -1,11 +1,13 @@
 """The header of a material record: comment lines with its source and, one per line, its numbers.
 
-    # poisson: 0.48 poisson: 0.48 (0.45 .. 0.48) and the range in which it may lie modulus_Pa: 67e6
-    # +- 6e6 the same, for a range around the number modulus_Pa: 19e6 .. 27e6 a range alone; the
-    # number follows from the curve density_g_cm3: 1.21 in another unit, which the key names Density
-    # [A]: of another grade. a comment; [Q] quoted, [D] derived, [A] assumed
+    # poisson: 0.48
+    # poisson: 0.48 (0.45 .. 0.48)       and the range in which it may lie
+    # modulus_Pa: 67e6 +- 6e6            the same, for a range around the number
+    # modulus_Pa: 19e6 .. 27e6           a range alone; the number follows from the curve
+    # density_g_cm3: 1.21                in another unit, which the key names
+    # Density [A]: of another grade.     a comment; [Q] quoted, [D] derived, [A] assumed
 
-A comment continues in the next line if that begins with "# ".
+A comment continues in the next line if that begins with "#  ".
 """
 
 import re

@@ -33,9 +33,9 @@ class Pattern(NamedTuple):
     unit of the family over the distance of lines. opening: clear width of the narrowest cell over
     the distance of lines. turn: of the family's drawing at a fill angle of 0, rad. middle: of the
     drawing, in the unit of the family. wall: mean thickness over s; gyration: radius of gyration of
-    the section over the value of a rectangle of the mean thickness. corners: length of a wall / s
-    that paths save by cutting corners, per share of infill. multiline: whether walls may be several
-    lines.
+    the section over the value of a rectangle of the mean thickness. corners: thickness / s that
+    paths save in the mean by cutting corners, per share of infill. multiline: whether walls may be
+    several lines.
     """
 
     family: str

@@ -125,7 +125,7 @@ def _of_budgets(
 
 
 def _end(ranking: Ranking) -> str:
-    """The end of counting the energy of a crush."""
+    """The point up to which the energy of a crush is counted, in words."""
     return "the allowed force was reached" if ranking.limited else "densification"
 
 
