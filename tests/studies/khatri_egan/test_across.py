@@ -58,7 +58,7 @@ def changed(case):
     return " ".join(f"{FACTORS[key].name} {FACTORS[key].text(case.axes[key])}" for key in keys)
 
 
-def told():
+def readme_rows():
     """Platens, changes ("": none) and the energy in J of the rows that the README shows."""
     for platens, *cells in readme.table("absorbed in J between platens"):
         for cell in cells:
@@ -66,7 +66,7 @@ def told():
             yield platens, words, float(energy)
 
 
-@pytest.mark.parametrize(("platens", "words", "energy"), list(told()))
+@pytest.mark.parametrize(("platens", "words", "energy"), list(readme_rows()))
 def test_experiment_holds_its_numbers(platens, words, energy):
     (platen,) = (key for key, (name, _) in PLATENS.items() if name == platens)
     (case,) = (c for c in CASES if c.loading.platen == platen and changed(c) == words)

@@ -114,15 +114,15 @@ def sheet(question, beside, searches):
     heads = ["", "designs", "energy mJ", "of the first %", "design"]
     reference = next(iter(beside.values()))[0]
     rows = [
-        [name, str(len(question.beside[name])), *told(*one, reference)]
+        [name, str(len(question.beside[name])), *row_of(*one, reference)]
         for name, one in beside.items()
     ]
     for seed, one in zip(SEEDS, searches, strict=False):
-        rows.append([f"search, seed {seed}", str(question.evaluations), *told(*one, reference)])
+        rows.append([f"search, seed {seed}", str(question.evaluations), *row_of(*one, reference)])
     return Sheet(f"Energy to 50 N: {question.name}", heads, rows)
 
 
-def told(value, case, reference):
+def row_of(value, case, reference):
     """Energy, its share of a reference, and the design in words."""
     lattice = case.lattice
     cells = f"{lattice.kind} {lattice.cells_x} x {lattice.cells_y}"

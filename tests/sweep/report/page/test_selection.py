@@ -28,7 +28,7 @@ from tests.support.results.questions import (
 COUNT, SELECTED = 90, 40  # designs of each of two scenes; of both in the page
 QUESTIONS = 12
 ASK = """
-function told({ data, questions }) {
+function answersOf({ data, questions }) {
   return questions.map((question) => data.scenes.map((_, scene) => {
     const found = ranked(data, { ...question, scene });
     const { certain, better, nearest } = found;
@@ -40,7 +40,7 @@ function told({ data, questions }) {
 
 
 @pytest.fixture(scope="module")
-def told():
+def page_answers():
     """The answers of the page to questions, for each a list of scenes."""
     script = gather.__file__.replace("gather.py", "rank.js")
     with MiniRacer() as engine, open(script, encoding="utf-8") as file:
@@ -48,7 +48,7 @@ def told():
 
         def ask(data, questions):
             asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-            return json.loads(engine.eval(f"JSON.stringify(told({asked}))"))
+            return json.loads(engine.eval(f"JSON.stringify(answersOf({asked}))"))
 
         yield ask
 
@@ -99,7 +99,9 @@ def on_the_page(question):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few, tmp_path, seed):
+def test_first_places_are_those_among_all_designs_or_the_page_says_so(
+    page_answers, few, tmp_path, seed
+):
     """Whatever the question: budget, panel, allowed force, requirements."""
     file, table, data, rng = many(tmp_path, seed)
     assert len(data["cases"]) == SELECTED
@@ -107,7 +109,7 @@ def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few,
     drawn, cache = [random_question(rng, table) for _ in range(QUESTIONS)], {}
     questions = [each_budget(question)[0] for question in drawn]
     sure = better = 0
-    answers = told(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, [on_the_page(question) for question in questions])
     for question, scenes in zip(questions, answers, strict=True):
         every, outcomes = among_all(file, table, question, cache)
         for scene, found in zip(data["scenes"], scenes, strict=True):
@@ -128,7 +130,7 @@ def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few,
 
 
 def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
-    told, few, tmp_path, monkeypatch
+    page_answers, few, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(selection, "MOST", 2 * SELECTED)
     file, table, data, _ = many(tmp_path, 5)
@@ -136,7 +138,7 @@ def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
     plain = {"panel": None, "per": "specimen", "require": {}}
     budgets = [None, *(1e-3 * np.sort(masses)[len(masses) // 2 :: 8])]
     questions = [plain | {"budget": b, "force": f} for b in budgets for f in (None, *FORCES)]
-    answers = told(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, [on_the_page(question) for question in questions])
     for question, (found, *_) in zip(questions, answers, strict=True):
         rows = next(iter(among_all(file, table, question, {})[0].values()))
         sound = not (rows.iloc[0]["beyond_model"] or rows.iloc[0]["crossed"])
