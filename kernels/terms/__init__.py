@@ -6,5 +6,5 @@ derivatives in strain and turns, the resultants of the sections, from which `ele
 gradient and Hessian. `rayleigh` starts from that Hessian. *Other terms* have two verbs: `evaluate`
 returns the energy and adds the gradient, `hessian` adds to the matrix (`inertia`, `damping` by
 mass, `spring`, `fold`, `contact`, `friction`). `loads` are linear. `contact_near_joints` prepares
-`contact`. The material laws are in `kernels.laws`.
+`contact`, and `profile` is contact with rigid profiles. The material laws are in `kernels.laws`.
 """

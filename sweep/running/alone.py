@@ -1,5 +1,5 @@
-"""Runs each case in a process of its own, so that a failure is confined to the case and becomes a
-row: an exception as well as the death of the process.
+"""Runs cases one at a time in a child process, so that a failure is confined to its case and
+becomes a row: an exception as well as the death of the process.
 
 A child process runs `answer`; the function, cases and results pass through a pipe. It receives the
 module paths of this process only once it has started: a module there may have a name of Python's

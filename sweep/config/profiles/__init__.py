@@ -1,1 +1,3 @@
-"""Reads profiles of slicers: the file, its settings, and their meaning for a lattice."""
+"""Reads profiles of slicers: `settings` reads the file, `profile` translates it into keys of a
+lattice.
+"""
