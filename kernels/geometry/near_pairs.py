@@ -165,7 +165,7 @@ def find(x, contact, radius):
 
 @jit_exact
 def is_guarded(pairs, k, contact):
-    """Return whether pair ``k`` is near a joint and only prevented from crossing."""
+    """Return whether pair ``k`` is near a joint, and exerts no force but must not cross."""
     return pairs.rule[k] >= 0 and contact.special_weight[pairs.rule[k]] == 0.0
 
 

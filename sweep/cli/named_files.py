@@ -1,4 +1,4 @@
-"""Finds results files by the names that users have for them: their path, a sweep, or its config."""
+"""Finds results files by the names that users give: their path, a sweep, or its config."""
 
 import tomllib
 from pathlib import Path

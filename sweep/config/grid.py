@@ -133,9 +133,9 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     """The cases, and which combinations are left out, as their values cannot be combined.
 
     The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
-    value that no combination can use, unless it is merely not printable, a grid of which no case is
-    left, a key that no case uses, and a table of [[exclude]] that drops no case. A search is tried
-    at a few points (`_combinations`), and has no cases.
+    value that no combination can use, unless it is merely not printable, a grid without any
+    possible case, a key that no case uses, and a table of [[exclude]] that drops no case. A search
+    is tried at a few points (`_combinations`), and has no cases.
     """
     count = recipe.count
     if count > MAX_CASES:

@@ -99,7 +99,7 @@ def _directed(raw: Measured, columns: Columns, answers: Answers, texts: Iterable
 
 
 def _zeroed(raw: Measured, columns: Columns, answers: Answers) -> tuple[Floats, Floats, Floats]:
-    """Time, strain and stress that begin at zero, or the question where they do."""
+    """Time, strain and stress shifted to begin at zero; asks how to shift them if in doubt."""
     path = (raw.time, raw.strain, raw.stress)
     if answers.zero is None:
         if doubt := zero.doubt(raw.strain, raw.stress, raw.to_scale):

@@ -22,7 +22,7 @@ class Profile(NamedTuple):
     tips: tuple[int, ...]
 
     def outline(self) -> Floats:
-        """The outline as a polygon, (k, 2): for pictures."""
+        """The outline as a polygon (k, 2), for pictures."""
         turns = np.arange(0.0, 2.0 * np.pi, ARC)
         disc = self.radius * np.column_stack([np.cos(turns), np.sin(turns)])
         return hull((self.chain[:, None] + disc).reshape(-1, 2))

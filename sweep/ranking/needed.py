@@ -41,7 +41,7 @@ NEEDED = frozenset(
 
 
 def needed_columns(summary: DataFrame, also: Iterable[str | None] = ()) -> DataFrame:
-    """The columns that rank the rows of a summary, and some others.
+    """The columns that a ranking of the rows of a summary needs, and some others.
 
     They include the columns for every allowed force, and errors and ranges of all needed columns.
     """

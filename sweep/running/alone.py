@@ -122,7 +122,7 @@ class Child(AbstractContextManager["Child"]):
             self._process = _started([sys.executable, "-P", "-c", program], there.fileno())
 
     def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
-        """The next message from the process, within some time."""
+        """The next message from the process; raises `TimeoutError` after some seconds."""
         due = time.monotonic() + seconds
         while not self._channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
             if is_stopped():

@@ -63,9 +63,7 @@ class Journal:
         return run
 
     def _write(self, mark: str, case_id: str) -> None:
-        """Write a line, which reaches the file before the case runs, and survives the death of the
-        process.
-        """
+        """Write a line to the file at once, so that it survives the death of the process."""
         with self._lock, suppress(OSError):
             os.write(self._file, f"{mark}{case_id}\n".encode())
 

@@ -47,8 +47,7 @@ class Mesh:
 
     @cached_property
     def stubs(self) -> NDArray[np.bool_]:
-        """Elements that are all that is left of a wall between solid joints, and too short for a
-        beam, (m,).
+        """True for elements too short for a beam: the rest of a wall between solid joints, (m,).
 
         Their fibres would be bent far beyond a radius of half the thickness.
         """

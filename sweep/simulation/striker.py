@@ -45,8 +45,10 @@ STILL = 1e-3  # of the stroke; a stopping striker moves by 1 % in the last tenth
 
 
 class Rebound(NamedTuple):
-    """Speed of a striker away from the base (m/s), its mechanical energy relative to the base (J),
-    0 at rest at first touch, and the row; the last one without a rebound.
+    """The rebound of a striker from the base, or its state in the last row if it does not rebound.
+
+    speed: away from the base, m/s. energy: mechanical energy relative to the base, J; 0 at rest at
+    first touch. row: of the history.
     """
 
     speed: float

@@ -72,7 +72,7 @@ class Cells(WallLattice):
 
     @classmethod
     def means(cls, inputs: Inputs) -> bool:
-        """Whether values mean this kind of lattice, as they mean no other."""
+        """Whether values mean this kind of lattice, and no other kind."""
         return True
 
     @classmethod

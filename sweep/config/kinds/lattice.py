@@ -69,6 +69,6 @@ def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
 def _across(lattice: Lattice) -> Lattice:
     """The lattice without values that only a crush along the cells uses.
 
-    It is one of perhaps very many: all share the set of their keys.
+    A sweep may have very many such lattices, so all share one set of keys.
     """
     return type(lattice).model_construct(keys_of(type(lattice)), **(dict(lattice) | lattice.across))

@@ -23,7 +23,7 @@ NEAR = -0.1, 0.1  # strain
 
 
 def material_curves(figure: Figure, curves: Mapping[str, Curve]) -> None:
-    """Nominal stress over nominal strain, compression and tension; the middle of it enlarged.
+    """Nominal stress over nominal strain, compression and tension, with an enlarged middle.
 
     curves: strain (k,) and stress (k,) in Pa by the names of the materials.
     """
