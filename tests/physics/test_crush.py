@@ -76,8 +76,8 @@ def test_reactions_of_both_platens_agree(platen, friction):
 
 
 def test_unloading_returns_all_energy_without_friction():
-    """Glued, nothing snaps: the curve back is the curve there. (At three elements a wall, one does
-    at 58 %.)
+    """Glued walls do not snap, so that unloading follows the loading curve. (With three elements
+    per wall, one snaps at 58 %.)
     """
     result = there_and_back("glued", 0.0, elements=6)
     summary, force = result.summary, result.history["reaction_top_N"]

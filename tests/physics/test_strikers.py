@@ -212,7 +212,7 @@ def test_a_round_striker_against_plane_finite_elements(at):
 
 
 def test_ribs_carry_a_panel_that_bends_between_them():
-    """The wider their span, the softer; less than by its third power, as the panel shears too."""
+    """A wider span is softer, by less than its third power, as the panel shears too."""
     soft = [
         np.interp(0.02, *curve(striker="round", base="ribs", base_span=span, strain=0.05))
         for span in (12e-3, 22e-3)

@@ -1,4 +1,4 @@
-"""A headless Chromium that is driven through its debugging pipe, if there is one on the machine."""
+"""A headless Chromium, if the machine has one, driven through its debugging pipe."""
 
 import base64
 import json

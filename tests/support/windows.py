@@ -47,7 +47,7 @@ def pretend():
 
 
 def _locking(descriptor, mode, count):
-    """A lock of a byte, as one of the whole file; it belongs to the one who opened the file."""
+    """A lock of one byte locks the whole file, and belongs to whoever opened the file."""
     assert (mode, count) == (2, 1)
     assert os.lseek(descriptor, 0, os.SEEK_CUR) > 1000, "others could not read who has the lock"
     try:

@@ -74,7 +74,7 @@ def test_uniaxial_stress_of_rubber(stretch):
 
 @pytest.mark.parametrize("stretch", [0.6, 0.95, 1.0, 1.3])
 def test_equibiaxial_stress_of_rubber(stretch):
-    """Mu (l - 1 / l^5)."""
+    """The stress is mu (l - 1 / l^5)."""
     for name in ("linear", "rubber"):
         slopes = LAWS[name].respond(*strain((stretch, stretch), 0.0))[1]
         expected = MU * (stretch - stretch**-5)

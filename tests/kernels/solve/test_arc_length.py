@@ -216,7 +216,7 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 
 @pytest.mark.parametrize("move", [np.inf, np.nan])
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
-    """Nothing else is looked at: pairs for such a move would be listed for ever."""
+    """It ends before pairs are listed, which would take for ever for such a move."""
     correct = getattr(arc_length._correct, "__wrapped__", arc_length._correct)
     workspace = SimpleNamespace(evaluation=None, work=SimpleNamespace(direction=0, escape=0))
     problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))

@@ -165,7 +165,7 @@ def test_steps_are_short_where_a_particle_snaps():
 
 @pytest.mark.parametrize(("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (TRAPEZOIDAL, 2.0)])
 def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
-    """They are corrected once where it is two. The particle slides all the time, down a slope."""
+    """With an integrator of order two they are corrected once. The particle slides down a slope."""
     chain, ends = line(1, load=6.0, friction=0.4)._replace(slip=1e-9), []
     for steps in (100, 200, 3200):
         state = begun(chain, [-WIDTH])

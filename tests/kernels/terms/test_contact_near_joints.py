@@ -163,7 +163,7 @@ def test_weights_and_distances_against_paths_along_the_network(of):
 
 @pytest.mark.parametrize("opening", [30.0, 60.0, 90.0, 120.0, 180.0])
 def test_faces_round_a_corner_touch_where_they_can_be_bent_to(opening):
-    """Where paths are longer than t (cot(g/2) + g/2), g the opening of the arms."""
+    """They touch where paths are longer than t (cot(g/2) + g/2), g the opening of the arms."""
     of, half = star(0.0, opening, pieces=16), np.radians(opening) / 2
     touch, h = contact_of(of), 4.0 / 16
     least = T * (1 / np.tan(half) + half)

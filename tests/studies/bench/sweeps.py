@@ -42,14 +42,12 @@ class Swept(NamedTuple):
 
     @property
     def free(self):
-        """On the clock, had no other program run."""
+        """Wall-clock seconds if no other program had run."""
         return self.wall - self.lost
 
 
 def busy():
-    """CPU seconds that all programs of this machine have used so far, including time taken by its
-    host.
-    """
+    """CPU seconds so far, used by all programs of this machine or taken by its host."""
     ticks = [int(word) for word in Path("/proc/stat").read_text("utf-8").split()[1:9]]
     return (sum(ticks) - ticks[IDLE] - ticks[WAITING]) / os.sysconf("SC_CLK_TCK")
 

@@ -88,7 +88,7 @@ def knock_down(n: int, thickness: float) -> float:
 
 
 def mindlin(thickness: float) -> float:
-    """The same for Mindlin's plate: 1 / (1 + sigma / (2 kappa G)), sigma: its buckling stress."""
+    """`knock_down` by Mindlin's theory: 1 / (1 + sigma / (2 kappa G)), sigma: buckling stress."""
     stress = 4.0 * np.pi**2 * rigidity(thickness) / thickness
     return 1.0 / (1.0 + stress / (2.0 * KAPPA * MODULUS / 3.0))
 

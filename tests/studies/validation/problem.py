@@ -43,7 +43,7 @@ class Finding:
 
     @property
     def order(self) -> float:
-        """From the differences of the values alone; NaN where they are round-off."""
+        """Order from the differences of the values alone; NaN where they are round-off."""
         first, second, third = self.values
         if min(abs(second - first), abs(third - second)) < NOISE * abs(third):
             return nan

@@ -89,7 +89,7 @@ def test_a_shoulder_is_within_the_curve():
 
 
 def test_energy_below_a_stress():
-    """Of a spring, stress^2 / (2 k), up to 160 kPa; a foam has all below any stress but its own."""
+    """A spring absorbs stress^2 / (2 k) up to 160 kPa; a foam absorbs all at its own stress."""
     stresses = np.array([0.1, 80e3, 160e3, 500e3])
     found = absorbed_below(SPRING, stresses)
     np.testing.assert_allclose(found, [np.nan, 16e3, 64e3, 64e3], rtol=1e-6)

@@ -171,7 +171,7 @@ def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, 
 
 
 def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_path, monkeypatch):
-    """Somebody has removed the file that grows."""
+    """The growing file has been deleted."""
     fold, out = Writer.fold, tmp_path / "sweep.h5"
 
     def robbed(writer, last):

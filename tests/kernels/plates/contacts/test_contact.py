@@ -137,7 +137,7 @@ ANGLE = np.radians([0.0, 100.0])
      (ANGLE, (-0.2, -0.4)), (ANGLE, (-0.5, 0.3)), ([0.0, np.pi], (0.3, 0.4)), ([0.0], (-0.4, 0.3))],
 )  # fmt: skip
 def test_walls_that_meet_count_once_beyond_their_line(angles, place, fine, along):
-    """Each wall counts; the line counts once, with k walls k - 1 times subtracted."""
+    """Each wall counts; the line of k walls counts once, as it is subtracted k - 1 times."""
     expected = -(len(angles) - 1) * phi(np.hypot(*place))
     for angle in angles:
         u = np.array([np.cos(angle), np.sin(angle)])

@@ -200,7 +200,7 @@ def test_curvature_is_semi_definite_for_any_dual():
 
 
 def held(slip):
-    """One contact whose slip are the first two coordinates of node 0, with the load 1."""
+    """One contact with the load 1, whose slip is the first two coordinates of node 0."""
     contacts = friction._room(1, None)
     contacts.nodes[:], contacts.size[:], contacts.slopes[:] = 0, 1, 0.0
     contacts.slopes[0, 0, 0, 0] = contacts.slopes[0, 0, 1, 1] = 1.0

@@ -46,7 +46,7 @@ def test_images_are_a_period_away_and_frames_those_of_originals(kind):
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_the_walls_of_a_period_have_all_its_area(kind):
-    """As many cells of a lattice with free sides, without the walls of its last sides."""
+    """The area equals the same cells of a lattice with free sides, without its last walls."""
     mesh, case_ = scene(kind).mesh, case(kind, FAMILIES[kind])
     lattice = case_.lattice
     expected = sum(mesh.plan.length[: len(np.unique(mesh.wall))]) * lattice.depth
