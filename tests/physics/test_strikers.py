@@ -104,7 +104,7 @@ class Beam:
         return x
 
     def force(self, x):
-        """Of the striker, N."""
+        """Force of the striker, N."""
         return -self.terms[-1].gradient(x)[-1]
 
 
@@ -203,7 +203,9 @@ def test_no_wall_passes_through_a_striker(loading):
 
 @pytest.mark.parametrize("at", PLACES)
 def test_a_round_striker_against_plane_finite_elements(at):
-    """Beside a joint and between two; the coarser solid is within 2.5 % of the finer one."""
+    """Strikers beside a joint and between two; the coarser solid is within 2.5 % of the finer
+    one.
+    """
     strain, force = stored()[round(at, 4), MESHES[-1]]
     coarser = stored()[round(at, 4), MESHES[0]][1]
     np.testing.assert_allclose(coarser, force, atol=0.025 * force.max())

@@ -361,7 +361,7 @@ def defined(module):
 
 
 def test_what_is_imported_of_our_own_is_there():
-    """In the programs of slow studies too, which no test runs."""
+    """Programs of slow studies, which no test runs, are read too."""
     missing = [
         f"{module}: {node.module}.{alias.name}"
         for module in SOURCES

@@ -180,6 +180,6 @@ def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
 
 
 def test_kernels_are_compiled_once(run):
-    """And found by another process."""
+    """Another process finds them."""
     assert run("python", "-I", "-c", KEPT) == "3.0 0\n"
     assert run("python", "-I", "-c", KEPT) == "3.0 1\n"

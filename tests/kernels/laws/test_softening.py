@@ -75,7 +75,9 @@ def test_a_cycle_loses_the_area_of_its_loop_and_a_second_one_nothing():
 
 @pytest.mark.parametrize("strain", [DEEP, -DEEP])
 def test_work_is_stored_or_dissipated(strain):
-    """To second order alone, to first order with branches: their curve has a kink."""
+    """The book closes to second order without branches, to first order with them, as their curve
+    has a kink.
+    """
     for law, order in (
         (relaxing(measured(), softening=SOFTENING), 1.9),
         (relaxing(measured(), [0.5], [2.0], SOFTENING), 0.8),

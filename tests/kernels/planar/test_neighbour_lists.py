@@ -93,7 +93,7 @@ def hits(scene, x, dx):
 @pytest.mark.parametrize("contact", [GRIP, dict(model="none")], ids=["contact", "no contact"])
 @pytest.mark.parametrize("state", ["rest", *STATES])
 def test_the_bounds_of_a_step_miss_nothing(state, contact):
-    """Of walls that meet, corners that close and elements that shrink, for moves of any size."""
+    """Walls meet, corners close and elements shrink, in moves of any size."""
     scene = loaded(contact=contact, platen="none" if contact.get("model") == "none" else "contact")
     x = scene.x_rest if state == "rest" else STATES[state](scene)
     args, limited = whole(scene, x, reach=0.1), 0

@@ -178,7 +178,7 @@ def test_a_glued_platen_stops_what_is_not_glued_to_it():
 
 
 def test_energy_that_it_injects_falls_with_the_time_step():
-    """By more than in proportion, as each step pushes back the overlap of one step."""
+    """It falls more than in proportion, as each step pushes back the overlap of one step."""
     injected = [
         run(dropped(time_step=dt)).history["injected_by_projection_J"][-1]
         for dt in (5e-5, 2.5e-5, 1.25e-5)

@@ -59,7 +59,7 @@ def test_derivatives_with_solid_joints_and_sections(state):
 @pytest.mark.parametrize("dt", [DT, np.inf])
 @pytest.mark.parametrize("elements", [1, 3])
 def test_derivatives_at_rest(elements, dt):
-    """Of a linear material: a measured curve has a kink in its tangent there."""
+    """The material is linear: a measured curve has a kink in its tangent there."""
     scene = loaded(elements, "none", material=MATERIAL)
     assert error(scene, scene.x_rest, whole(scene, scene.x_rest, dt=dt), 1e-4) < 1e-9
 

@@ -84,7 +84,7 @@ def test_arcs_of_any_length_lie_on_the_same_path(length):
 
 
 def test_points_are_in_balance_and_as_stable_as_they_say():
-    """By an evaluation of its own: every node of a frame of single elements is a probe."""
+    """An independent evaluation: every node of a frame of single elements is a probe."""
     legs = [[0, 24 * k] for k in range(6)] + [[24 * k, 120] for k in range(1, 6)]
     parts = {
         "nodes_mm": [*legs[:5], [0, 120], *legs[6:]],
@@ -132,7 +132,7 @@ def test_loads_grow_by_a_twentieth_at_most():
 
 
 def test_length_of_an_arc_is_that_of_all_points():
-    """Whatever the mesh: the root of the mean square of the moves of all points."""
+    """For any mesh it is the root of the mean square of the moves of all points."""
     for pieces in (4, 16):
         case = case_of(lee(pieces), arc_length=1e-3)
         weight = arc_of(build_structure(case), case).weight

@@ -191,7 +191,7 @@ def test_several_particles_slide():
     ("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (BDF2, 2.0), (TRAPEZOIDAL, 2.0)]
 )
 def test_the_chain_swings_with_the_order_of_the_integrator(scheme, order):
-    """Against a step 16 times as short and more, as a slope; the book closes in every run."""
+    """The reference has steps at least 16 times as short; the book closes in every run."""
     chain, ends = line(3), {}
     for steps in (200, 400, 800, 12800):
         state = begun(chain, [1.6, 1.7, 2.0])

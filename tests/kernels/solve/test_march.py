@@ -229,7 +229,7 @@ def test_a_step_that_fails_is_halved_and_the_stage_ends_on_time(speed):
 
 
 def test_halved_steps_take_half_the_time():
-    """Whatever the parts of a step, the platen has moved through each of them at its speed."""
+    """For any parts of a step, the platen has moved through each of them at its speed."""
     case = crush(2, 10.0)
     scene = build_scene(case)
     state = at_rest(scene)
@@ -243,7 +243,7 @@ def test_halved_steps_take_half_the_time():
 
 
 def test_steps_grow_again_once_they_succeed():
-    """Where the walls buckle an eighth of a step is needed, and nowhere else."""
+    """An eighth of a step is needed where the walls buckle, and nowhere else."""
     result = simulate(crush(20, max_iterations=5))
     assert result.status == "converged"
     assert 20 < result.summary["steps"] < 40

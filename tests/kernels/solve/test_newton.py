@@ -63,7 +63,7 @@ def test_a_straight_column_is_left_once_it_buckles():
 
 
 def test_it_goes_on_from_what_was_evaluated_before():
-    """From a saddle, where the projected Hessian is evaluated at the same point."""
+    """It starts from a saddle, where the projected Hessian is evaluated at the same point."""
     case = column()
     scene = build_scene(case)
     start = straight(scene, BUCKLED)
@@ -155,7 +155,7 @@ def test_a_step_must_fall_by_a_share_of_what_its_model_promises(model):
 @pytest.mark.parametrize("dt", [1e-3, np.inf])
 @pytest.mark.parametrize("seed", range(4))
 def test_no_iteration_raises_the_energy(seed, dt):
-    """From a crumpled start, between platens and with contact, one iteration after another."""
+    """It starts from a crumpled lattice, between platens and with contact."""
     case = grid(5.0, "contact", "barrier")
     scene = build_scene(case)
     args = whole(scene, scene.x_rest, dt=dt)
@@ -245,8 +245,8 @@ def test_nodes_in_one_place_leave_the_range_of_numbers():
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_a_driven_platen_takes_the_others_along(platen):
-    """To where the quadratic model is stationary: the residual falls with the square of the
-    travel.
+    """They move to where the quadratic model is stationary: the residual falls with the square of
+    the travel.
     """
     case = Case.of(
         lattice=dict(cells_x=2, cells_y=2),

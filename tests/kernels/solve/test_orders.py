@@ -44,7 +44,9 @@ def test_three_cubics_err_less_than_twelve_hinges():
 @pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "kelvin_voigt"])
 @pytest.mark.parametrize("column", ["strain", "stretch_J"])
 def test_backward_euler_is_of_first_order(damping, column):
-    """In the first 0.4 ms after the load has come, while the grid is still going down."""
+    """The order in the first 0.4 ms after the load is applied, while the grid is still going
+    down.
+    """
     time = 4e-4
     cases = [
         loaded(5.0, time_step=time / n, damping=damping, release_time=time, duration=time)
@@ -126,7 +128,7 @@ def test_newton_ends_a_smooth_step_quadratically(travel):
 
 
 def test_newton_with_the_tangent_modulus_is_of_first_order():
-    """Its last residuals fall by one factor, each time."""
+    """Its last residuals all fall by the same factor."""
     descent, residuals = crushed(hessian="tangent_modulus"), []
     target = descent.x[-1] - 3e-4
     while descent.go_on(1, target) == outcomes.ITERATIONS:

@@ -59,7 +59,7 @@ def end(result):
 @pytest.mark.parametrize("force", [1e-2, 1.0, -1.0])
 @pytest.mark.parametrize("time_step", [1e-7, 1e-6])
 def test_a_cantilever_under_a_load_along_itself_moves(integrator, modulus, force, time_step):
-    """From rest, by the closed form, as long as a step is shorter than the fastest oscillation."""
+    """It moves from rest, by the closed form, if a step is shorter than the fastest oscillation."""
     fastest = 2.0 / PIECE * np.sqrt(modulus / DENSITY)  # rad/s
     if fastest * time_step > 0.3:
         time_step = 0.1 / fastest

@@ -188,7 +188,7 @@ def test_contact_starts_at_the_mean_thickness():
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (4 / 3, 0.0), (0.5, 0.0), (4.0, 0.0)])
 def test_touching_centre_lines_take_infinite_energy(place):
-    """At a vertex too, where the subtracted energy is infinite as well."""
+    """The energy is infinite at a vertex too, where the subtracted energy is infinite as well."""
     of = two_walls(0.5, (3, 1))
     x = node_at(node_at(of.rest, 4, (4 / 3, 0.0)), 2, place)
     assert term_of(of, x).energy(x) == np.inf

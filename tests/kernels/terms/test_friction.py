@@ -94,7 +94,7 @@ def test_smooth_size_joins_the_size_at_the_slip():
 @pytest.mark.parametrize("start", [3.0, 0.02, -0.4, -50.0])
 @pytest.mark.parametrize(("pull", "most"), [(0.0, 15), (0.9, 15), (-0.9, 15), (5.0, 15), (1.0, 30)])
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
-    """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
+    """The minimum of u^2 / 2 + |u| - pull u; with f'' alone Newton leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
     contacts = friction._room(1, near_pairs.empty(), 0)
     contacts.points[:], contacts.slopes[:] = 0, 0.0

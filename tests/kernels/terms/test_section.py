@@ -63,7 +63,7 @@ def term_of(of: Frame, through, cubic=True):
 
 
 def test_an_elastic_section_is_one_whose_memory_is_empty():
-    """They are compiled apart."""
+    """Sections with and without memory are compiled separately."""
     general = law()._replace(curve=law().curve._replace(is_elastic=False))
     assert difference(term_of(FRAME, law()), term_of(FRAME, general), shaken(FRAME, 0, 0.1)) < 1e-12
 
@@ -164,7 +164,7 @@ def test_derivatives_of_a_bent_wall(turn, length, cubic):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_projected_hessian_is_semi_definite(seed):
-    """Where the moment falls, too."""
+    """It is so where the moment falls, too."""
     x = shaken(FRAME, seed, 0.5)
     falling = law()
     curve = falling.curve.relaxing.elastic.curve

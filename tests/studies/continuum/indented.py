@@ -56,19 +56,19 @@ class Circle:
         return nodes, out[nodes] / away[nodes, None], RADIUS - away[nodes], away[nodes]
 
     def energy(self, u):
-        """Of the springs, mJ."""
+        """Energy of the springs, mJ."""
         nodes, _, depth, _ = self._inside(u)
         return 0.5 * float(self.spring[nodes] @ depth**2)
 
     def gradient(self, u):
-        """Of the energy, N."""
+        """Gradient of the energy, N."""
         nodes, out, depth, _ = self._inside(u)
         whole = np.zeros((len(self.points), 2))
         whole[nodes] = -(self.spring[nodes] * depth)[:, None] * out
         return whole.ravel()
 
     def hessian(self, u):
-        """Of the energy: n n^T - (depth / distance) (1 - n n^T)."""
+        """Hessian of the energy: n n^T - (depth / distance) (1 - n n^T)."""
         nodes, out, depth, away = self._inside(u)
         across = out[:, :, None] * out[:, None, :]
         block = across - (depth / away)[:, None, None] * (np.eye(2) - across)

@@ -26,13 +26,13 @@ NEAR = 1e-9  # of coordinates
 
 @BilinearForm
 def sheared(u, v, _):
-    """Of the shear modulus."""
+    """The part of the shear modulus."""
     return 2.0 * ddot(sym_grad(u), sym_grad(v))
 
 
 @BilinearForm
 def swollen(u, v, _):
-    """Of the first Lamé constant of plane stress."""
+    """The part of the first Lamé constant of plane stress."""
     return div(u) * div(v)
 
 

@@ -173,7 +173,7 @@ class Lattice:
         return found.T @ energy @ found / self.area
 
     def errors(self, poisson, joints):
-        """Of the stiffness along x, along y and in shear, %, against the solid."""
+        """Errors of the stiffness along x, along y and in shear, %, against the solid."""
         solid, other = (np.diag(self.yields(poisson, how)) for how in (exact, joints))
         return 100.0 * (solid / other - 1.0)
 

@@ -38,11 +38,11 @@ class Crush(NamedTuple):
     strain: float
 
     def grid(self):
-        """Its shape."""
+        """The shape of the solid."""
         return Grid(thickness=self.slenderness * Grid().pitch, across=self.across)
 
     def rubber(self):
-        """Its rubber."""
+        """The rubber of the solid."""
         return RUBBERS[self.plane](MODULUS, POISSON)
 
 

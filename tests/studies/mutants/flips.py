@@ -80,7 +80,7 @@ def mutated(source, mutant):
 
 
 def sample(each):
-    """So many mutants of every file of the kernels, by chance, but always the same ones."""
+    """The same random mutants in every call, so many of every file of the kernels."""
     paths = (path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "kernels").rglob("*.py")))
     for path in paths:
         found = [] if path.startswith(LEFT_OUT) else list(mutants(path))

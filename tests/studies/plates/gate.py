@@ -38,7 +38,7 @@ FINER = {"longer": {"across": 6, "up": 15}, "both": {"through": 2, "across": 6, 
 
 
 def strain(thickness, pitch=4.0):
-    """At which the walls buckle."""
+    """Strain at which the walls buckle."""
     return BUCKLING * (thickness / pitch) ** 2
 
 

@@ -180,7 +180,9 @@ def _values(keys, name):
 
 
 def _material(draw):
-    """From foam to steel by numbers, or a measured curve, or one with a plateau or softening."""
+    """A material: foam to steel by numbers, a measured curve, or one with a plateau or
+    softening.
+    """
     plane = {"material.plane": draw.one("strain", "stress", "strain_bending")}
     if draw.chance(0.6):
         return plane | {

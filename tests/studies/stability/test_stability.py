@@ -127,7 +127,7 @@ SECOND_ORDER = (6, 12, 15, 25, 29)
 
 
 def test_custom_structures_violate_nothing():
-    """Under all loadings and integrators; two of them stood still under their load before."""
+    """All loadings and integrators; two structures once stood still under their load."""
     warm_up(["marches", "arcs"])  # none waits for a compiler
     cases = [structures.structure_scene(number) for number in STRUCTURES]
     assert {case.solver.integrator for case in cases} == {*IN_TIME, "static", "arc_length"}

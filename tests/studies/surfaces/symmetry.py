@@ -40,7 +40,7 @@ def group(generators=GENERATORS):
 
 
 def characters(members, component):
-    """By which factor each operation multiplies a strain with this one of the `PAIRS`, (g,)."""
+    """Factors (g,) by which each operation multiplies a strain with this one of the `PAIRS`."""
     i, k = PAIRS[component]
     return np.array([sign[i] * sign[k] for sign, _ in members])
 

@@ -38,7 +38,7 @@ class Output(NamedTuple):
 
 
 class Neighbours(NamedTuple):
-    """Where the list was made (n,), and how often one was (1,)."""
+    """Positions at which the list was made (n,), and how often a list was made (1,)."""
 
     anchor: np.ndarray
     made: np.ndarray

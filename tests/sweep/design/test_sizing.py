@@ -72,7 +72,7 @@ def test_cells_of_a_size_are_the_whole_numbers_that_come_nearest(kind):
 
 
 def test_cells_are_measured_as_they_are_drawn():
-    """Of square cells, the box over their numbers; of honeycomb, the distance of its columns."""
+    """Square cells: the box over their numbers; honeycomb: the distance of its columns."""
     square = lattice_with(width=0.1, height=0.015, cell_size=4e-3)
     assert cell_of(square.geometry) == pytest.approx((4e-3, 3.75e-3))
     comb = lattice_with(kind="hex", width=0.1, height=0.015, cell_size=4e-3)

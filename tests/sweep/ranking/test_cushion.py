@@ -45,7 +45,9 @@ def test_a_foam_of_constant_stress_slows_every_weight_by_stress_over_static_stre
 
 @pytest.mark.parametrize("height", [1e-6, 0.01, 0.5])
 def test_a_spring_slows_a_weight_as_the_textbook_says(height):
-    """Of stiffness K, m g at its end: G = 1 + sqrt(1 + 2 K H / (m g)); K / (m g) = k / (p T)."""
+    """With the stiffness K, and m g at its end: G = 1 + sqrt(1 + 2 K H / (m g)); K / (m g) = k / (p
+    T).
+    """
     static, peak = cushion_curve(SPRING, height)
     known = 1.0 + np.sqrt(1.0 + 2.0 * 200e3 * height / (static * THICKNESS))
     np.testing.assert_allclose(peak, known)

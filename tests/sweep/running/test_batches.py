@@ -29,7 +29,7 @@ def test_shortest_case_first_then_the_longest():
 
 
 def test_cases_of_a_lattice_follow_one_another():
-    """So that it is built once; longer cases go first nevertheless."""
+    """The lattice is then built once; longer cases go first nevertheless."""
     made = [
         Case.of(
             lattice=dict(width=0.01 * w, cells_x=n),

@@ -160,7 +160,7 @@ STRUCK = {"glued": 0.3, "sliding": 0.3, "contact": 0.3}
 @pytest.mark.parametrize("integrator", ["backward_euler", "bdf2", "newmark"])
 @pytest.mark.parametrize("platen", STRUCK)
 def test_images_move_with_their_originals_in_an_impact(platen, integrator):
-    """And the support bears the momentum of the striker."""
+    """The support bears the momentum of the striker."""
     case = Case.of(
         lattice=strip("hex", (1, 2), 0.1),
         material=MATERIAL,

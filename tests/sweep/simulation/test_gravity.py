@@ -37,7 +37,9 @@ def column(steps=2000, integrator="newmark", damping=None, **loading):
 
 
 def test_a_drop_on_a_spring():
-    """Of sag d: x = d (1 - cos w t) + v / w sin w t; G = 1 + (1 + 2 H / d)^0.5 = 3 at H = 1.5 d."""
+    """With the sag d: x = d (1 - cos w t) + v / w sin w t; G = 1 + (1 + 2 H / d)^0.5 = 3 at H = 1.5
+    d.
+    """
     result = run(column())
     history, swing = result.history, np.sqrt(STIFFNESS / MASS)
     time, speed = history["time_s"], np.sqrt(2 * STANDARD_GRAVITY * FALL)

@@ -331,7 +331,7 @@ def test_the_shipped_sweep_over_hit_energies():
 
 
 def test_the_usual_integrator_of_an_impact_errs_less():
-    """By the stroke left in steps of the usual length, against steps of a quarter of it."""
+    """Error in the stroke left, in steps of the usual length, against steps of a quarter of it."""
 
     def left(integrator, steps=1000):
         return run(struck(damping=SEED, steps=steps, integrator=integrator)).summary[
@@ -344,7 +344,7 @@ def test_the_usual_integrator_of_an_impact_errs_less():
 
 
 def test_the_stroke_left_below_a_tooth_is_known_in_a_crush_too():
-    """And marks it as doubtful where it goes through the solid, as in an impact."""
+    """A crush is marked as doubtful where the tooth goes through the solid, as an impact is."""
 
     def pressed(**loading):
         lattice = dict(cells_x=6, cells_y=3, width=25e-3, height=12.5e-3)

@@ -90,7 +90,7 @@ def test_a_negative_pivot_inside_a_condensed_wall_names_the_wall():
 
 @pytest.mark.parametrize("pieces", [3, MIXED])
 def test_of_several_walls_with_a_negative_pivot_the_first_is_named(pieces):
-    """In whatever bundles they are."""
+    """The first wall is named in whatever bundles the walls are."""
     of = web(pieces)
     problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
     for wall in (7, 3, 2, 1):

@@ -213,7 +213,7 @@ def held(slip):
     ("pull", "most"), [((0, 0), 15), ((0.6, -0.6), 15), ((3.0, 4.0), 15), ((0.6, 0.8), 40)]
 )
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
-    """At the least of |u|^2 / 2 + |u| - pull . u, whose second derivative is a spike at 0."""
+    """The minimum of |u|^2 / 2 + |u| - pull . u, whose second derivative is a spike at 0."""
     slip, contacts, steps, K = 1e-4, held(1e-4), 0, np.zeros((12, 12))
     x = np.zeros(SIZE)
     x[:2] = start

@@ -102,7 +102,7 @@ def on_the_page(question):
 def test_first_places_are_those_among_all_designs_or_the_page_says_so(
     page_answers, few, tmp_path, seed
 ):
-    """Whatever the question: budget, panel, allowed force, requirements."""
+    """Any question may be asked: budget, panel, allowed force, requirements."""
     file, table, data, rng = many(tmp_path, seed)
     assert len(data["cases"]) == SELECTED
     assert sum(scene["designs"] for scene in data["scenes"]) > 3 * SELECTED
