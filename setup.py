@@ -1,11 +1,11 @@
-"""How a wheel is laid out: all in one package, as `kernels` and `sweep` alone are names of others.
+"""Lays out a wheel: all in one package, as other projects use the names `kernels` and `sweep` too.
 
     crumple/__init__.py                               crumple.py
     crumple/kernels/, crumple/sweep/                  these folders; what they import of each other,
                                                       they import from `crumple.kernels` and so on
     crumple/configs/                                  this folder: materials and examples
 
-An editable install takes the checkout as it is. All else is said in pyproject.toml.
+An editable install takes the checkout as it is. Everything else is in pyproject.toml.
 """
 
 import re
@@ -41,7 +41,9 @@ class OnePackage(build_py):
 
 
 def move(built, package):
-    """Move what was built into a package, and add what is no module of the checkout."""
+    """Move the built modules into a package, and add the files that are no modules of the
+    checkout.
+    """
     package.mkdir()
     (built / "crumple.py").rename(package / "__init__.py")
     for folder in ("kernels", "sweep"):
@@ -54,10 +56,10 @@ def move(built, package):
 
 
 class OneName(egg_info):
-    """Writes what is known of the project, with the one name that a wheel takes."""
+    """Writes the metadata of the project, with the one top-level name of a wheel."""
 
     def run(self):
-        """Write it."""
+        """Write the metadata."""
         super().run()
         Path(self.egg_info, "top_level.txt").write_text("crumple\n", "utf-8")
 

@@ -89,8 +89,8 @@ def first_at_least(ascending, value, low, high):
 
 @jit_exact
 def piece(bounds, value):
-    """Return the index i with bounds[i] <= ``value`` < bounds[i + 1]; beyond the ends, that of the
-    first or the last piece. bounds (n + 1,): ascending.
+    """Return the index i with bounds[i] <= ``value`` < bounds[i + 1], clipped to the first or last
+    piece. bounds (n + 1,): ascending.
     """
     low, high = 0, bounds.size - 1
     while high - low > 1:
@@ -106,7 +106,7 @@ def piece(bounds, value):
 def grouped(group, n):
     """Return (start (n + 1,), order): the members of group g are order[start[g]:start[g + 1]].
 
-    group: number 0 .. n - 1 of the group of each member; members keep their order in a group.
+    group: group 0 .. n - 1 of each member; within a group, members keep their order.
     """
     start, order = np.zeros(n + 1, np.int64), np.empty(group.size, np.int64)
     for g in group:

@@ -1,12 +1,13 @@
-"""Configs, units, objects and files; and the public names of `crumple`.
+"""Sweeps of crushed lattices: configs, cases, results and files; and the public names of `crumple`.
 
 The public functions raise `MisfitError`, whose kinds are `ConfigError` and `CouponError`,
 `StoreError`, `RankError`, `ExportError`, `OptimizeError` and `ClusterError`, which are public too.
 Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
-Modules outside of the packages: `arguments` says what is wrong with the arguments of a call,
-`columns` lists the columns of results, `result` is that of one case, `numbers` writes numbers as
-text, `constants` has factors between units, `version` those of installed packages.
+Modules outside of the packages: `arguments` explains wrong arguments of a call, `columns` lists the
+columns of results, `modes` the modes of loading, `result` has the result of one case, `numbers`
+writes quantities as text, `plain_text` makes foreign texts safe, `constants` has factors between
+units, `version` the versions of installed packages.
 """
 
 from importlib import import_module

@@ -1,6 +1,6 @@
 """The command line: `crumple VERB ...`, also `python -m crumple`. The verbs are in `cli/verbs.py`.
 
-Exit status: 0 done, also if no design meets what is asked, as that is an answer; 1 some cases
+Exit status: 0 done, also if no design meets the requirements, as that is an answer; 1 some cases
 failed, the run was interrupted, or its cluster failed; 2 the config, a file or an argument cannot
 be used.
 """
@@ -209,19 +209,19 @@ AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose error message has two lines, and that takes no abbreviations."""
+    """A parser that prints errors in two lines and accepts no abbreviations."""
 
     def __init__(self, **options: Any):
         super().__init__(**options, allow_abbrev=False)
         self.verbs: Mapping[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
-        """Print what is wrong, and how to get help."""
+        """Print the error, and how to get help."""
         shown = "examples" if self.epilog else "what it takes"
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
 
     def check_verb(self, word: str) -> None:
-        """Refuse a word that is no verb, with the nearest."""
+        """Refuse a word that is no verb, and name the nearest one."""
         if word.startswith("-") or word in self.verbs:
             return
         near = get_close_matches(word, self.verbs, 1)
@@ -229,7 +229,7 @@ class Parser(argparse.ArgumentParser):
         self.error(f"{word}: no verb{hint}; allowed: {', '.join(self.verbs)}")
 
     def refuse(self, words: Sequence[str]) -> NoReturn:
-        """Refuse words that the verb does not take; of an option, name the nearest."""
+        """Refuse words that the verb does not accept; for an option, name the nearest one."""
         options = re.findall(r"--[\w-]+", self.format_usage())
         unknown = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
         near = get_close_matches(unknown, options, 1)
@@ -240,7 +240,7 @@ class Parser(argparse.ArgumentParser):
 
 
 class Version(argparse.Action):
-    """Prints the version and exits; it is looked up only here, since that takes long."""
+    """Prints the version and exits; the version is looked up only here, since that takes long."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
         """Print the version."""
@@ -340,7 +340,7 @@ def _add_optimize(verbs: Any) -> None:
 
 
 def _add_place(verb: Any) -> None:
-    """Add where cases run: on threads or on a cluster."""
+    """Add the options for where cases run: on threads or on a cluster."""
     where = verb.add_mutually_exclusive_group()
     where.add_argument("--workers", type=_count, metavar="N", help=THREADS)
     where.add_argument("--processes", type=_count, metavar="N", help=PROCESSES)
@@ -398,7 +398,7 @@ def _add_verify(verbs: Any) -> None:
 
 
 def _add_merge(verbs: Any) -> None:
-    """Add the verb that brings results files together."""
+    """Add the verb that combines results files."""
     merge = verbs.add_parser("merge", help="bring results files together", description=MERGE)
     merge.add_argument("out", type=_results, metavar="OUT.h5", help="is made, or gets more rows")
     offer(
@@ -523,7 +523,7 @@ def _add_materials(verbs: Any) -> None:
 
 
 def _add_card(verbs: Any) -> None:
-    """Add the verb that gives the effective materials of infills."""
+    """Add the verb that prints the effective materials of infills."""
     card = verbs.add_parser(
         "card",
         help="infills as materials for finite elements",
@@ -536,7 +536,7 @@ def _add_card(verbs: Any) -> None:
 
 
 def _add_published(verbs: Any) -> None:
-    """Add the verb that compares predictions with what was measured."""
+    """Add the verb that compares predictions with measured values."""
     published = verbs.add_parser(
         "published",
         help="predictions beside what was measured",
@@ -563,7 +563,7 @@ def _add_published(verbs: Any) -> None:
 
 
 def _add_helpers(verbs: Any) -> None:
-    """Add the verbs that write a first config, and what a shell needs to complete words."""
+    """Add the verbs that write a first config and a script for completion in a shell."""
     new = verbs.add_parser("new", help="write a first config", description=NEW)
     new.add_argument("name", metavar="NAME", help="of the sweep, such as bumper")
     new.add_argument("--kind", choices=KINDS, default="crush", help="of loading (default: crush)")
@@ -578,7 +578,7 @@ def _add_helpers(verbs: Any) -> None:
 
 
 def _add_case(verb: Any, panel: str = AREA, **options: Any) -> None:
-    """Add the arguments that name a case; panel: what the option of this name means."""
+    """Add the arguments that name a case; panel: help of the option of this name."""
     words = "number in the ranking, or beginning of an id"
     offer(verb.add_argument("case", metavar="CASE", help=words, **options), cases)
     ranking = verb.add_argument_group(
@@ -590,7 +590,7 @@ def _add_case(verb: Any, panel: str = AREA, **options: Any) -> None:
 
 
 def _add_question(verb: Any, panel: str = AREA) -> None:
-    """Add the options that define a ranking; panel: what the option of this name means."""
+    """Add the options that define a ranking; panel: help of the option of this name."""
     verb.add_argument(
         "--budget", nargs="+", action="extend", metavar="MASS", help='greatest mass: "25 g" "2 oz"'
     )
@@ -601,7 +601,7 @@ def _add_question(verb: Any, panel: str = AREA) -> None:
 
 
 def _add_limits(verb: Any, max_force: str = MEASURES["max_force"].about) -> None:
-    """Add the options that limit a design; max_force: what the option of this name means."""
+    """Add the options that limit a design; max_force: help of the option of this name."""
     verb.add_argument(
         "--allowed-force", metavar="FORCE", help='count energy up to this force: "50 N"'
     )
@@ -658,31 +658,31 @@ def _path(text: str) -> str:
 
 
 def _folder(text: str) -> str:
-    """A path that may become a folder."""
+    """A path that does not exist or is a folder."""
     if os.path.exists(_path(text)) and not os.path.isdir(text):  # these functions never raise
         raise argparse.ArgumentTypeError(f"{text!r} is a file; allowed: a folder")
     return text
 
 
 def _stored(text: str) -> str:
-    """The path of a results file, which the name or the config of a sweep may stand for."""
+    """The path of a results file, for which the name or the config of a sweep may stand."""
     from sweep.cli.named_files import results_file
 
     return results_file(_path(text))
 
 
 def _results(text: str) -> str:
-    """A path that may become a results file."""
+    """A path that is suitable for a results file."""
     return _named(text, ".h5")
 
 
 def _table(text: str) -> str:
-    """A path that may become a table."""
+    """A path that is suitable for a table."""
     return _named(text, ".csv")
 
 
 def _page(text: str) -> str:
-    """A path that may become a page."""
+    """A path that is suitable for a page."""
     return _named(text, ".html")
 
 
@@ -712,7 +712,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         argument_parser.verbs[arguments.verb].error(
             "ALL of sweep/cli/verbs.py has no function for it"
         )
-    warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # without a place in ours
+    warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # has no place in our code
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:

@@ -1,6 +1,6 @@
-"""Arguments of the public functions that are of another type than these take, in a sentence.
+"""Explains arguments of the public functions that have a wrong type, in a sentence.
 
-Functions check what their callers give them where a wrong value would be taken for another one.
+Functions themselves check arguments whose wrong values would otherwise be mistaken for others.
 Everything else ends in a `TypeError` or an `AttributeError` of Python somewhere inside, which is
 turned into a `MisfitError` here if an argument is to blame.
 """
@@ -34,13 +34,13 @@ WORDS = {
     "Quantity": 'a quantity such as "25 g"',
 }
 ANY = {"Any", "object"}
-LONGEST = 60  # characters of a value
+LONGEST = 60  # most characters of a value
 _INSIDE = re.compile(r"\[[^\[\]]*\]")
 
 
 @cache
 def explained(function: Callable[P, R]) -> Callable[P, R]:
-    """The public function, which says what an argument should be where Python only fails."""
+    """The public function, which explains a wrong argument where Python only fails."""
 
     @wraps(function)
     def called(*args: P.args, **kwargs: P.kwargs) -> R:
@@ -58,7 +58,7 @@ def explained(function: Callable[P, R]) -> Callable[P, R]:
 def _misfits(
     function: Callable[..., Any], args: Sequence[object], kwargs: Mapping[str, object]
 ) -> Iterator[str]:
-    """What is wrong with the arguments of a call."""
+    """The faults of the arguments of a call."""
     takes = signature(function)
     try:
         bound = takes.bind(*args, **kwargs)
@@ -76,7 +76,7 @@ def _misfits(
 
 
 def _names(takes: Signature) -> Iterator[str]:
-    """The arguments of a function; of a dict of keywords, its keys."""
+    """The arguments of a function; for a dict of keywords, its keys."""
     for name, parameter in takes.parameters.items():
         packed = parameter.annotation.__args__ if parameter.kind is Parameter.VAR_KEYWORD else ()
         yield from packed[0].__annotations__ if packed else [name]
@@ -92,7 +92,7 @@ def _types(parameter: Parameter) -> list[str]:
 
 
 def _fits(value: object, types: Sequence[str]) -> bool:
-    """Whether a value may be of one of these types; unknown ones are known by their name."""
+    """Whether a value may be of one of these types; unknown types are compared by name."""
     names = {base.__name__ for base in type(value).__mro__}
     return (
         not ANY.isdisjoint(types)

@@ -1,7 +1,7 @@
 """The columns of results: units and a description of each.
 
-`COLUMNS` has those of a summary, `HISTORY_COLUMNS` those of a curve. Columns of energies up to a
-force, of cycles, errors and the like have derived names.
+`COLUMNS` has the columns of a summary, `HISTORY_COLUMNS` the columns of a curve. Columns of
+energies up to a force, of cycles, errors and the like have derived names.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ class Column:
     better: Literal["more", "less"] | None = None
 
 
+ALONG = "out_of_plane"  # a value of the column `direction`
 TIED_SIDES = "tied"
-ALONG = "out_of_plane"  # of the column `direction`
-"""First word of the column `sides` where they are tied to each other."""
+"""First word of the column `sides` if the sides are tied to each other."""
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
@@ -482,7 +482,7 @@ RANKING_COLUMNS: dict[str, Column] = {
     "stroke_at_allowed_m": Column("m", "stroke at which the allowed force is exceeded", "less"),
     "returned_share": Column("1", "returned energy / work of the whole crush", "less"),
 }
-"""Columns that a ranking adds to those of the summary, and by which it may sort."""
+"""Columns that a ranking adds to the columns of the summary, and by which it may sort."""
 
 FRAME_COLUMNS: dict[str, Column] = {
     "strain": Column("1", "top displacement / height of a frame"),
@@ -540,12 +540,14 @@ def error_column(name: str) -> str:
 
 
 def correction_column(name: str) -> str:
-    """Name of the column of the estimated limit of fine meshes and short steps - value."""
+    """Name of the column of the estimated difference between the limit of fine meshes and short
+    steps and the value.
+    """
     return f"correction_{name}"
 
 
 def end_columns(name: str) -> tuple[str, str]:
-    """Names of the columns of the ends of the range that a value stands for."""
+    """Names of the columns of the ends of the range of a value."""
     return f"lowest_{name}", f"highest_{name}"
 
 
@@ -555,7 +557,7 @@ def describe_array(group: str, name: str) -> Column:
 
 
 def describe_history(name: str) -> Column:
-    """Meaning of a column of a history, also of a probe of a custom structure."""
+    """Meaning of a column of a history, including probes of a custom structure."""
     if match := PROBE.fullmatch(name):
         node, what, unit = match.groups()
         return Column(unit.replace("Nm", "N m"), f"{what.replace('_', ' ')} at node {node}")

@@ -1,4 +1,5 @@
-"""The modes of loading: what rankings, tables, pictures, the page and exports know of each.
+"""The modes of loading, with all that rankings, tables, pictures, the page and exports need of
+each.
 
 A results table names the mode of a row in `loading_mode`. A new mode is a row of `MODES`; its kind
 in `sweep/config/kinds` has the keys. No heavy imports, as every command reads this.
@@ -33,7 +34,7 @@ class Least(NamedTuple):
     stroke is used up.
 
     column: the least value is the best. unit: in charts. axis, chart: label of an axis, title of a
-    chart. quantity: on the axis of the page. merit: words for a value. order: what is best, in
+    chart. quantity: on the axis of the page. merit: words for a value. order: the best value, in
     words. head: of its column on the page.
     """
 
@@ -48,25 +49,25 @@ class Least(NamedTuple):
 
 
 class Mode(NamedTuple):
-    """What is known of one mode of loading.
+    """The properties of one mode of loading.
 
     noun: the loading in words; without: why a requirement does not apply to it. requires: the
     requirements whose values the design sets, not the loading. title: the loading of a row in
     words. curve: abscissa and ordinate of its curve. columns: its own columns of results; scene:
-    columns of which every value makes a scene.
+    columns whose values distinguish scenes.
 
     driven: a platen moves by a stroke, so that energy counts until densification and force over
     travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the
     energy. probed: curves of probes, without platens and strain.
 
-    least: what is compared instead of energy. coarse: measure of the error of time steps, and its
-    greatest value of a result that is not marked; above it, errors of the compared column are
-    common that exceed the differences of similar designs (`sweep.simulation.time_resolution`); a
-    crush may lose what snaps to the integrator.
+    least: the measure compared instead of energy. coarse: measure of the error of time steps, and
+    its greatest value for a result without a mark; above it, errors of the compared column often
+    exceed the differences of similar designs (`sweep.simulation.time_resolution`); in a crush,
+    energy released by snaps may be lost to the integrator.
 
-    In words: turn, the end of its loading; total, the sum of all energies; energy and path, what
-    accuracy is measured of. notes: what columns of tables mean. picture: name of the chart of merit
-    over mass; empty if there is none.
+    In words: turn, the end of its loading; total, the sum of all energies; energy and path, the
+    quantities whose accuracy is measured. notes: meaning of columns of tables. picture: name of the
+    chart of merit over mass; empty if there is none.
     """
 
     noun: str
@@ -188,12 +189,12 @@ MODES: Mapping[str, Mode] = {
 
 
 def mode_of(rows: DataFrame) -> Mode:
-    """The mode of the rows of one scene, which has one."""
+    """The mode of the rows of one scene, which is the same for all."""
     return MODES[rows["loading_mode"].iloc[0]]
 
 
 def compared(rows: DataFrame) -> str | None:
-    """The column that is compared instead of energy in one scene; None: energy is."""
+    """The column that is compared instead of energy in one scene; None if energy is."""
     return least.column if (least := mode_of(rows).least) else None
 
 
@@ -213,5 +214,5 @@ def is_coarse(rows: DataFrame) -> Series:
 
 
 def asked_of(requirement: str) -> tuple[str, ...]:
-    """The modes of which something can be required."""
+    """The modes to which a requirement applies."""
     return tuple(name for name, mode in MODES.items() if requirement in mode.requires)

@@ -1,7 +1,7 @@
 """Quantities as people read them: in mm, ms, g, mJ, kPa and percent, with few digits.
 
-Results and the code are in SI. Tables, pictures, the page and messages convert them here alone
-(`in_unit`), but for files whose format has a unit, such as the millimetres of an STL.
+Results and the code are in SI. Only this module converts them for tables, pictures, the page and
+messages (`in_unit`), except for files whose format has a unit, such as the millimetres of an STL.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ SCALES = {
     "rad": ((180.0 / math.pi, "deg"),),
     "1": ((1e2, "%"),),
 }
-"""Units in which quantities are shown, with the factor from SI; a unit not named is shown as it is.
+"""Units in which quantities are shown, with the factor from SI; other units are shown unchanged.
 
 A table or a sentence takes the first one in which its greatest value is at least 1.
 """
@@ -134,7 +134,7 @@ def with_unit(value: float | str | None, unit: str) -> str:
 
 
 def numerals(values: Series) -> Series:
-    """Numbers as text of `three_digits`."""
+    """Numbers as text by `three_digits`."""
     return values.map(three_digits)
 
 

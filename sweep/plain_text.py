@@ -1,4 +1,4 @@
-"""Texts from elsewhere, such as names in a results file, as they may be shown and tabulated."""
+"""Makes foreign texts, such as names in a results file, safe to show and to tabulate."""
 
 import re
 from typing import TYPE_CHECKING
@@ -11,7 +11,7 @@ FORMULA = re.compile(r"[=+@\t\r-](?![\d.]*$)")
 
 
 def plain(text: object) -> str:
-    """A text in which characters that steer a terminal, or turn the direction of reading, are
+    """A text in which characters that control a terminal, or reverse the direction of reading, are
     written as their escapes.
     """
     return CONTROL.sub(lambda match: ascii(match.group())[1:-1], str(text))
@@ -23,7 +23,7 @@ def csv_text(table: "DataFrame") -> str:
 
 
 def without_formulas(table: "DataFrame") -> "DataFrame":
-    """A table in whose texts no program finds a formula: those that begin like one get a quote."""
+    """A table in whose texts no program finds a formula: texts that begin like one get a quote."""
     from pandas.api.types import is_numeric_dtype
 
     texts = [name for name in table if not is_numeric_dtype(table[name])]

@@ -1,8 +1,8 @@
 """The result of one case: a status, a message, a row of numbers, curves and shapes.
 
 Failure is a value: a case that does not finish is a `Result` with another status than `converged`,
-a message that says what to try, and the curves and shapes up to that point.
-Nothing here computes or opens a file.
+a message that says what to try, and the curves and shapes up to that point. Nothing here computes
+or opens a file.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MODEL_VERSION = 15
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = [name for name in COLUMNS if any(name in mode.columns for mode in MODES.values())]
-"""Columns of which each loading has its own."""
+"""Columns that only some loadings have."""
 
 HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 

@@ -51,7 +51,7 @@ budgets = ["5 g", "20 g"]
 
 @pytest.fixture
 def config(tmp_path, monkeypatch):
-    """A sweep of three cases, of which one fails, on tests/support/results/standin.py."""
+    """A sweep of three cases, one of which fails, on tests/support/results/standin.py."""
     from tests.support.results.standin import simulate
 
     monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
@@ -67,8 +67,8 @@ def runs_of(path):
 
 
 def pytest_collection_modifyitems(items):
-    """Tell which tests one of several processes has together, by default those of a file; mark the
-    tests of the files in `SLOW`.
+    """Assign tests to groups that one process runs together, by default one group per file; mark
+    the tests of the files in `SLOW`.
     """
     for item in items:
         path = item.path.relative_to(Path(__file__).parent).as_posix()
@@ -79,7 +79,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="module", autouse=True)
 def kernels_of_runs(request):
-    """Compile those that the tests of a file need parts of, if several processes run the tests."""
+    """If several processes run the tests, compile the kernels that the tests of a file need."""
     path = request.path.relative_to(Path(__file__).parent).as_posix()
     if (runs := runs_of(path)) and "PYTEST_XDIST_WORKER" in os.environ:
         from sweep.running.warming import load

@@ -1,7 +1,8 @@
-"""How kernels become machine code and where that is kept; the only home of numba and llvmlite.
+"""Compilation of kernels to machine code, and its cache; the only home of numba and llvmlite.
 
-Kernels import `jit`, `reference` for large named tuples, and `simd`; `verbs` finds the methods of
-named tuples. `kernel` is what a decorated function becomes, `linking` optimises it together with
-all that it calls, if `choice` knows the installed Numba; `undisturbed` saves time. `cache` names
-the folder in which machine code is kept, `sealed` checks what is read from it.
+Kernels import the decorators of `jit`, `reference` for large named tuples, and `simd`; `verbs`
+finds the methods of named tuples. A decorated function becomes a `kernel`. If `choice` knows the
+installed Numba, `linking` optimises a kernel together with everything that it calls; `undisturbed`
+makes compilation faster. `cache` names the folder of the machine code, `sealed` checks the files
+that are read from it.
 """

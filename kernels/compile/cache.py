@@ -1,8 +1,8 @@
-"""Where machine code is kept: a folder named by a hash of all kernel sources.
+"""The cache folder of machine code, named by a hash of all kernel sources.
 
-Numba's own cache looks at the file of the compiled function alone, so that an edited callee in
-another file leaves the old code running. Here the folder is named by a hash of all kernel sources,
-their place, the compiler, the versions and the processor: a change of any of them leads to another
+Numba's own cache checks only the file of the compiled function, so that an edited callee in another
+file leaves the old code running. Here the folder is named by a hash of all kernel sources, their
+place, the compiler, the versions and the processor: a change of any of them leads to another
 folder. The place counts because Numba keeps code by path: a second checkout compiles its own.
 """
 
@@ -30,7 +30,9 @@ SECONDS_KEPT = 7 * 24 * 3600.0
 
 
 def fingerprint(sources):
-    """Hash (16 hex) of a folder's place, its kernel sources and what compiles and runs them."""
+    """Return the hash (16 hex digits) of the place of the kernel sources, their text, the compiler,
+    the versions and the processor.
+    """
     digest = hashlib.blake2b(str(sources.absolute()).encode(), digest_size=8)
     versions = [compiler(), numba.__version__, llvmlite.__version__, np.__version__]
     machine = [platform.python_version(), platform.machine(), llvmlite.binding.get_host_cpu_name()]
@@ -42,14 +44,16 @@ def fingerprint(sources):
 
 
 def cache_home():
-    """CRUMPLE_CACHE_DIR if it is set, else the cache folder that the system has for programs."""
+    """Return CRUMPLE_CACHE_DIR if it is set, else the system's cache folder for programs."""
     if chosen := os.environ.get("CRUMPLE_CACHE_DIR"):
         return Path(chosen).absolute()
     return user_cache_path("crumple", appauthor=False)
 
 
 def last_used(folder):
-    """Time (s) when a process last started on this folder; 0 when it has just been removed."""
+    """Return the time (s) at which a process last started with this folder; 0 if it has just been
+    removed.
+    """
     try:
         return folder.stat().st_mtime
     except OSError:
@@ -57,9 +61,9 @@ def last_used(folder):
 
 
 def prune(home):
-    """Remove folders of other sources, but neither the newest nor those used in the last week.
+    """Remove the folders of other sources, except the newest and those used in the last week.
 
-    A process that still runs on a removed folder loses nothing: it makes the folder again.
+    A process that still uses a removed folder loses nothing: it creates the folder again.
     """
     folders = sorted(home.glob(f"{FOLDER}*"), key=last_used, reverse=True)
     for folder in folders[FOLDERS_KEPT:]:
@@ -68,7 +72,9 @@ def prune(home):
 
 
 def open_cache(sources):
-    """Folder for the machine code of these sources; a temporary one if that is not writable."""
+    """Return the folder for the machine code of these sources, or a temporary one if it is not
+    writable.
+    """
     try:
         home = cache_home()
         folder = home / f"{FOLDER}{fingerprint(sources)}"
@@ -84,7 +90,9 @@ def open_cache(sources):
 
 
 def is_lasting():
-    """Return whether what is kept is there for other processes: in no temporary folder."""
+    """Return whether other processes can use the cached code, which a temporary folder would not
+    keep.
+    """
     return Path(numba.config.CACHE_DIR).name.startswith(FOLDER)
 
 
@@ -93,12 +101,12 @@ def _mark(name):
 
 
 def is_cold(name):
-    """Return whether something may have to be compiled, as this was never warmed up."""
+    """Return whether some code of this name may have to be compiled, as it was never warmed up."""
     return not (numba.config.DISABLE_JIT or _mark(name).exists())
 
 
 def warmed_up(name):
-    """Note that all code of this name is kept."""
+    """Record that all code of this name is in the cache."""
     with contextlib.suppress(OSError):
         _mark(name).touch()
 

@@ -1,7 +1,8 @@
-"""Chooses the compiler: by the environment variable CRUMPLE_COMPILER, else by the Numba installed.
+"""Chooses the compiler: the environment variable CRUMPLE_COMPILER, or else the installed Numba,
+decides.
 
-"fast" is made of private parts of the Numba that it knows; "stock" is `numba.njit`. Both give the
-same results.
+"fast" uses private parts of the Numba versions that are listed here; "stock" is `numba.njit`. Both
+give the same results.
 """
 
 import functools
@@ -15,7 +16,7 @@ KNOWN = (("0.68", "0.50"),)  # Numba and llvmlite whose private parts are known
 
 
 class CompilerError(ValueError):
-    """A compiler that does not exist was asked for."""
+    """CRUMPLE_COMPILER names a compiler that does not exist."""
 
 
 def _installed(package):
@@ -26,8 +27,8 @@ def _installed(package):
 
 
 def choose(choice, numba, llvmlite):
-    """Return the compiler for a ``choice`` ("" for none) and for these versions, and what
-    the user should know of that, if anything.
+    """Return the compiler for a ``choice`` ("" for none) and these versions, and a note for the
+    user or None.
     """
     if choice in (FAST, STOCK):
         return choice, None
@@ -46,10 +47,10 @@ def choose(choice, numba, llvmlite):
 
 @functools.cache
 def compiler():
-    """Return the compiler of this process, "none" where Numba leaves all as plain Python. Say on
-    stderr, once, if it is not the usual one.
+    """Return the compiler of this process, "none" if NUMBA_DISABLE_JIT leaves kernels as plain
+    Python. Report an unusual compiler once on stderr.
 
-    Processes that this one starts find the choice in their environment, and print nothing.
+    Child processes find the choice in their environment, and print nothing.
     """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
         return NONE

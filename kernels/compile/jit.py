@@ -1,12 +1,12 @@
-"""The decorators of kernels, by the arithmetic that they allow.
+"""The decorators of kernels, one for each kind of arithmetic.
 
-``@jit`` is for arithmetic; ``@jit_exact`` keeps every rounding as written, for collision detection,
-distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys exact zeros
-and compensated sums); ``@jit_owning`` is exact too and may make arrays. All release the GIL, so
-that threads run side by side.
+``@jit`` is for ordinary arithmetic; ``@jit_exact`` keeps every rounding as written, for collision
+detection, distances, tests of a sign or a pivot, and sums of the energy book (fast-math destroys
+exact zeros and compensated sums); ``@jit_owning`` is exact too and may allocate arrays. All release
+the GIL, so that threads run side by side.
 
 A kernel that Python calls becomes machine code at the first such call, together with all that it
-calls, and is kept (`cache`).
+calls, and is cached (`cache`).
 """
 
 import numba
@@ -18,9 +18,10 @@ verbs.register(lambda value: isinstance(value, Kernel))
 
 
 def decorator(fastmath, owning=False):
-    """Decorator that compiles a function for the argument types it meets, and keeps the code.
+    """Return a decorator that compiles a function for the argument types it meets, and caches the
+    code.
 
-    Only what is ``owning`` may make arrays.
+    Only functions that are ``owning`` may allocate arrays.
     """
 
     def decorate(function):

@@ -1,8 +1,9 @@
-"""What a decorated function becomes: a `Kernel`, which other kernels and Python can call.
+"""`Kernel`, the result of decorating a function, which other kernels and Python can call.
 
-Code for Python takes hundreds of arrays out of named tuples, which is more to compile than most
-kernels are. So a kernel is two functions of Numba: one that kernels call, without such code, and
-one for Python, made at its first call. Only the latter is kept: it contains all that it calls.
+To call a kernel from Python, code must unpack hundreds of arrays from named tuples, and this code
+takes longer to compile than most kernels do. A kernel is therefore two functions of Numba: one for
+other kernels, without such code, and one for Python, made at its first call. Only the latter is
+cached: it contains everything that it calls.
 """
 
 import functools
@@ -27,8 +28,9 @@ else:
 
 
 def is_of_kernels(value):
-    """Whether the sources that name the folder hold what an argument stands for: the verbs of a
-    named tuple from elsewhere may change, and the change would go unnoticed.
+    """Return whether the hash of the kernel sources covers an argument.
+
+    The verbs of a named tuple from elsewhere may change, and the change would go unnoticed.
     """
     if isinstance(value, Referenced):
         value = referred(value)
@@ -39,10 +41,10 @@ def is_of_kernels(value):
 
 
 class Kernel:
-    """A function for other kernels to call, and for Python: that is its `entry`.
+    """A function that other kernels call; Python calls its `entry`.
 
-    One that is not ``owning`` counts no references, which costs four times the arithmetic of an
-    assembly: it may read and fill arrays but must not make any.
+    A kernel that is not ``owning`` counts no references, as counting costs four times the
+    arithmetic of an assembly: it may read and fill arrays but must not allocate any.
     """
 
     def __init__(self, function, fastmath, owning):
@@ -52,15 +54,15 @@ class Kernel:
             "fastmath": fastmath,
             "no_cfunc_wrapper": True,
         } | HOW  # fmt: skip
-        if hasattr(DefaultOptions, "_nrt"):  # left out, it would be that of the first caller
+        if hasattr(DefaultOptions, "_nrt"):  # by default it is the option of the first caller
             self._options["_nrt"] = owning
         self.linked = self._dispatcher(function, no_cpython_wrapper=True)
         functools.update_wrapper(self, function)
 
     def _dispatcher(self, function, **more):
-        """Numba's dispatcher.
+        """Return Numba's dispatcher.
 
-        A constant argument gets no version of its own, which Numba would compile for every one.
+        Constant arguments get no version of their own; Numba would compile one for every constant.
         """
         dispatcher = numba.njit(**self._options, **more)(function)
         typed = dispatcher.get_call_template
@@ -71,7 +73,7 @@ class Kernel:
 
     @functools.cached_property
     def entry(self):
-        """The dispatcher for calls from Python, whose machine code is kept."""
+        """The dispatcher for calls from Python, whose machine code is cached."""
         entry = self._dispatcher(self.__wrapped__, cache=True)
         if SealedCache is not None:
             entry._cache = SealedCache(self.__wrapped__)
@@ -80,17 +82,17 @@ class Kernel:
 
     @functools.cached_property
     def passing(self):
-        """The dispatcher for calls from Python whose machine code must not be kept."""
+        """The dispatcher for calls from Python whose machine code must not be cached."""
         passing = self._dispatcher(self.__wrapped__)
         passing.compile = undisturbed(passing.compile)
         return passing
 
     def __call__(self, *args):
-        """Call it from Python."""
+        """Call the kernel from Python."""
         return (self.entry if all(map(is_of_kernels, args)) else self.passing)(*args)
 
     def __get__(self, problem, kind=None):
-        """Return it as a verb of a named tuple (`verbs`)."""
+        """Return the kernel as a verb of a named tuple (`verbs`)."""
         return self if problem is None else functools.partial(self, problem)
 
 

@@ -1,12 +1,13 @@
-"""Optimises kernels where they are linked: once, in the kernel that Python calls.
+"""Optimises kernels when they are linked: once, in the kernel that Python calls.
 
-Numba optimises a function and makes machine code of it, and does both again with every function
-that calls it, directly or not. Here a kernel that other kernels call (`Linked`) is only tidied; the
-kernel that Python calls (`Entry`) takes in all that it reaches. LLVM then sees every call, and
-knows that there are no others, so that it inlines more than it would across Numba's libraries.
+Numba optimises a function and compiles it to machine code, and does both again in every function
+that calls it, directly or not. Here a kernel that other kernels call (`Linked`) is only simplified;
+the kernel that Python calls (`Entry`) contains everything that it reaches. LLVM then sees every
+call, and knows that there are no others, so that it inlines more than it would across Numba's
+libraries.
 
-This is Numba's documented way to change a compiler (`pipeline_class`), but what it changes are
-private methods of Numba's library of code: see `choice.KNOWN` and README.md.
+This is Numba's documented way to change a compiler (`pipeline_class`), but the methods that it
+overrides are private ones of Numba's code library: see `choice.KNOWN` and README.md.
 """
 
 from llvmlite.binding import Linkage
@@ -16,16 +17,18 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
 
-WRAPPER = "_ZN7cpython"  # so begin the names of what Python calls
+WRAPPER = "_ZN7cpython"  # the names of functions that Python calls begin so
 LARGE = 250  # lines of LLVM: a linked function that has more is not inlined
 SHARED = (Linkage.weak_odr, Linkage.linkonce_odr)  # the one survives without a caller
 
 
 class Linked(JITCodeLibrary):
-    """Code of a kernel that entries link, which has no address of its own."""
+    """Code of a kernel that entries link, without an address of its own."""
 
     def _optimize_functions(self, ll_module):
-        """Take fewer named tuples apart and put fewer together: most of what Numba writes."""
+        """Take fewer named tuples apart and put fewer together, which is most of the code that
+        Numba writes.
+        """
         ll_module.data_layout = self._codegen._data_layout
         tidy = create_new_module_pass_manager()
         tidy.add_aggressive_dce_pass()
@@ -34,7 +37,7 @@ class Linked(JITCodeLibrary):
         tidy.run(ll_module, self._codegen._pass_builder())
 
     def add_llvm_module(self, ll_module):
-        """Take it in, for several entries to link."""
+        """Add a module, for several entries to link."""
         super().add_llvm_module(ll_module)
         for function in self._final_module.functions:
             if not function.is_declaration and function.linkage == Linkage.external:
@@ -43,7 +46,7 @@ class Linked(JITCodeLibrary):
                     function.add_function_attribute("noinline")
 
     def finalize(self):
-        """Leave it to the entries to link what this calls."""
+        """Leave the linking of callees to the entries."""
         for library in self._linking_libraries:
             self._reload_init.update(library._reload_init)
         self._finalized = True
@@ -53,10 +56,10 @@ class Linked(JITCodeLibrary):
 
 
 class Entry(JITCodeLibrary):
-    """Code that Python calls, with all that it reaches.
+    """Code that Python calls, with all the code that it reaches.
 
-    What takes arguments from Python is not optimised: it runs once a call, and is as long as many
-    kernels.
+    The unpacking of arguments from Python is not optimised: it runs once per call, and is as long
+    as many kernels.
     """
 
     def _optimize_functions(self, ll_module):
@@ -67,8 +70,8 @@ class Entry(JITCodeLibrary):
         super()._optimize_functions(ll_module)
 
     def finalize(self):
-        """Link all that is reached. Kernels come first: LLVM drops functions of Numba's own that
-        nothing calls yet.
+        """Link all libraries that are reached, kernels first: LLVM drops functions of Numba's own
+        that nothing calls yet.
         """
         reached = _reached(self, {})
         self._linking_libraries = sorted(reached, key=lambda one: not isinstance(one, Linked))
@@ -95,15 +98,15 @@ def _reached(library, reached):
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class Lowering(NativeLowering):
-    """Numba's lowering of a function, to a library that is linked or to an entry."""
+    """Numba's lowering of a function, either to a library for linking or to an entry."""
 
     _name = "kernel_lowering"
 
     def run_pass(self, state):
-        """Lower it: what has no code to take arguments from Python is linked.
+        """Lower a function; one that takes no arguments from Python is linked.
 
-        A linked function is made known to its callers by a key, a builtin method as Numba's
-        dispatcher wants it, which nobody calls.
+        Callers find a linked function by a key, a builtin method as Numba's dispatcher requires,
+        which is never called.
         """
         linked = state.flags.no_compile = state.flags.no_cpython_wrapper
         kind, name = Linked if linked else Entry, state.func_id.func_qualname
@@ -119,10 +122,10 @@ class Lowering(NativeLowering):
 
 
 class Compiler(CompilerBase):
-    """Numba's compiler but for this lowering."""
+    """Numba's compiler with this lowering."""
 
     def define_pipelines(self):
-        """Return its passes."""
+        """Return the compiler's passes."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
         manager.passes = [
             (Lowering if step is NativeLowering else step, why) for step, why in manager.passes

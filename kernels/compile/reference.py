@@ -1,11 +1,11 @@
 """Large named tuples by reference: one address in place of a hundred arrays.
 
-Numba hands a named tuple on by value, every array of it with its shape and strides. A kernel that
-only passes a tuple on is then mostly arguments, which costs time to compile and none to run. What
-is `by_reference` is an address: a field is loaded, by value, where it is read. Only public names of
-Numba are used here (README.md).
+Numba passes a named tuple by value, every array of it with its shape and strides. A kernel that
+only passes a tuple on then consists mostly of arguments, which cost time to compile and none to
+run. A tuple that is `by_reference` is an address: a field is loaded, by value, where it is read.
+Only public names of Numba are used here (README.md).
 
-The tuple must outlive its reference, which is left to the caller.
+The tuple must outlive its reference, which the caller has to ensure.
 """
 
 import functools
@@ -77,7 +77,7 @@ def _address(_, value):
 
 
 class Referenced:
-    """What `by_reference` returns to Python: the tuple, but for its type."""
+    """The tuple as `by_reference` returns it to Python, with a type of its own."""
 
     __slots__ = ("_kind", "_tuple")
 
@@ -99,7 +99,7 @@ def _typeof(value, context):
 
 @unbox(Reference)
 def _unboxed(kind, value, tools):
-    """Keep the tuple of a `Referenced` in the frame of what Python calls."""
+    """Keep the tuple of a `Referenced` in the frame of the function that Python calls."""
     fields = tools.pyapi.object_getattr_string(value, "_tuple")
     native = tools.unbox(kind.kind, fields)
     tools.pyapi.decref(fields)  # `value` holds it
@@ -108,7 +108,7 @@ def _unboxed(kind, value, tools):
 
 
 class _ByReference:
-    """What `by_reference` is to a kernel, and to Python."""
+    """The function `by_reference`, for kernels and for Python."""
 
     def __init__(self):
         self._numba_type_ = types.Function(make_intrinsic_template(self, _address, "by_reference"))

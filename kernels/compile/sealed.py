@@ -1,7 +1,7 @@
 """Numba's cache of one function, with a check of every file that is read.
 
-Numba trusts what it reads. Here every file ends with a seal, a digest of its content: if they do
-not agree, the function is compiled again.
+Numba trusts the files that it reads. Here every file ends with a seal, a digest of its content: if
+they do not agree, the function is compiled again.
 """
 
 import contextlib
@@ -16,12 +16,12 @@ SEAL_BYTES = 16
 
 
 def seal(content):
-    """Digest that a cache file ends with."""
+    """Return the digest that a cache file ends with."""
     return hashlib.blake2b(content, digest_size=SEAL_BYTES).digest()
 
 
 def is_sealed(path):
-    """True if the file is there and ends with the digest of what comes before."""
+    """Return whether the file exists and ends with the digest of the content before it."""
     try:
         content = Path(path).read_bytes()
     except OSError:
@@ -57,7 +57,9 @@ class SealedFiles(IndexDataCacheFile):
 
 
 class SealedCache(FunctionCache):
-    """Cache of one function. What cannot be read or written costs a compilation, never a result."""
+    """Cache of one function. A file that cannot be read or written costs a compilation, never a
+    result.
+    """
 
     def __init__(self, function):
         super().__init__(function)
@@ -68,13 +70,13 @@ class SealedCache(FunctionCache):
         )
 
     def load_overload(self, sig, target_context):
-        """Kept code for a signature, or None."""
+        """Return the cached code for a signature, or None."""
         try:
             return super().load_overload(sig, target_context)
         except Exception:  # noqa: BLE001  (whatever unpickling or linking foreign code can raise)
             return None
 
     def save_overload(self, sig, data):
-        """Keep the code of a signature, if the disk has room for it."""
+        """Cache the code of a signature, if the disk has room for it."""
         with contextlib.suppress(OSError):
             super().save_overload(sig, data)

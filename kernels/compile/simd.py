@@ -1,8 +1,8 @@
 """Vectors of four float64, which LLVM does not form by itself from the entries of matrices.
 
-One register of AVX, two of SSE2 or NEON. A `Four` lives inside a kernel only: loaded from an array
-(n,), computed with (+, -, *, /, lane by lane), stored. Where kernels run as plain Python it is an
-array.
+A vector takes one register of AVX, or two of SSE2 or NEON. A `Four` exists inside a kernel only: it
+is loaded from an array (n,), computed with (+, -, *, /, lane by lane), and stored. Where kernels
+run as plain Python it is an array.
 """
 
 import functools
@@ -22,7 +22,7 @@ ANYTHING = ir.Constant(VECTOR, ir.Undefined)
 
 
 class Four(types.Type):
-    """Type of four float64."""
+    """Numba's type of a vector of four float64."""
 
     def __init__(self):
         super().__init__("four")
@@ -44,7 +44,7 @@ class _Model(models.PrimitiveModel):
 
 
 class _Instruction:
-    """Instructions of LLVM, for kernels to call; Python calls the function ``plain`` instead."""
+    """LLVM instructions that kernels call; Python calls the function ``plain`` instead."""
 
     def __init__(self, plain, emit):
         template = make_intrinsic_template(self, emit, emit.__name__)
@@ -57,7 +57,9 @@ class _Instruction:
 
 
 def _instruction(plain):
-    """Decorator of what emits the instructions for a function of Python."""
+    """Return a decorator for a function that emits the instructions of the Python function
+    ``plain``.
+    """
     return functools.partial(_Instruction, plain)
 
 
@@ -66,12 +68,12 @@ def _write(array, index, value):
 
 
 def _is_vector(array):
-    """Whether an array type is (n,) of float64 without gaps."""
+    """Return whether an array type is (n,) of float64 without gaps."""
     return array == types.float64[::1]
 
 
 def _at(context, builder, kind, array, index):
-    """Pointer to the four entries of ``array`` from ``index`` on."""
+    """Return a pointer to the four entries of ``array`` from ``index`` on."""
     data = make_array(kind)(context, builder, array).data
     return builder.bitcast(builder.gep(data, [index]), VECTOR.as_pointer())
 
@@ -103,7 +105,7 @@ def store(_, array, index, value):
 
 @_instruction(lambda number: np.full(LANES, number))
 def spread(_, number):
-    """Return ``number`` four times."""
+    """Return a vector with ``number`` in all four lanes."""
 
     def code(context, builder, signature, args):
         first = builder.insert_element(ANYTHING, args[0], INDEX(0))
@@ -114,8 +116,8 @@ def spread(_, number):
 
 @_instruction(lambda array, places, at: array[places[at : at + LANES]])
 def collect(_, array, places, at):
-    """Return the entries of ``array`` whose indices are entries ``at`` .. ``at`` + 3 of ``places``,
-    of which none is negative.
+    """Return the entries of ``array`` at the indices ``places``[at] .. ``places``[at + 3], none
+    negative.
     """
     if not (_is_vector(array) and places == types.int64[::1]):
         return None

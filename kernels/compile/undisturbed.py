@@ -1,6 +1,6 @@
-"""Wraps a compiling function: no garbage collection meanwhile, and a large chunk of stack.
+"""Wraps a compiling function: no garbage collection while it runs, and a large chunk of stack.
 
-Together they save a third of the time of compilation.
+Together they save a third of the compilation time.
 """
 
 import functools
@@ -15,8 +15,8 @@ def undisturbed(compile_):
     """Compile without the garbage collector, which takes a sixth of the time and finds little, and
     in a frame that fills half of a chunk of Python's stack.
 
-    The other half is room for all calls of the compiler. Otherwise Python takes a small chunk from
-    the system whenever a call needs one more, and returns it after the call: another sixth.
+    The other half is room for all calls of the compiler. Otherwise Python requests a small chunk
+    from the system whenever a call needs one more, and returns it after the call: another sixth.
     """
 
     def compiled(*given):

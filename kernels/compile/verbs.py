@@ -16,7 +16,7 @@ _declared = set()
 
 
 class _Verb(AbstractTemplate):
-    """A call of a verb, of which Numba knows the tuple already (``this``)."""
+    """A call of a verb of a named tuple, ``this``, that Numba already knows."""
 
     def generic(self, args, kws):
         kernel = getattr(self.this.instance_class, self.name)
@@ -25,7 +25,7 @@ class _Verb(AbstractTemplate):
 
 
 def _declare(name):
-    """Tell Numba how to call the verb of this name: as the kernel that it is."""
+    """Tell Numba how to call the verb of this name: as a kernel."""
     if name in _declared:
         return
     _declared.add(name)
@@ -41,7 +41,7 @@ def _declare(name):
 
 
 def register(is_kernel):
-    """Let kernels call verbs: attributes of the class of a named tuple that ``is_kernel``."""
+    """Let kernels call verbs: the attributes ``is_kernel`` of the class of a named tuple."""
 
     class Verbs(AttributeTemplate):
         def generic_resolve(self, kind, name):

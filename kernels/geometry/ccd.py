@@ -31,7 +31,7 @@ def roots(c0, c1, c2):
 
 @jit_exact
 def _keeps_sign(c0, c1, c2, l2):
-    """Return whether a bound excludes a root of c0 + c1 s + c2 s^2 for s up to `HORIZON`."""
+    """Return whether a bound excludes roots of c0 + c1 s + c2 s^2 for s up to `HORIZON`."""
     return abs(c0) > HORIZON * (abs(c1) + HORIZON * abs(c2)) + ROUND_OFF * l2
 
 

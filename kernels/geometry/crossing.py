@@ -4,12 +4,12 @@ from kernels.arrays import pair, zero
 from kernels.compile.jit import jit_exact
 
 APART, UNSURE, ACROSS = -1, 0, 1
-SIGN_TOLERANCE = 1e-12  # of the two products of a cross product: below it the sign is undecided
+SIGN_TOLERANCE = 1e-12  # share of the products in a cross product below which its sign is undecided
 
 
 @jit_exact
 def _side(at, a, p, s):
-    """Return the sign of the side of element ``a`` that node ``p`` is on; 0 if undecided."""
+    """Return on which side of element ``a`` node ``p`` lies, as a sign; 0 if undecided."""
     i, j = a
     ux, uy = at[0, j, s] - at[0, i, s], at[1, j, s] - at[1, i, s]
     wx, wy = at[0, p, s] - at[0, i, s], at[1, p, s] - at[1, i, s]

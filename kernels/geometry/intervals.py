@@ -7,7 +7,7 @@ from kernels.compile.jit import jit_exact
 
 @jit_exact
 def insert(left, right, at, first, begin, end):
-    """Insert an interval into those from ``first`` to ``at`` (exclusive), sorted by left ends.
+    """Insert an interval among the intervals ``first`` to ``at`` (exclusive), sorted by left ends.
 
     Return its place. left, right (n,): ends of the intervals, with room at ``at``.
     """

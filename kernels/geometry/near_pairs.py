@@ -11,8 +11,8 @@ from kernels.arrays import first_at_least, grouped, pair
 from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.distance import squared_distance
 
-SHELLS = 64  # number of distance classes by which pairs are sorted
-CELLS_PER_RADIUS = 3.0  # cells per radius: larger cells hold more nodes that are too far
+SHELLS = 64  # number of classes of distance into which pairs are sorted
+CELLS_PER_RADIUS = 3.0  # cells per radius: larger cells contain more nodes that are too far away
 
 
 class Pairs(NamedTuple):
@@ -76,7 +76,7 @@ def _cells(x, a, b, radius, grid):
 
 @jit_exact
 def _bound(x, edges, radius, grid, start):
-    """Return an upper bound of the number of pairs: nodes in all cells that segments reach."""
+    """Return an upper bound of the number of pairs: the nodes in all cells that segments reach."""
     count, nx = 0, grid[3]
     for k in range(edges.shape[0]):
         a, b = pair(edges, k)
@@ -165,7 +165,7 @@ def find(x, contact, radius):
 
 @jit_exact
 def is_guarded(pairs, k, contact):
-    """Return whether pair ``k``, near a joint, is only kept from crossing."""
+    """Return whether pair ``k`` is near a joint, and exerts no force but must not cross."""
     return pairs.rule[k] >= 0 and contact.special_weight[pairs.rule[k]] == 0.0
 
 
@@ -185,13 +185,15 @@ def counted(pairs, k, contact):
 
 @jit_exact
 def within(pairs, radius):
-    """Return the number of pairs, the first ones, that may be nearer than ``radius`` (m)."""
+    """Return the number of pairs, the first ones in the list, that may be nearer than ``radius``
+    (m).
+    """
     return first_at_least(pairs.distance, radius, 0, pairs.distance.size)
 
 
 @jit_owning
 def empty():
-    """Return no pairs."""
+    """Return a list without pairs."""
     none, nothing = np.empty(0, np.int64), np.empty(0)
     return Pairs(none, none, nothing, nothing, none)
 

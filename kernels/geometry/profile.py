@@ -18,8 +18,8 @@ import numpy as np
 from kernels.compile.jit import jit_exact
 
 KEPT = 0.1  # share of the distance that is kept
-MOST_ROUNDS = 100  # the share that is reached by then is admissible too
-CLOSE = 0.1  # of the distance that is kept: nearer to it the advance ends
+MOST_ROUNDS = 100  # the share reached after so many steps is admissible too
+CLOSE = 0.1  # share of the kept distance: the advance ends when it is closer to that distance
 
 
 class Profiles(NamedTuple):
@@ -92,7 +92,7 @@ def distance(profiles, k, px, py):
 
 @jit_exact
 def to_segment(vx, vy, ax, ay, bx, by):
-    """Return tau, the unit vector from a vertex to that point of a-b, and their distance."""
+    """Return tau, the unit vector from a vertex to the point tau of a-b, and their distance."""
     tau = along(vx, vy, ax, ay, bx, by)
     wx, wy = ax + tau * (bx - ax) - vx, ay + tau * (by - ay) - vy
     apart = math.sqrt(wx * wx + wy * wy)
@@ -132,8 +132,9 @@ def advance(profiles, k, a, b, da, db):
     """Return a share of a move, at most 1, up to which segment a-b keeps `KEPT` of its distance.
 
     a, b: ends, y above the carrier; da, db: their moves relative to it. From s on, the closest
-    points are separated by a line across n as long as d + (s' - s) min(n . da, n . db) > 0, so that
-    s grows by what is left of d over the speed at which the line is approached.
+    points are separated by a line across n as long as d + (s' - s) min(n . da, n . db) > 0. Each
+    step of s is therefore the distance still to be used up, divided by the speed of approach to
+    this line.
     """
     _, _, d = gap(profiles, k, a[0], a[1], b[0], b[1])
     least, s = KEPT * d, 0.0

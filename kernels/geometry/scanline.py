@@ -13,9 +13,9 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
 FLAT = 1e-12  # least sine between a line and a side of a rectangle
-ANGLE = 0.4  # of the lines, rad: the rule is of first order where walls are parallel to them
+ANGLE = 0.4  # angle of the lines, rad: the rule is of first order where walls are parallel to them
 COSINE, SINE = np.cos(ANGLE), np.sin(ANGLE)
-MOST_LINES = 1 << 17  # in all: bounds the lines per wall where walls are very thin
+MOST_LINES = 1 << 17  # total number: bounds the lines per wall where walls are very thin
 
 
 class Shapes(NamedTuple):
@@ -38,7 +38,7 @@ def _rotated(x, y):
 
 @jit_owning
 def _shapes(points, edges, thickness):
-    """Return the discs of all nodes, then the rectangles of all elements, in these coordinates."""
+    """Return the discs of all nodes, then the rectangles of all elements, in rotated axes."""
     n, m = points.shape[0], edges.shape[0]
     shapes = Shapes(np.zeros((n + m, 2)), np.zeros((n + m, 2)), np.zeros(n + m), np.zeros(n + m))
     middle_x, middle_y = 0.0, 0.0
@@ -76,7 +76,7 @@ def _extent(shapes, k):
 
 @jit_owning
 def _from_left_to_right(shapes):
-    """Return the shapes (k,) sorted by left ends, up to the width of one of k strips."""
+    """Return the shapes (k,) sorted by their left ends, to within the width of one of k strips."""
     count = shapes.along.size
     left = shapes.center[:, 0] - shapes.along
     least, most = np.inf, -np.inf
@@ -97,7 +97,9 @@ def _not_flat(sine):
 
 @jit_exact
 def _interval(height, ux, uy, along, across):
-    """Return the interval of a shape on a line ``height`` m above its centre, relative to it."""
+    """Return the interval of a shape, relative to its centre, on a line ``height`` m above the
+    centre.
+    """
     if ux == 0.0 and uy == 0.0:
         half = np.sqrt(max(across * across - height * height, 0.0))
         return -half, half
@@ -109,7 +111,9 @@ def _interval(height, ux, uy, along, across):
 
 @jit_exact
 def _lines(shapes, k, spacing, band):
-    """Return the first line (inclusive) and the last (exclusive) of a band that meet a shape."""
+    """Return the first (inclusive) and the last (exclusive) line of a band that a shape
+    intersects.
+    """
     y, extent = shapes.center[k, 1], _extent(shapes, k)
     first, last = np.ceil((y - extent) / spacing), np.ceil((y + extent) / spacing)
     return max(int(first), band[0]), min(int(last), band[1])
@@ -119,8 +123,8 @@ def _lines(shapes, k, spacing, band):
 def _covered(shapes, order, spacing, band):
     """Return the length in m covered on the lines of a ``band`` (first, last + 1).
 
-    The insertion sort takes quadratic time on a line where ``order`` is far from that of the left
-    ends, as with large shapes.
+    The insertion sort takes quadratic time on a line where ``order`` differs much from the order of
+    the left ends, as with large shapes.
     """
     start = np.zeros(band[1] - band[0] + 1, np.int64)
     for k in order:

@@ -11,7 +11,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.intervals import covered, insert
 
 PARALLEL = 1e-14  # least sine between two sides that cross elsewhere than at corners
-FLAT = 1e-15  # of the total height: a lower slab is merged with the next one
+FLAT = 1e-15  # share of the total height: a lower slab is merged with the next one
 
 
 @jit_exact
@@ -66,7 +66,7 @@ def heights(loops, low, high, levels):
 
 @jit_exact
 def _interval(loops, k, y):
-    """Return the interval of a polygon on a line at height ``y``, which meets no corner."""
+    """Return the interval of a polygon on a line at height ``y`` that passes through no corner."""
     begin, end = np.inf, -np.inf
     for i in range(loops.shape[1] - 1):
         (x0, y0), (x1, y1) = _corner(loops, k, i), _corner(loops, k, i + 1)
@@ -78,7 +78,7 @@ def _interval(loops, k, y):
 
 @jit_owning
 def area(loops, low, high, levels):
-    """Return the area of the union in m^2. levels (n,): all `heights`, ascending."""
+    """Return the area of the union in m^2. levels (n,): all `heights`, in ascending order."""
     active, left, right = np.empty(len(loops), np.int64), np.empty(len(loops)), np.empty(len(loops))
     count, begun, total, bottom = 0, 0, 0.0, levels[0]
     flat = FLAT * (levels[-1] - bottom)
@@ -96,7 +96,7 @@ def area(loops, low, high, levels):
                 place = insert(left, right, kept, 0, begin, end)
                 for j in range(
                     kept, place, -1
-                ):  # keep the order of this slab, which is nearly that of the next one
+                ):  # keep the order of this slab, as the next one has nearly the same
                     active[j] = active[j - 1]
                 active[place] = k
                 kept += 1

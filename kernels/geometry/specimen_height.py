@@ -16,7 +16,7 @@ def _mean(x, coordinates):
 
 @jit_exact
 def height(x, top, base):
-    """Return the mean of the coordinates ``top`` less that of ``base``, m.
+    """Return the mean of the coordinates ``top`` less the mean of the coordinates ``base``, m.
 
     If ``top`` is empty, return the extent of ``base``, as a caliper measures it.
     """

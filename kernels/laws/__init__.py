@@ -1,11 +1,11 @@
 """Laws of a material point, and the barrier.
 
-A material law (`law`) maps a strain and what the material remembers to a potential, its slope and
-its tangent. `fibre` is the law of all points in walls of the plane; `elastic`, `relaxation`,
-`softening` and `yielding` are its parts, and `one_point` runs it alone. `sheet` is the law of walls
-in space, with three strains; `separable` finds its function of one stretch. `relaxing_sheet` is the
-same with memory, in the strains of `log_strain`.
+A material law (`law`) maps the strain and the material's memory to a potential, its slope and its
+tangent. `fibre` is the law of all points in walls of the plane; `elastic`, `relaxation`,
+`softening` and `yielding` are its parts, and `one_point` evaluates it at a single point. `sheet` is
+the law of walls in space, with three strains; `separable` finds its function of one stretch.
+`relaxing_sheet` is the law of a sheet with memory, in the strains of `log_strain`.
 
-`barrier` is not a material law. Like one, it is a function of one number with its derivatives; it
-is here because `elastic` needs it, as contacts and folds do (`kernels.terms`, `kernels.plates`).
+`barrier` is no material law but, like one, a function of one number with its derivatives; it is
+here because `elastic` needs it, as contacts and folds do (`kernels.terms`, `kernels.plates`).
 """

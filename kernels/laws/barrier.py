@@ -3,7 +3,7 @@
     b(s) = -(s - 1)^2 ln s   for 0 < s < 1,   0 beyond,
 
 It is infinite at s = 0 and twice continuously differentiable at s = 1 (Li et al. 2020, Incremental
-Potential Contact, eq. 6, with distances in units of that at which the barrier starts to act).
+Potential Contact, eq. 6, with distances divided by the distance at which the barrier starts).
 """
 
 import math
@@ -31,7 +31,7 @@ def phi(weight, stiffness, starts, d):
     """Return ``weight`` times phi(d) = stiffness t_c b(d / t_c) in J, and its first two derivatives
     in the distance ``d``, m.
 
-    weight: contact length, m, and stiffness, N/m; in space contact area, m^2, and Pa. starts: t_c,
+    weight, stiffness: contact length, m, and N/m; in space contact area, m^2, and Pa. starts: t_c,
     the distance at which contact starts, m.
     """
     value, slope, curvature = barrier(d / starts)

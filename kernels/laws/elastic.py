@@ -21,7 +21,7 @@ GUARD = -0.7
 
 @jit
 def piece(law, strain):
-    """Return the index of the cubic at ``strain``; beyond the ends, of the first or last one."""
+    """Return the index of the cubic at ``strain``, clipped to the first or the last one."""
     knots, low, high = law.knots, 0, law.knots.size - 1
     while high - low > 1:
         middle = (low + high) // 2
@@ -34,7 +34,7 @@ def piece(law, strain):
 
 @jit
 def curve(law, strain):
-    """Return W, sigma and its tangent on the measured part, continued by tangents."""
+    """Return W, sigma and its tangent on the measured curve, continued by tangents."""
     i = law.piece(strain)
     inside = min(max(strain, law.knots[0]), law.knots[-1])
     s = inside - law.knots[i]
@@ -49,7 +49,7 @@ def curve(law, strain):
 
 @jit
 def guard(modulus, strain):
-    """Return the barrier below ``GUARD`` and its two derivatives."""
+    """Return the barrier, zero above ``GUARD``, and its two derivatives."""
     if strain >= GUARD or modulus == 0.0:
         return 0.0, 0.0, 0.0
     width = 1.0 + GUARD
@@ -73,7 +73,7 @@ def respond_fibre(law, strain):
 
 @jit
 def least(law):
-    """Return the strain to which stresses fall without bound: that of the barrier."""
+    """Return the strain at which the barrier makes the stress tend to minus infinity."""
     return -1.0
 
 
@@ -121,7 +121,7 @@ def respond_at_point(law, strain, memory, point):
 
 @jit
 def state_size(law):
-    """Return 0, as a constant: what a memory would need is not even compiled."""
+    """Return 0 as a constant, so that code for a memory is not even compiled."""
     return 0
 
 

@@ -53,7 +53,7 @@ def state_size(law):
 
 @jit
 def elastic(law):
-    """Return the curve of a law without memory as a law of its own."""
+    """Return the curve of a law without memory as an `elastic.Elastic` law."""
     return Elastic(law.relaxing.elastic.curve)
 
 

@@ -7,12 +7,12 @@ of its material points. A step, which stays a minimisation, needs only
 
 with the strain e, the state q committed last and the duration of the step. Without memory W is the
 stored energy. A law with memory minimises over its internal variables itself, so that W is its
-incremental potential. At commit it tells stored from dissipated energy, for the energy book. The
-state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law without
-memory keeps none.
+incremental potential. At commit it separates stored from dissipated energy, for the energy book.
+The state is kept in `solve.history.State.memory`, which `planar.steps.commit` updates; a law
+without memory keeps none.
 
 The initial state is zero. With a duration of zero the state does not change, and W is the stored
-energy. The law of a `section` has several points, of one strain each.
+energy. The law of a `section` has several points with one strain each.
 """
 
 from typing import NamedTuple, Protocol
@@ -21,7 +21,7 @@ import numpy as np
 
 
 class Memory(NamedTuple):
-    """What a response depends on beside the strain.
+    """The data that a response depends on besides the strain.
 
     committed (p, k): state of each material point after the last accepted step, which only `commit`
     changes; p = 0 if no law has memory. line (p, j): data of a point for the present step, which
@@ -52,16 +52,16 @@ class Law(Protocol):
         """Set the data of a point for the present step."""
 
     def elastic(self):
-        """Return the elastic law alone, if the law ``is_elastic``: code that is compiled for it has
-        no memory, which would cost time.
+        """Return the elastic law alone, if the law ``is_elastic``: code compiled for it spends no
+        time on a memory.
         """
 
     def respond(self, strain, memory, point):
         """Return potential (J/m^3), stress (Pa) and tangent (Pa) at ``strain``."""
 
     def state_size(self):
-        """Return the length of the state of a point; 0 without memory: no other verb than `respond`
-        is then called.
+        """Return the length of the state of a point; if it is 0 (no memory), only `respond` is
+        called.
         """
 
     def commit(self, strain, memory, point):

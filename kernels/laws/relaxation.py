@@ -18,8 +18,8 @@ stress is a multiple of s plus a constant. Both follow from the potential
                                       slope = sum g_i (a_i x_i - c_i s)
 
 whose constant makes it the stored energy in a step without duration. A step thus costs hardly more
-than an elastic one; only the commit goes through the branches. It also books what the elastic law
-dissipates where it softens (Mullins effect, `softening`).
+than an elastic one; only the commit goes through the branches. It also books the dissipation of the
+elastic law where it softens (Mullins effect, `softening`).
 
 Source: Y. C. Fung, Biomechanics, 1981. The energies follow by the Legendre transform of phi.
 """
@@ -34,9 +34,9 @@ from kernels.compile.jit import jit, jit_exact, jit_owning
 # Places in a state. ENERGY, STRESS and TANGENT are the response of the elastic law at STRAIN; from
 # BRANCHES on there are all s_i, then all e_i. TANGENT is zero if the point was never strained.
 STRAIN, STORED, MOST, ENERGY, STRESS, TANGENT, BRANCHES = range(7)
-SMALL = 1e-2  # of dt / tau: below it `_square` is a series
-NEAR = 1e-4  # difference of two strains between which a curve is straight: its energy is then
-# wrong by less than 1e-8 of that of a strain of 1 %
+SMALL = 1e-2  # dt / tau below which `_square` is a series
+NEAR = 1e-4  # difference of two strains below which a curve counts as straight: its energy is then
+# wrong by less than 1e-8 of the energy at a strain of 1 %
 TRIES = 60  # steps of Newton's method
 
 
@@ -87,8 +87,8 @@ def set_pace(law, duration, pace):
 
 @jit
 def begin(law, memory, point):
-    """Set slope and constant of the potential of a point for a step at the pace of ``memory``;
-    nothing without a state.
+    """Set slope and constant of the potential of a point for a step at the pace of ``memory``; do
+    nothing if the point has no state.
     """
     if law.state_size() == 0:
         return
@@ -103,7 +103,7 @@ def begin(law, memory, point):
 
 @jit
 def _most(law, memory, point):
-    """Return the greatest energy W of the past of a point, which only a softening law needs."""
+    """Return the greatest past energy W of a point, which only a softening law needs."""
     return memory.committed[point, MOST] if law.elastic.softening > 0.0 else 0.0
 
 
@@ -151,7 +151,7 @@ def _branch(law, most, strain, response, x, guess):
 
 @jit
 def _soften(law, strain, most, state):
-    """Let the greatest energy of the past rise to ``most``; update the stored energy of a state."""
+    """Raise the greatest past energy to ``most``; update the stored energy of a state."""
     n, response = law.shares.size, law.elastic.respond(strain, most)
     energy, stress, tangent = response
     stored = energy

@@ -1,7 +1,7 @@
 """A sheet that relaxes: quasi-linear viscoelasticity in logarithmic strains.
 
-With the elastic energy W of a `sheet` as a function of L = ln(c) / 2 and its stress s = dW/dL
-(Kirchhoff's, in axes that turn with the material), branch i carries g_i (s - s_i):
+With the elastic energy W of a `sheet` as a function of L = ln(c) / 2 and its stress s = dW/dL (the
+Kirchhoff stress, in axes that turn with the material), branch i carries g_i (s - s_i):
 
     stress = s - sum g_i s_i,   ds_i/dt = (s - s_i) / tau_i,   s_i = s(L_i) at its viscous strain
 
@@ -11,8 +11,9 @@ same, and so are the potential of a step, scale W + slope : L + const, and the e
     stored = W(L) - sum g_i (W(L_i) + s_i : (L - L_i))
     dissipation / time = sum g_i (s - s_i) : (L - L_i) / tau_i >= 0
 
-as W is convex in L where h rises (`separable`). A sheet under uniaxial stress relaxes as a wall of
-the same Cauchy stress over ln l. The viscous strain of a branch has the axes of its stress.
+as W is convex in L where h rises (`separable`). A sheet under uniaxial stress relaxes like a wall
+with the same curve of Cauchy stress over ln l. The viscous strain of a branch has the axes of its
+stress.
 
 The dissipation of a step is exact for small strains whose stress changes evenly.
 """
@@ -26,10 +27,10 @@ from kernels.compile.jit import jit, jit_exact
 from kernels.laws import log_strain
 from kernels.laws.relaxation import make_pace, set_pace
 
-LINE = 4  # numbers of a point for a step: constant, slope
+LINE = 4  # number of data of a point for a step: constant, slope
 STRESS, STRAIN, ENERGY, STORED, BRANCHES = 0, 3, 6, 7, 8  # places in a state; then all s_i, all L_i
-NEAR = 1e-5  # move of a logarithm of stretch after which `inverse` ends: energies err by its cube
-LONGEST = 1.0  # move of such a logarithm in one step of Newton's method
+NEAR = 1e-5  # change of a logarithm of stretch below which `inverse` ends: energies err by its cube
+LONGEST = 1.0  # greatest change of such a logarithm in one step of Newton's method
 TRIES = 60
 
 
@@ -41,7 +42,7 @@ def _inner(s, e):
 
 @jit
 def _read(state, at):
-    """Return the three components from place ``at`` on."""
+    """Return the three components from ``at`` on."""
     return state[at], state[at + 1], state[at + 2]
 
 
@@ -149,7 +150,7 @@ def commit(law, a, b, v, memory, point):
     J/m^3.
 
     With x = s - s_i and its strain d = L - L_i at both ends of the step, x' = a_i x + c_i (s' - s)
-    gives that part of d which the change of the stress has added, (d' - a_i d) / c_i.
+    gives the part of d that the change of the stress has added, (d' - a_i d) / c_i.
     """
     state, pace, n = memory.committed[point], memory.pace, law.shares.size
     before, past = _read(state, STRESS), _read(state, STRAIN)
@@ -184,7 +185,7 @@ def state_size(law):
 
 class RelaxingSheet(NamedTuple):
     """elastic: `sheet.Sheet` of the instantaneous stress. shares (n,): g_i, which sum to less than
-    1, none of an elastic material. times (n,): tau_i in s. shear_modulus: of ``elastic``, Pa.
+    1; n = 0 for an elastic material. times (n,): tau_i in s. shear_modulus: of ``elastic``, Pa.
 
     Scenes of all materials have this one law, so that their kernels are the same machine code.
     """

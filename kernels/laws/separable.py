@@ -1,33 +1,35 @@
 """The function of one stretch behind a separable energy, from a nominal stress curve.
 
-An incompressible material with W = w(l1) + w(l2) + w(l3) has under uniaxial stress the nominal
-stress P(l) = w'(l) - l^(-3/2) w'(l^(-1/2)). Times l, with x = ln l, h(x) = l w'(l) and the Cauchy
-stress S(x) = l P(l), that is
+Under uniaxial stress, an incompressible material with W = w(l1) + w(l2) + w(l3) has the nominal
+stress P(l) = w'(l) - l^(-3/2) w'(l^(-1/2)). Multiplied by l, with x = ln l, h(x) = l w'(l) and the
+Cauchy stress S(x) = l P(l), this is
 
     S(x) = h(x) - h(-x / 2)
 
-Putting the equation into itself again and again gives
+Repeated substitution of the equation into itself gives
 
     h(x) = S(x) + S(-x / 2) + S(x / 4) + S(-x / 8) + ..
 
 which converges, as S(x) is of the order of x at rest. This is the only solution that is smooth
-there (but for a constant, which adds nothing to W, as the sum of all x is 0): tension and
-compression determine w (E. Kearsley and L. Zapas, J. Rheology 24, 1980, p. 483).
+there (up to a constant, which adds nothing to W, as the sum of all x is 0): tension and compression
+determine w (E. Kearsley and L. Zapas, J. Rheology 24, 1980, p. 483).
 
 A material is stable only if h rises (then greater stretches have greater stresses: M. Baker and J.
-Ericksen, 1954). The measured tension is reproduced exactly. Compression, mostly a rule
-(`sweep.scene.material`), is followed as far as h rises on both sides: outwards from the rest state,
+Ericksen, 1954). The measured tension is reproduced exactly. Compression, which mostly follows from
+a rule (`sweep.scene.material`), is followed as far as h rises on both sides: outwards from the rest
+state,
 
     h'(-y) = S'(-y) - h'(y / 2) / 2, but at least r and at most 2 (S'(2 y) - r)
     h'(y) = S'(y) - h'(-y / 2) / 2
 
-with r = `LEAST` of the slope at rest. Knots have equal ratios, so that y / 2 and 2 y are knots.
+with r = `LEAST` of the slope at rest. Neighbouring knots have a constant ratio, so that y / 2 and 2
+y are knots too.
 
-The piece of such a knot follows from the logarithm of its size, without a search.
+The piece that contains x follows from the logarithm of |x|, without a search.
 
-S must be known for all x. Where the curve ends, it is continued in compression by
-S + S' (1 - exp(x_end - x)), as that of a neo-Hookean material, so that a fibre vanishes only at
-infinite stress; in tension by the tangent of the nominal stress.
+S must be known for all x. Beyond the end of the curve, it is continued in compression by S + S' (1
+- exp(x_end - x)), as for a neo-Hookean material, so that a fibre vanishes only at infinite stress;
+in tension by the tangent of the nominal stress.
 """
 
 import math
@@ -46,9 +48,10 @@ LEAST = 0.02
 
 @jit
 def piece(law, x):
-    """Return the index of the cubic at ``x``; beyond the ends, of the first or last one.
+    """Return the index of the cubic at ``x``, clipped to the first or the last one.
 
-    The knots are those of `rising`. A logarithm that is rounded to the next piece is corrected.
+    The knots are those that `rising` returns. If the logarithm is rounded into the next piece, the
+    index is corrected.
     """
     knots, half, size = law.knots, law.knots.size // 2, abs(x)
     if not size >= FIRST:
@@ -62,7 +65,7 @@ def piece(law, x):
 
 
 class OctaveCurve(NamedTuple):
-    """h over x; fields as in `elastic.FibreCurve`, knots as of `rising`."""
+    """h over x; fields as in `elastic.FibreCurve`, with the knots of `rising`."""
 
     knots: np.ndarray
     coefficients: np.ndarray
@@ -90,7 +93,7 @@ def continued(nominal, least, x):
 
 
 def principal(nominal, least, x):
-    """Return the sum for h, and its slope, (n,) in Pa at ``x`` (n,), whether or not h rises."""
+    """Return h by its series, and its slope, (n,) in Pa at ``x`` (n,), whether or not h rises."""
     value, slope, factor = np.zeros_like(x), np.zeros_like(x), 1.0
     for _ in range(TERMS):
         stress, rise = continued(nominal, least, factor * x)
@@ -101,7 +104,9 @@ def principal(nominal, least, x):
 
 
 def _check(nominal, least, tension, size):
-    """Refuse a Cauchy stress that falls with the stretch. tension (n,): slopes; size: S' at 0."""
+    """Raise ValueError where the Cauchy stress falls with the stretch. tension (n,): slopes; size:
+    S' at 0.
+    """
     rise = continued(nominal, least, np.array([np.log1p(least)]))[1][0]
     if not (size > 0.0 and rise > 0.0 and tension.min() > 2.0 * LEAST * size):
         raise ValueError(
@@ -129,13 +134,13 @@ def rising(nominal, least):
 
 
 def _of_compression(nominal, least, y, tension, floor):
-    """Return h(-y) and h'(-y) at the knots y (n,). tension: S(y), S'(y), an octave further too."""
+    """Return h(-y) and h'(-y) at the knots y (n,). tension: S(y), S'(y), with one octave more."""
     pressed, pressed_rise = continued(nominal, least, -y)
     value, slope = np.empty_like(y), np.empty_like(y)
     one, two = OCTAVE, 2 * OCTAVE
     value[:two], slope[:two] = principal(nominal, least, -y[:two])
     slope[:two] = np.maximum(slope[:two], floor)
-    apart, before = 0.0, 0.0  # what the limits add to the slope, and its integral
+    apart, before = 0.0, 0.0  # change of the slope by the limits, and its integral
     for k in range(two, y.size):
         wanted = pressed_rise[k] - 0.5 * (tension[1][k - one] - 0.5 * slope[k - two])
         slope[k] = min(max(wanted, floor), 2.0 * (tension[1][k + one] - floor))

@@ -1,18 +1,18 @@
 """A sheet of incompressible material in plane stress: energy over its strain c.
 
-With the stretches l1, l2 of the sheet, squares of which are the eigenvalues m of c, and that of its
-thickness 1 / (l1 l2),
+With the stretches l1, l2 of the sheet, whose squares are the eigenvalues m of c, and the stretch 1
+/ (l1 l2) of its thickness,
 
     W(c) = w(l1) + w(l2) + w(1 / (l1 l2))
 
 (K. Valanis and R. Landel, 1967). In logarithms of stretches, x = ln l, and with h = l w'(l), the
-principal stress but for a pressure,
+principal stress up to a pressure,
 
     W = H(x1) + H(x2) + H(-x1 - x2),   H' = h
 
 `separable` finds h from a nominal stress curve; as a C1 cubic with its exact integral it is a curve
 of `elastic`. It is continued by tangents: where a stretch goes to 0, W rises to infinity as ln^2.
-The twin of linear walls is neo-Hookean, W = mu / 2 (tr c + 1 / det c - 3), mu = Y / 3.
+The counterpart of a linear wall is neo-Hookean, W = mu / 2 (tr c + 1 / det c - 3), mu = Y / 3.
 
 Derivatives are in (c11, c22, c12), c12 counted once. With f(m) = H(ln(m) / 2), mean p, deviator
 (u, v) = ((c11 - c22) / 2, c12) and its size r, m = p +- r,
@@ -20,8 +20,8 @@ Derivatives are in (c11, c22, c12), c12 counted once. With f(m) = H(ln(m) / 2), 
     F(p, r) = f(p + r) + f(p - r),   q = F_r / r = 2 (f'(m1) - f'(m2)) / (m1 - m2)
 
 and the second derivatives in (u, v) are F_rr n n + q t t, n = (u, v) / r, t normal to n. Where r is
-small, q is the mean of f'' at both m times 2; n is arbitrary where r = 0, as F_rr = q there.
-Strains are given as c - 1, so that small ones lose no digits.
+small, q is twice the mean of f'' at both m; n is arbitrary where r = 0, as F_rr = q there. Strains
+are given as c - 1, so that small ones lose no digits.
 """
 
 import math
@@ -69,7 +69,7 @@ def _neo_hookean(mu, a, b, v):
 
 @jit
 def _measured(curve, a, b, v):
-    """Return energy, slopes and second derivatives of a sheet of a measured curve."""
+    """Return energy, slopes and second derivatives of a sheet with a measured curve."""
     k = a + b + a * b - v * v
     det = 1.0 + k
     mean, u = 0.5 * (a + b), 0.5 * (a - b)

@@ -1,15 +1,15 @@
-"""Softening on reuse (Mullins): below its greatest strain so far a wall is softer than at first.
+"""Softening on reloading (Mullins): below its greatest past strain a wall is softer than at first.
 
-With the energy W(e) of the curve and the greatest one W_m of the past, below that
+With the energy W(e) of the curve and its greatest past value W_m, below W_m
 
     stress = eta W'(e),   eta = 1 - erf((W_m - W) / b) / r,   b = m + beta W_m
 
-and the curve itself beyond. The potential is a function of W alone,
+and beyond W_m the stress of the curve itself. The potential is a function of W alone,
 
     phi = W - (I(W_m / b) - I((W_m - W) / b)) b / r,   I(u) = u erf(u) + exp(-u^2) / sqrt(pi)
 
-up to W_m, from where it rises as W does. As W_m grows, phi falls at the same strain: that is
-dissipated, and booked at the commit of `relaxation`.
+up to W_m, from where it rises as W does. As W_m grows, phi falls at the same strain: this energy is
+dissipated, and booked when `relaxation` commits.
 
 Source: R. W. Ogden and D. G. Roxburgh, A pseudo-elastic model for the Mullins effect, 1999; beta:
 Abaqus Theory Guide, 4.7.1.
@@ -31,7 +31,7 @@ def _integral(u):
 
 @jit
 def _lost(law, energy, most):
-    """Return W - phi at an ``energy`` W up to the greatest one."""
+    """Return W - phi at an ``energy`` W that is at most W_m."""
     b = law.m + law.beta * most
     return (_integral(most / b) - _integral((most - energy) / b)) * b * law.softening
 
@@ -54,15 +54,15 @@ def respond(law, strain, most):
 
 @jit
 def greatest(law, strain, most):
-    """Return the greatest energy W of the past, that at ``strain`` included; ``most`` if the law
-    does not soften.
+    """Return the greatest energy W so far, including W at ``strain``; ``most`` if the law does not
+    soften.
     """
     return max(most, law.curve.respond(strain)[0]) if law.softening > 0.0 else most
 
 
 @jit
 def least(law):
-    """Return the strain to which stresses fall without bound."""
+    """Return the strain at which the stress tends to minus infinity."""
     return law.curve.least()
 
 

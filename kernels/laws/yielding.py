@@ -1,8 +1,8 @@
 """Yielding: a law that is linear elastic up to a yield stress, then plastic with linear hardening.
 
 The stress is Y (e - e_p) with the plastic strain e_p, and at most sigma_y + H alpha in magnitude,
-alpha being the sum of all |d e_p| (isotropic hardening). In a step from e_p and alpha to a strain e
-with the trial stress s = Y (e - e_p), e_p moves by
+alpha being the sum of all |d e_p| (isotropic hardening). In a step from e_p and alpha to a strain
+e, with the trial stress s = Y (e - e_p), e_p changes by
 
     d = max(|s| - sigma_y - H alpha, 0) / (Y + H)   towards s
 
@@ -47,7 +47,7 @@ def respond(law, strain, memory, point):
 @jit
 def commit(law, strain, memory, point):
     """Accept ``strain``: update plastic strain and hardening. Return potential less stored energy,
-    and the dissipation of the step, J/m^3: they are the same.
+    and the dissipation of the step, J/m^3, which are equal.
     """
     d, elastic, limit = _flow(law, strain, memory, point)
     state = memory.committed[point]

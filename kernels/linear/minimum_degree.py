@@ -1,8 +1,8 @@
 """Minimum-degree order of elimination, on a graph stored as rows of bits.
 
-Eliminating a block connects all its neighbours with each other. The neighbours left in its row of
-bits are its column of the factor (George & Liu 1989, SIAM Review 31: The evolution of the minimum
-degree ordering algorithm).
+Eliminating a block connects all its neighbours with each other. The neighbours that remain in its
+row of bits are its column of the factor (George & Liu 1989, SIAM Review 31: The evolution of the
+minimum degree ordering algorithm).
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""Which pivots of a factor are zero or positive within round-off.
+"""Treatment of pivots that are zero or positive within round-off.
 
-A factorisation is given `ROUNDED`, `CONVEX` or `THROUGH` as ``rounded``: the least pivot, as a
-share of its diagonal, that counts as zero.
+The argument ``rounded`` of a factorisation is `ROUNDED`, `CONVEX` or `THROUGH`: the least pivot, as
+a share of its diagonal, that counts as zero.
 """
 
 import math

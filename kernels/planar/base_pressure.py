@@ -1,11 +1,11 @@
-"""Forces of a lattice on its base, node by node, and the patch of the base that is pressed most.
+"""Forces of a lattice on its base, node by node, and the patch of the base with the greatest force.
 
 A node of a row that is glued to the base, or held there, presses on it with the gradient of the
-step, the inertia of the node included; a loose node with its contact force. The force acts evenly
+step, including the inertia of the node; a loose node with its contact force. The force acts evenly
 over the thickness t of the wall, from x - t / 2 to x + t / 2. A patch is a window of a given width
-w that slides along x; the force on it is piecewise linear in its centre, with knots at
-x +- (w + t) / 2 and x +- |w - t| / 2 of each node. The greatest force is that at a knot, also where
-a glued row pulls at the base.
+w that slides along x; the force on it is piecewise linear in its centre, with knots at x +- (w + t)
+/ 2 and x +- |w - t| / 2 of each node. The greatest force is therefore at a knot, also where a glued
+row pulls at the base.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ def force_on_base(problem, x, evaluation, p):
 
 @jit_exact
 def sort_along(x, nodes):
-    """Sort ``nodes`` (k,) by their x, by insertion: from row to row few of them change places."""
+    """Sort ``nodes`` (k,) by their x, by insertion: few nodes change places from row to row."""
     for k in range(1, nodes.size):
         p, i = nodes[k], k
         while i > 0 and x[2 * nodes[i - 1]] > x[2 * p]:
@@ -45,8 +45,8 @@ def share_on_patch(x, thickness, centre, width):
 
 @jit_exact
 def _gather(problem, x, evaluation, nodes, pressing):
-    """Fill ``pressing`` (k, 3) with x, thickness and force of the ``nodes`` (k,) that have a force,
-    by x; return their number and the greatest thickness.
+    """Fill ``pressing`` (k, 3) with x, thickness and force of the ``nodes`` (k,) that exert a
+    force, sorted by x; return their number and the greatest thickness.
     """
     thickness, count, thickest = problem.scene.contact.node_thickness, 0, 0.0
     sort_along(x, nodes)
@@ -62,8 +62,9 @@ def _gather(problem, x, evaluation, nodes, pressing):
 
 @jit_exact
 def _on_patch(pressing, first, centre, width, reach):
-    """Return the force on a patch round ``centre``, of the rows of ``pressing`` from ``first`` on,
-    and its moment about x = 0.
+    """Return the force on a patch round ``centre`` and its moment about x = 0.
+
+    Rows of ``pressing`` before ``first`` are skipped.
     """
     force, moment = 0.0, 0.0
     for i in range(first, len(pressing)):
@@ -98,7 +99,7 @@ def greatest_on_patch(problem, x, evaluation, nodes, pressing, width):
 
 @jit_exact
 def write(problem, out, k, state, evaluation):
-    """Write row ``k`` of the history as `rows.write`, and its greatest force on a patch."""
+    """Write row ``k`` of the history as `rows.write` does, and its greatest force on a patch."""
     rows.write(problem, out, k, state, evaluation)
     row = out.rows[k]
     row.patch_force, row.patch_at = greatest_on_patch(

@@ -1,4 +1,4 @@
-"""Couplings of nodes that may soon share a term of the energy: room for them in the matrix."""
+"""Couplings of nodes that may soon share a term of the energy, and need room in the matrix."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.terms import fold, profile
 from kernels.terms.contact import platens_of
 
-MARGIN = 0.2  # of the contact distance, within which a pair gets room before it touches: a larger
-# one fills the matrix, a smaller one has it analysed more often
+MARGIN = 0.2  # of the contact distance: pairs within it have room before they touch; a larger share
+# fills the matrix, a smaller one has it analysed more often
 
 
 @jit_exact
@@ -20,7 +20,7 @@ def _couple(nodes, n, a, b, c):
 
 @jit_exact
 def _node(layout, c):
-    """Return the node of the coordinate ``c`` of a position; of a platen n_nodes."""
+    """Return the node of the position coordinate ``c``; n_nodes for a platen."""
     return c // 2 if c < 2 * layout.n_nodes else layout.n_nodes
 
 

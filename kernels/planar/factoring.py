@@ -12,7 +12,7 @@ LENGTHS = 2  # x and y, the first slots of a block
 
 @jit_exact
 def factor(problem, x, step, evaluation, projected, through):
-    """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
+    """Factor the Hessian of all terms at ``x``; see `solve.problem.Problem.factor`."""
     scene, neighbours = problem.scene, problem.neighbours
     matrix = neighbours.system.matrix
     clear(matrix)

@@ -17,7 +17,7 @@ from kernels.terms import contact, friction, profile
 from kernels.terms.contact import Touching
 from kernels.terms.friction import LaggedContacts
 
-LEAST_LENGTH = 0.1  # of an element after a move, as a share of its length before
+LEAST_LENGTH = 0.1  # least length of an element after a move, as a share of its length before
 MARGIN = 1.0  # least margin of the pair list, as a share of the reach of contact
 PROJECTION_MARGIN = 1.0  # margin of the projection pairs, as a share of their reach
 
@@ -25,8 +25,8 @@ PROJECTION_MARGIN = 1.0  # margin of the projection pairs, as a share of their r
 class Neighbours(NamedTuple):
     """Pairs listed at ``anchor`` (n,) with ``margin`` (m), and the linear system for them.
 
-    projection_pairs: those that projection after a step may move apart. touching: contacts at the
-    last `evaluate`. lagged_contacts: contacts with lagged friction.
+    projection_pairs: pairs that the projection after a step may move apart. touching: contacts at
+    the last `evaluate`. lagged_contacts: contacts with lagged friction.
     """
 
     pairs: Pairs
@@ -40,7 +40,7 @@ class Neighbours(NamedTuple):
 
 @jit_exact
 def step_limit(problem, x, dx, far):
-    """Return the admissible share of ``dx`` (at most 1): no wall touches, folds or vanishes.
+    """Return the share of ``dx`` (at most 1) up to which no wall touches, folds or vanishes.
 
     far: `travel` of ``dx``, m. Folds and lengths are checked only if ``far`` allows them to become
     critical.
@@ -72,7 +72,7 @@ def _first_fold(x, dx, scene):
 
 @jit_owning
 def list_neighbours(scene, x, move):
-    """Return pairs, margin and projection pairs that hold for a ``move`` (m) from ``x``."""
+    """Return pairs, margin and projection pairs that stay valid for a ``move`` (m) from ``x``."""
     if scene.contact.edges.shape[0] == 0:
         pairs, margin = near_pairs.empty(), np.inf
     else:
@@ -104,7 +104,7 @@ def find_neighbours(scene, x):
 
 @jit_owning
 def renew_neighbours(scene, neighbours, x, move):
-    """Return `Neighbours` at ``x`` that hold for a ``move`` (m), with missing entries of the
+    """Return `Neighbours` at ``x`` that hold for a ``move`` (m), and add missing entries to the
     matrix.
 
     If no entry is missing, the system is the same, and its factor remains valid.
@@ -122,7 +122,7 @@ def renew_neighbours(scene, neighbours, x, move):
 
 @jit_exact
 def covers_projection(problem, x):
-    """Return whether `projection_pairs` hold at ``x`` with half of their margin left."""
+    """Return whether `projection_pairs` are valid at ``x`` with half of their margin left."""
     scene = problem.scene
     if position_based.is_absent(scene.project):
         return True

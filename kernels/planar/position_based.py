@@ -1,4 +1,4 @@
-"""Position-based contact: after a step without contact, pairs that are too near are moved apart.
+"""Position-based contact: after a step without contact, pairs that are too close are moved apart.
 
     x_i -= w_i c grad_i d / sum_j w_j (grad_j d)^2,   c = d - t_c < 0,   w_i = 1 / m_i
 
@@ -15,15 +15,15 @@ from kernels.arrays import pair
 from kernels.compile.jit import jit_exact
 from kernels.geometry.distance import closest, normal
 
-SWEEPS = 100  # at most
-TOLERANCE = 1e-6  # relative to the contact distance: a pair this much closer counts as apart
+SWEEPS = 100  # greatest number
+TOLERANCE = 1e-6  # share of the contact distance by which a pair may be too close
 
 
 class Projection(NamedTuple):
     """Data of the projection. contact: pairs that may touch; absent with other contact models.
 
-    inverse_mass (n,): w = 1 / mass by coordinate, 1/kg; 0 where it is held, led or tied to a
-    platen.
+    inverse_mass (n,): w = 1 / mass by coordinate, 1/kg; 0 for coordinates that are held, driven or
+    tied to a platen.
     """
 
     contact: object

@@ -2,7 +2,7 @@
 
     E(x) = |x - x~|_M^2 / (2 h^2) + E_s + E_b + E_f + E_c - f . u + D(u) + D_f(u),   u = x - y
 
-in J. |v|_M^2 = sum m v^2. E_s has the springs, and W in it the barrier of short elements
+in J. |v|_M^2 = sum m v^2. E_s includes the springs, and its W the barrier of short elements
 (`laws.elastic`). u / h is the velocity at the end of the step (`solve.integrators`). In a static
 step y = x0, and inertia and damping vanish. A term that is absent from a scene has empty arrays.
 The Hessian is in `factoring`.
@@ -19,7 +19,7 @@ from kernels.terms import bend, contact, damping, elements, fold, inertia, loads
 
 LEAST = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("length", np.float64),  # shortest element, m
             ("opening", np.float64),  # smallest opening between two elements at a node, rad
@@ -30,9 +30,7 @@ LEAST = np.dtype(
 
 @jit_exact
 def evaluate(problem, x, step, evaluation, projected):
-    """Return E in J; fill ``evaluation`` and the walls' part of the Hessian, ``projected`` or
-    exact.
-    """
+    """Return E in J; fill ``evaluation`` and the Hessian of the walls, ``projected`` or exact."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
     moves.begin(x, step.y, evaluation)
     store_walls(problem, x, evaluation, projected)

@@ -19,11 +19,11 @@ from kernels.terms.elements import Resultants, Shape, Stiffness
 
 
 class Buffers(NamedTuple):
-    """Arrays that are allocated once a march.
+    """Arrays that are allocated once per march.
 
     before: data of the start of the step for damping. shape, resultants, stiffness: of the walls at
-    the last `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. memory: of the
-    laws; its material points are the elements, then those of bending.
+    the last `evaluate`; least (1,): smallest measures there, see `potential.LEAST`. memory: memory
+    of the laws; its material points are the elements, then the points of bending.
     """
 
     before: Before

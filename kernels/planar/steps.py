@@ -9,8 +9,8 @@ from kernels.terms import bend, damping, stretch
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Set the pace of the laws, renew the frames of the elements at x0, and measure the shape that
-    damping starts from.
+    """Set the pace of the laws, renew the frames of the elements at x0, and measure the shape from
+    which damping starts.
     """
     buffers, memory = problem.buffers, recall(problem, step.duration)
     damping.prepare(
@@ -36,7 +36,7 @@ def commit(problem, x, step, evaluation):
 def roll_back(problem, step):
     """Reset the shortest element and opening, which belong to the rejected point.
 
-    The committed state of the laws changes at `commit` only, so that nothing else is restored.
+    The committed state of the laws changes only at `commit`, so that nothing else is restored.
     """
     least = problem.buffers.least[0]
     least.length, least.opening = 0.0, 0.0
@@ -44,5 +44,5 @@ def roll_back(problem, step):
 
 @jit_exact
 def project(problem, x):
-    """Move nodes of ``x`` (n,) apart that are too near; return whether any has moved."""
+    """Move nodes of ``x`` (n,) apart that are too close; return whether any has moved."""
     return position_based.move_apart(x, problem.scene.project, problem.neighbours.projection_pairs)

@@ -11,7 +11,7 @@ from kernels.shared.lagging import slip_of
 def add_entry(matrix, layout, pull, c, d, value):
     """Add the second derivative ``value`` in coordinates ``c`` and ``d``, once for each pair.
 
-    pull (n,): takes the derivatives in a driven coordinate, by the other one.
+    pull (n,): receives the derivatives in a driven coordinate, at the other coordinate.
     """
     one, other = layout.leader[c], layout.leader[d]
     if one < 0 or other < 0:
@@ -58,7 +58,9 @@ def _add_free(matrix, layout, i, j, part, top, left, width):
 
 @jit
 def _add_following(matrix, layout, pull, i, j, part, top, left, width):
-    """Add the entries of ``part`` in pairs of which a coordinate follows a platen or is driven."""
+    """Add the entries of ``part`` for pairs of coordinates with one that follows a platen or is
+    driven.
+    """
     for r in range(width):
         c = PER_NODE * i + r
         for s in range(r + 1 if i == j else width):
@@ -86,7 +88,7 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
 
 @jit
 def _subtract(part, projected):
-    """Replace the projected Hessian of a contact by what it has more than the exact ``part``."""
+    """Replace the projected Hessian of a contact by its excess over the exact Hessian ``part``."""
     for i in range(part.shape[0]):
         for j in range(part.shape[0]):
             projected[i, j] -= part[i, j]
@@ -118,7 +120,7 @@ def add_contacts(problem, x, step, evaluation):
 
 @jit
 def project_contacts(problem, x):
-    """Take the negative parts of contact out of the matrix that `add_contacts` has filled."""
+    """Remove the negative parts of contact from the matrix that `add_contacts` has filled."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull = neighbours.matrix, scene.layout, buffers.pull
     part, projected, touching = buffers.part, buffers.projected, neighbours.touching

@@ -1,4 +1,4 @@
-"""Which blocks of the matrix couple: those of nodes that share a quad, or may soon touch."""
+"""Blocks of the matrix that couple, as their nodes share a quad or may soon touch."""
 
 import numpy as np
 
@@ -9,9 +9,10 @@ SOON = 1.2  # distance in units of the reach of contact below which nodes may so
 
 @jit_exact
 def _add_pair(layout, i, j, entries, count):
-    """Append the blocks of nodes ``i`` and ``j``, and those that they follow; return the number.
+    """Append the pair of the blocks of nodes ``i`` and ``j``, and of the blocks that they follow;
+    return the number of pairs.
 
-    ``entries`` may have no rows: the pairs are only counted.
+    If ``entries`` has no rows, the pairs are only counted.
     """
     last = layout.size.size - 1  # block of a platen
     one, other = layout.block[i], layout.block[j]
@@ -65,8 +66,8 @@ def _write(scene, pairs, lagged_contacts, entries, stencil):
 def couplings(scene, pairs, lagged_contacts):
     """Return (k, 2): pairs of blocks that couple, or may soon; repeats are possible.
 
-    Contacts with lagged friction couple however far they have moved apart in the step. If the
-    upper platen is free, it couples with all nodes that may touch it.
+    Contacts with lagged friction couple however far they have moved apart in the step. If the upper
+    platen is free, it couples with all nodes that may touch it.
     """
     stencil, none = np.empty(4, np.int64), np.empty((0, 2), np.int64)
     layout, contact = scene.layout, scene.contact

@@ -1,8 +1,8 @@
 """The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored.
 
-Where the exact Hessian H is not positive, H_+ + sigma W is the projected one. H_+ is H without the
-negative parts of contacts: a wall that turns about the one that it touches has a negative stiffness
-as large as force / gap, and a shift that makes up for it would slow all nodes. W are the weights of
+Where the exact Hessian H is not positive definite, H_+ + sigma W replaces it. H_+ is H without the
+negative parts of contacts: a wall that turns about the wall it touches has a negative stiffness as
+large as force / gap, and a shift that compensates for it would slow all nodes. W are the weights of
 `Layout`. The shift sigma is raised from below its last value until all pivots are positive.
 """
 
@@ -18,9 +18,9 @@ from kernels.plates.layout import PER_NODE
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from kernels.terms import inertia
 
-RAISED = 4.0  # ratio of a shift to the one before, which was too small
-LOWERED = 1.0 / 3.0  # ratio of the first shift that is tried to the last that was large enough
-LEAST_SHIFT = 1e-6  # of the stiffest length
+RAISED = 4.0  # ratio of a shift to the previous one, which was too small
+LOWERED = 1.0 / 3.0  # ratio of the first shift tried to the last one that was large enough
+LEAST_SHIFT = 1e-6  # as a share of the stiffness of the stiffest length
 MOST_SHIFT = 1e3
 
 
@@ -48,7 +48,9 @@ def _assemble(problem, x, step, evaluation):
 
 @jit_exact
 def _shifted(problem):
-    """Factor H_+ + sigma W with the least sigma that is found; return whether that succeeds."""
+    """Factor H_+ + sigma W, raising sigma until it is large enough; return whether that
+    succeeds.
+    """
     layout, matrix, shift = problem.scene.layout, problem.neighbours.matrix, problem.buffers.shift
     stiffest = ldlt.stiffest(matrix, layout.is_length)
     sigma = max(LOWERED * shift[0], LEAST_SHIFT * stiffest)
@@ -65,7 +67,7 @@ def _shifted(problem):
 def factor(problem, x, step, evaluation, projected, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
-    if projected:  # the matrix has the exact one, which is not positive
+    if projected:  # the matrix is the exact Hessian, which is not positive definite
         assembly.project_contacts(problem, x)
         return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
     _assemble(problem, x, step, evaluation)

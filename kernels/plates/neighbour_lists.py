@@ -17,7 +17,7 @@ from kernels.plates.layout import PER_NODE, POSITION
 from kernels.shared.moves import MOVE_MARGIN, listed_share
 
 MARGIN = 0.5  # least margin of the pair list, as a share of the reach of contact
-MOST_TURN = 0.125  # of a node in one move: w, the tangent of a quarter of the angle
+MOST_TURN = 0.125  # largest turn of a node in one move: w, the tangent of a quarter of the angle
 
 
 class Neighbours(NamedTuple):
@@ -42,7 +42,7 @@ def n_nodes(scene):
 
 @jit_owning
 def list_pairs(scene, x, move):
-    """Return pairs that hold for a ``move`` (m) from ``x``, and their margin, m."""
+    """Return pairs that stay valid for a ``move`` (m) from ``x``, and their margin, m."""
     margin = max(MOVE_MARGIN * move, MARGIN * scene.contact.reach)
     return pairs.find(x, scene.contact, scene.contact.reach + margin), margin
 
@@ -67,7 +67,7 @@ def find_neighbours(scene, x):
 
 @jit_owning
 def renew_neighbours(scene, neighbours, x, move):
-    """Return `Neighbours` at ``x`` that hold for a ``move`` (m), with missing entries of the
+    """Return `Neighbours` at ``x`` that hold for a ``move`` (m), and add missing entries to the
     matrix.
 
     If no entry is missing, the matrix is the same, and its factor remains valid.
@@ -97,13 +97,13 @@ def longest(problem, dx):
 
 @jit_exact
 def covers_projection(problem, x):
-    """Return True: nothing is moved after a step."""
+    """Return True: no node is moved after a step."""
     return True
 
 
 @jit_exact
 def step_limit(problem, x, dx, far):
-    """Return the admissible share of ``dx`` (at most 1): no wall crosses another or a platen, and
+    """Return the share of ``dx`` (at most 1) up to which no wall crosses another or a platen, and
     no node turns far.
 
     far: `travel` of ``dx``, m.

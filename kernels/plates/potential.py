@@ -2,10 +2,10 @@
 
     E(x) = |x - x~|_M^2 / (2 h^2) + E_s + E_b + E_c - f . u + D_f(u),   u = x - y
 
-in J. E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; both of a law that
-may relax, whose potential of the step they then are. E_c: contact, also of images. u / h is the
-velocity at the end of the step (`solve.integrators`). In a static step y = x0, and inertia
-vanishes. The Hessian is in `factoring`.
+in J. E_s: strain of the mid-surfaces; E_b: bending, transverse shear and folds; if the material
+relaxes, both are its potentials of the step. E_c: contact, also of images. u / h is the velocity at
+the end of the step (`solve.integrators`). In a static step y = x0, and inertia vanishes. The
+Hessian is in `factoring`.
 """
 
 from kernels.arrays import copy, zero

@@ -19,14 +19,14 @@ from kernels.solve.problem import Coordinates
 
 
 class Buffers(NamedTuple):
-    """Arrays that are allocated once a march.
+    """Arrays that are allocated once per march.
 
-    committed (n_nodes, k): frames of the nodes and their `thickness.THICKENING`; memory: of the law
-    at its material points (`shell`). Both are rows of `history.State.memory`. shell: scratch of one
-    quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one contact. parts
-    (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
-    diagonal (n,), unknowns (u,), weight (n_nodes,): scratch. shift (1,): last shift of a projected
-    Hessian, N/m.
+    committed (n_nodes, k): frames of the nodes and their `thickness.THICKENING`; memory: memory of
+    the law at its material points (`shell`). Both are rows of `history.State.memory`. shell:
+    scratch of one quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one
+    contact. parts (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the
+    driven coordinate. diagonal (n,), unknowns (u,), weight (n_nodes,): scratch. shift (1,): last
+    shift of a projected Hessian, N/m.
     """
 
     committed: np.ndarray

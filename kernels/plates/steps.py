@@ -9,7 +9,7 @@ from kernels.shared.rows import BEND, STRETCH
 
 @jit_exact
 def begin(problem, step, ahead, scratch):
-    """Prepare the law of the walls; the frames of the nodes are those of the last commit."""
+    """Prepare the law of the walls; the frames of the nodes stay as at the last commit."""
     recall(problem, step.x0, step.duration)
 
 
@@ -17,8 +17,8 @@ def begin(problem, step, ahead, scratch):
 def commit(problem, x, step, evaluation):
     """Commit the state of the law; correct stored energies, and add the dissipation of the step.
 
-    The rotations of the nodes are passed on to their frames: the coordinates of rotations become
-    zero. The energy does not change with them, as it depends on the directors alone.
+    The rotations of the nodes are moved into their frames, so that the rotational coordinates
+    become zero. This does not change the energy, which depends on the directors alone.
     """
     scene, buffers = problem.scene, problem.buffers
     if scene.law.state_size() > 0:
@@ -33,10 +33,10 @@ def commit(problem, x, step, evaluation):
 
 @jit_exact
 def roll_back(problem, step):
-    """Nothing is restored: frames and memory change at `commit` only."""
+    """Do nothing: frames and memory change only at `commit`."""
 
 
 @jit_exact
 def project(problem, x):
-    """Renew the thickness over which walls touch; return whether contact may have changed."""
+    """Renew the contact thickness of the walls; return whether contact may have changed."""
     return thickness.renew(problem, x)

@@ -1,8 +1,8 @@
 """Coordinates that follow others: supports, platens and prescribed moves.
 
-Verbs of a problem for its constraints (`solve.problem`), whatever the dimension: its layout has
-leader (n,), the coordinate that each one follows, itself or -1 if held; ratio (n,), its move
-divided by that of its leader; and driven, the leader with a prescribed move.
+Verbs of a problem for its constraints (`solve.problem`), whatever the dimension. The layout of the
+problem has leader (n,), the coordinate that each one follows, itself if free, -1 if held; ratio
+(n,), its move divided by the move of its leader; and driven, the leader with a prescribed move.
 """
 
 from kernels.arrays import zero
@@ -13,7 +13,7 @@ from kernels.compile.jit import jit, jit_exact
 def reduce(problem, g, residual):
     """Fill ``residual`` (n,) with the gradient ``g`` (n,) of the free and driven coordinates.
 
-    Entries of tied coordinates are added to their leaders; those of held ones are zero.
+    Entries of tied coordinates are added to their leaders; entries of held ones are zero.
     """
     layout = problem.scene.layout
     zero(residual)
@@ -33,7 +33,7 @@ def lead(problem, move, direction):
 
 @jit_exact
 def tie(problem, vector):
-    """Set entries of tied coordinates to those of their leaders times the ratio of their moves."""
+    """Set each tied coordinate of ``vector`` to its leader times the ratio of their moves."""
     layout = problem.scene.layout
     for i in range(vector.size):
         leader = layout.leader[i]

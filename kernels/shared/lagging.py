@@ -1,6 +1,6 @@
 """Lagged friction: normal forces and directions are fixed during a minimisation.
 
-Verbs of a problem for lagged forces (`solve.problem`), whatever the dimension of its contacts: the
+Verbs of a problem for lagged forces (`solve.problem`), whatever the dimension of its contacts. The
 class of `Neighbours.lagged_contacts` has the verbs
 
     lag(x, contact, pairs, drift, friction), evaluate(u, eps, g), follow(u, dx, share, eps),
@@ -29,9 +29,9 @@ def lag(problem, y):
 def slip_of(problem, step):
     """Return eps of the step, the slip up to which friction is smoothed, m.
 
-    In a motion it is at least `SLIDING` of the way that the structure goes: in steps of which most
-    contacts slide a million times as far as a fixed slip, Newton's method would change their signs
-    one by one.
+    In a motion it is at least `SLIDING` of the distance that the structure moves: in steps in which
+    most contacts slide a million times as far as a fixed slip, Newton's method would change their
+    signs one by one.
     """
     slip = problem.scene.friction.slip
     return max(slip, SLIDING * step.speed) * step.h if step.dynamic else slip * step.rows
@@ -39,7 +39,7 @@ def slip_of(problem, step):
 
 @jit_exact
 def exchange(problem, step, evaluation):
-    """Replace D_f and its gradient in ``evaluation`` by those of the present forces; return E."""
+    """Replace D_f and its gradient in ``evaluation`` by their present values; return E."""
     sums = evaluation.sums[0]
     if problem.scene.friction.mu == 0.0:
         return sums.potential

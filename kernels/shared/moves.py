@@ -1,4 +1,4 @@
-"""How far nodes move, and whether a list of neighbours holds for such a move.
+"""How far nodes move, and whether a list of neighbours covers such a move.
 
 Verbs of a problem (`solve.problem`), whatever the dimension. Its class has the verbs
 ``longest(dx)``, the longest move of a node in ``dx``, and ``drift(x)``, the longest move of a node

@@ -1,6 +1,6 @@
-"""Rows and frames of a history: the energy book by terms, and what is measured after each step.
+"""Rows and frames of a history: the energy book by terms, and measurements after each step.
 
-The same for walls in the plane and for plates: a problem gives its `least_gap`.
+They are the same for walls in the plane and for plates: a problem provides its `least_gap`.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ STRETCH, BEND, CONTACT = range(3)  # stored energies: E_s with springs, E_b with
 STORED = 3
 ROW = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("work", np.float64),  # the energy book, J: as in `history.BOOK`
             ("kinetic", np.float64),
@@ -37,21 +37,21 @@ ROW = np.dtype(
             ("base_speed", np.float64),  # of the lower platen upwards, m/s
             ("patch_force", np.float64),  # greatest force on a patch of the base, N
             ("patch_at", np.float64),  # x of that force, m
-            ("least_height", np.float64),  # of the specimen since the row before, m
-            ("most_force", np.float64),  # of the lower reaction since the row before, N
+            ("least_height", np.float64),  # of the specimen since the previous row, m
+            ("most_force", np.float64),  # of the lower reaction since the previous row, N
         ],
     )
 )
 
 
 class Output(NamedTuple):
-    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none;
-    a later step overwrites the slot.
+    """rows (steps,) of `ROW`; frame_of (steps,): slot of a step in frames (f, n), -1 for none; a
+    later step overwrites the slot.
 
-    bottom: coordinates whose reactions sum to the lower one. top, base: coordinates, see `height`.
-    probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2, k). standing
-    (b,): nodes that may press on the base, of which a patch is ``patch`` m wide; sorted in place.
-    pressing (b, 3): scratch for their places and forces.
+    bottom: coordinates whose reactions sum to the lower reaction. top, base: coordinates, see
+    `height`. probes (k,): coordinates whose value and reaction are recorded in probed (steps, 2,
+    k). standing (b,): nodes that may press on the base, sorted in place; patch: width of the patch
+    of the base, m. pressing (b, 3): scratch for their places and forces.
     """
 
     rows: np.ndarray
@@ -80,8 +80,9 @@ def _enter(row, state):
 
 @jit_exact
 def write_share(problem, out, k, state, evaluation):
-    """Write height and lower reaction at the end of a share of row ``k``, and its extremes so far:
-    `Output.rows` begins with an infinite least height and no most force.
+    """Write height and lower reaction at the end of a share of row ``k``, and update its extremes.
+
+    `Output.rows` starts with an infinite least height and a greatest force of minus infinity.
     """
     row, low, parts = out.rows[k], problem.scene.contact.low, state.gradients
     row.height = height(state.x, out.top, out.base)
@@ -96,7 +97,7 @@ def write_share(problem, out, k, state, evaluation):
 
 @jit_exact
 def write(problem, out, k, state, evaluation):
-    """Write row ``k`` of the history, and its frame if one is asked for."""
+    """Write row ``k`` of the history, and its frame if `Output.frame_of` has a slot for it."""
     row, totals, coordinates = out.rows[k], state.totals[0], problem.scene.coordinates
     _enter(row, state)
     row.time, row.iterations = totals.time, totals.iterations

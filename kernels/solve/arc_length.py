@@ -1,6 +1,6 @@
 """Arc-length continuation: follows an equilibrium path through its limit points.
 
-Positions and load factor lambda are unknowns together. Every point of the path is an equilibrium at
+Positions and the load factor lambda are both unknowns. Every point of the path is an equilibrium at
 a fixed arc length s from the previous point (Crisfield 1981, Comput. Struct. 13, 55; both equations
 are linearised together, as in Ramm 1981 and Wempner 1971):
 
@@ -41,7 +41,7 @@ from kernels.solve.workspace import make_workspace
 
 PATH_PROGRESS = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("row", np.int64),  # next row of the history; -1 before the first point of the path
             ("done", np.float64),  # completed share of the arc of the row
@@ -59,9 +59,9 @@ PATH_PROGRESS = np.dtype(
 )
 POINT = np.dtype((np.record, [("factor", np.float64), ("unstable", np.float64)]))
 CORRECTIONS = 20  # most Newton iterations of an arc
-ARC_TOLERANCE = 1e-6  # of |u|_w^2 - s^2, relative to s^2
+ARC_TOLERANCE = 1e-6  # tolerance of |u|_w^2 - s^2, relative to s^2
 LEAST_COSINE = 0.7  # between an arc and the tangent at its start: less means another branch
-LARGEST_LOAD_STEP = 0.05  # of the full load: bounds the predicted load increment of an arc
+LARGEST_LOAD_STEP = 0.05  # share of the full load: bounds the predicted load increment of an arc
 
 
 class Arc(NamedTuple):
@@ -123,7 +123,7 @@ def _load_increment(u, r, v, arc, progress):
 def _step(workspace, stage, progress, factor):
     """Return the static `Step` of an arc that ends at the load ``factor``.
 
-    Its duration is the share of the stage's; the start of the path takes no time.
+    Its duration is its share of the stage; the start of the path takes no time.
     """
     duration = stage.duration * progress.share if progress.row >= 0 else 0.0
     x0, y, x_pred = workspace.x0, workspace.y, workspace.x_pred
@@ -181,7 +181,7 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
 
 @jit_exact
 def _predict(problem, stage, state, workspace, arc, heading, progress):
-    """Fill ``work.dx`` with the predictor: along the tangent, for an arc or up to the full load,
+    """Fill ``work.dx`` with the predictor along the tangent, for an arc or up to the full load,
     whichever is shorter.
     """
     work, factor, coordinates = workspace.work, state.totals[0].factor, problem.scene.coordinates
@@ -224,7 +224,7 @@ def _return_to_full_load(problem, stage, state, workspace, progress):
 
 @jit_exact
 def _judge(problem, tolerance, state, step, load, workspace, arc, heading, progress):
-    """Return the outcome of an arc for which an equilibrium is found.
+    """Return the outcome of an arc after its equilibrium is found.
 
     load: `resolution.largest_load` of the step.
     """
@@ -260,7 +260,7 @@ def _accept(problem, step, state, workspace, load, heading, progress):
 
 @jit_exact
 def _end_row(problem, stage, state, out, control, evaluation, arc, progress):
-    """Write the row whose arc is complete, and go on to the next one."""
+    """Write the row of a complete arc, and go on to the next one."""
     if progress.row >= 0:
         state.totals[0].time += stage.duration
         problem.write(out, progress.row, state, evaluation)

@@ -41,8 +41,8 @@ def mean_speed(v, mass):
 
 @jit_exact
 def _works(evaluation, last, theta):
-    """Return the work against elastic forces, damping and friction along ``evaluation.u``; copy
-    their gradients to ``last``, which has those of the last step.
+    """Return the work against elastic forces, damping and friction along ``evaluation.u``; replace
+    their gradients of the last step in ``last`` by the present ones.
     """
     u, elastic, material, friction, before = evaluation.u, 0.0, 0.0, 0.0, 1.0 - theta
     for i in range(u.size):
@@ -57,10 +57,11 @@ def _works(evaluation, last, theta):
 
 @jit_exact
 def impose_speed(state, problem, speed, led):
-    """Set the velocity of the driven coordinate to ``speed`` (m/s), and of all that it leads.
+    """Set the velocity of the driven coordinate to ``speed`` (m/s), and the velocities of its
+    followers.
 
-    Inelastic impact: a change dv of velocity loses m dv^2 / 2, from rest half of the work. led
-    (n,): scratch.
+    Inelastic impact: a change dv of velocity loses m dv^2 / 2, which from rest is half of the work.
+    led (n,): scratch.
     """
     coordinates, book = problem.scene.coordinates, state.book[0]
     zero(led)
@@ -77,10 +78,10 @@ def impose_speed(state, problem, speed, led):
 def energy_gain(scheme, problem, step, state, evaluation):
     """Return the energy that the integrator generates in a step, and the largest energy, in J.
 
-    The generated energy is the negative of the integrator's loss, which here contains what the
-    material dissipates. Where it is positive the step is too long: for backward Euler where the
-    potential is not convex, for the trapezoidal rule where forces are not linear. evaluation: of
-    the end of the step, before `integrators.update`.
+    The generated energy is the negative of the integrator's loss, which here includes the
+    dissipation of the material. Where it is positive the step is too long: for backward Euler where
+    the potential is not convex, for the trapezoidal rule where forces are not linear. evaluation:
+    at the end of the step, before `integrators.update`.
     """
     loss, largest, coordinates = 0.0, state.book[0].kinetic, problem.scene.coordinates
     last, theta, before = state.gradients.elastic, step.theta, 1.0 - step.theta
@@ -130,7 +131,7 @@ def unbalanced(problem, step, tolerance, state, evaluation, work):
 
 @jit_exact
 def enter_step(problem, step, state, evaluation, work):
-    """Enter a converged step into the book. evaluation: of its end, after `Problem.commit`."""
+    """Enter a converged step into the book. evaluation: at its end, after `Problem.commit`."""
     book, totals, theta = state.book[0], state.totals[0], step.theta
     reaction, move, driven = 0.0, 0.0, problem.scene.coordinates.driven
     if driven >= 0:
@@ -169,7 +170,7 @@ def _add_velocity(x, start, h, load, v):
 def project(problem, step, state, evaluation, start):
     """Let the problem correct positions or data (`Problem.project`), and book the energy injected.
 
-    Return whether it has. start (n,): scratch.
+    Return whether it has corrected anything. start (n,): scratch.
     """
     book, coordinates = state.book[0], problem.scene.coordinates
     copy(state.x, start)

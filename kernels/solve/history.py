@@ -6,7 +6,7 @@ import numpy as np
 
 BOOK = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("work", np.float64),  # of external forces; all entries in J
             ("kinetic", np.float64),

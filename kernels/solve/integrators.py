@@ -18,7 +18,7 @@ import numpy as np
 from kernels.compile.jit import jit_exact
 
 BACKWARD_EULER, BDF2, TRAPEZOIDAL = range(3)
-FIRST_SHARE = 2.0**-4  # of a step; the energy loss of a first step goes with its square
+FIRST_SHARE = 2.0**-4  # share of a step; the energy loss of a first step grows with its square
 
 
 class Ahead(NamedTuple):
@@ -36,7 +36,7 @@ class Ahead(NamedTuple):
 
 @jit_exact
 def length(scheme, dt, last):
-    """Return h of a step of ``dt`` after one of ``last`` (s); last = 0: a first step."""
+    """Return h of a step of ``dt`` after a step of ``last`` (s); last = 0: a first step."""
     if scheme == BACKWARD_EULER or last == 0.0:
         return dt
     return 0.5 * dt if scheme == TRAPEZOIDAL else dt * (last + dt) / (last + 2.0 * dt)
@@ -46,8 +46,8 @@ def length(scheme, dt, last):
 def corrections(scheme):
     """Return how often lagged forces are lagged again at the end of a step, which is then repeated.
 
-    With those of the start of a step the error is of first order, as that of backward Euler is;
-    with those of its first end it is of second order.
+    With the forces at the start of a step the error is of first order, as in backward Euler; with
+    the forces at its first end it is of second order.
     """
     return 0 if scheme == BACKWARD_EULER else 1
 
@@ -74,8 +74,8 @@ def predict(state, dt, h, heavy, y, x_pred, dx):
 def error(state, step, heavy):
     """Return the largest local error of a step in m.
 
-    Estimate: a third of the difference between the end of the step and the expected one; a half
-    of it for backward Euler.
+    The estimate is a third of the difference between the end of the step and the expected end; a
+    half of it for backward Euler.
     """
     largest, ahead = 0.0, step.duration - step.h
     for i in range(state.x.size):
@@ -87,7 +87,7 @@ def error(state, step, heavy):
 
 @jit_exact
 def _tie(state, problem):
-    """Set velocity and rates of tied coordinates from those of their leaders.
+    """Set velocity and rates of tied coordinates from their leaders.
 
     No force damps a difference due to round-off, and the schemes amplify it.
     """
@@ -98,7 +98,9 @@ def _tie(state, problem):
 
 @jit_exact
 def _acceleration(state, step, i, after):
-    """Return that of coordinate ``i`` at the end of a step of second order; after: its velocity."""
+    """Return the acceleration of coordinate ``i`` at the end of a step of second order; after: its
+    velocity there.
+    """
     ahead = step.duration - step.h
     return (after - state.v[i] - ahead * state.rates.velocity[i]) / step.h
 

@@ -1,6 +1,6 @@
-"""Error of a static step that a driven coordinate makes, in the work of that step.
+"""Error of a static step of a driven coordinate, in the work of that step.
 
-With F the reaction at the driven coordinate, d its move in the step, and d0 the one before:
+With F the reaction at the driven coordinate, d its move in the step, and d0 in the previous step:
 
     work = (F0 + F1) d / 2,    error = |F'' d^3 / 12| + |(r1 - r0) . u| / 2
 
@@ -26,7 +26,7 @@ def _of_friction(state, evaluation):
 def ratio(problem, state, evaluation, work, progress):
     """Return the error of the work in a step as a share of that work, 0 where nothing is driven.
 
-    evaluation: of the end of the step, before `energy_book.enter_step`. progress: see `keep`.
+    evaluation: at the end of the step, before `energy_book.enter_step`. progress: see `keep`.
     """
     driven = problem.scene.coordinates.driven
     move = evaluation.u[driven] if driven >= 0 else 0.0
@@ -44,7 +44,9 @@ def ratio(problem, state, evaluation, work, progress):
 
 @jit_exact
 def keep(problem, evaluation, change, progress):
-    """Keep the move of an accepted step and the slope of the reaction. change: of that, N."""
+    """Keep the move of an accepted step and the slope of the reaction. change: change of the
+    reaction, N.
+    """
     driven = problem.scene.coordinates.driven
     progress.move = evaluation.u[driven] if driven >= 0 else 0.0
     progress.slope = change / progress.move if progress.move != 0.0 else 0.0

@@ -1,11 +1,11 @@
-"""Load and time stepping: steps through a stage with adaptive shares, and keeps the energy book.
+"""Load and time stepping: marches through a stage in adaptive shares, and keeps the energy book.
 
 A stage is divided into equal rows, and a step is a share of a row (`step_size`). Static steps of a
 stated accuracy (`load_step_error`) grow beyond one row: the rows in between are left out of the
-history. A large lattice that snaps takes many iterations in however short a static step: each
+history. A large lattice that snaps takes many iterations in a static step, however short: each
 failure of a share doubles the iterations that the next one may take. The same holds for a step of
-backward Euler in which the load alone would move the structure by more than its size: inertia
-hardly counts.
+backward Euler in which the load alone would move the structure by more than its size, so that
+inertia hardly counts.
 """
 
 from typing import NamedTuple
@@ -45,16 +45,16 @@ MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple
 MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than `Stage.fall`
 MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: one
 # that takes more goes on in very short shares, and may snap into another shape than longer steps
-SHORTEST = 0.125  # of a row: first step where steps may span rows, as it has no friction yet
-REJECTED_ERROR = 4.0  # of the allowed error: a step that spans rows is accepted below it
+SHORTEST = 0.125  # share of a row: first step where steps may span rows, as it has no friction yet
+REJECTED_ERROR = 4.0  # times the allowed error: a step that spans rows is accepted below it
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
-LARGEST_ERROR = 5e-2  # the same of the trapezoidal rule of other steps, whose loss has either sign
+LARGEST_ERROR = 5e-2  # the same for the trapezoidal rule of other steps, whose loss has either sign
 UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
 # steps is checked in sweep/simulation/simulate.py
 NOT_STARTED = -1  # corrections of a share before `_begin_share`
 PROGRESS = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("row", np.int64),  # completed rows
             ("done", np.float64),  # completed share of the next row
@@ -147,8 +147,8 @@ def _extrapolation(u, driven, remaining):
 def _first_guess(problem, stage, state, workspace, duration, h, remaining):
     """Fill y, x~ and the move ``work.dx`` from which the minimisation starts.
 
-    It leads to the extrapolated positions; after a snap in a static step it is zero. remaining:
-    move of the driven coordinate, m.
+    The move leads to the extrapolated positions; after a snap in a static step it is zero.
+    remaining: move of the driven coordinate, m.
     """
     u, work, coordinates = workspace.evaluation.u, workspace.work, problem.scene.coordinates
     factor, heavy = _extrapolation(u, coordinates.driven, remaining), coordinates.heavy
@@ -169,8 +169,8 @@ def _foresee(problem, stage, x, work):
     """Fill ``work.trial`` with the positions at which forces are lagged in a step from ``x`` (n,);
     return 0, or a move (m) that the neighbour lists do not cover.
 
-    In a static step they are the extrapolated ones if that move is admissible as a whole: normal
-    forces at the start of a step err by the first order of its length.
+    In a static step these are the extrapolated positions, if that whole move is admissible: normal
+    forces at the start of a step have an error of first order in its length.
     """
     copy(x, work.trial)
     if stage.dynamic:
@@ -251,7 +251,7 @@ def _gains_energy(problem, stage, state, step, evaluation, share, noise):
     """Return whether the integrator generates too much energy in a ``share`` of a step.
 
     That is, `LARGEST_GAIN` or `LARGEST_ERROR` of the largest energy more than the integrator has
-    lost so far, and more than the part of this limit that the share has in the stage.
+    lost so far, and more than this limit times the share of the stage that the step covers.
     """
     gain, largest = energy_gain(stage.scheme, problem, step, state, evaluation)
     limit = (LARGEST_GAIN if step.theta == 1.0 else LARGEST_ERROR) * largest + noise
@@ -260,7 +260,7 @@ def _gains_energy(problem, stage, state, step, evaluation, share, noise):
 
 @jit_exact
 def _judge(problem, stage, state, step, tolerance, load, workspace, descent, progress):
-    """Return the outcome of a share for which an equilibrium is found, and the ratio of its local
+    """Return the outcome of a share after its equilibrium is found, and the ratio of its local
     error to the allowed one.
 
     load: `resolution.largest_load` of the step.
@@ -292,7 +292,7 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
 def _reject(outcome, ratio, problem, step, state, workspace, descent, progress):
     """Reject a share: restore the state at its start, and shorten it.
 
-    ratio: of its error to the allowed one.
+    ratio: its error / the allowed one.
     """
     copy(workspace.x0, state.x)
     problem.roll_back(step)
@@ -334,7 +334,7 @@ def _accept(problem, stage, step, state, workspace, load, descent, progress):
 
 @jit_exact
 def _next_share(ratio, iterations, stage, descent, progress):
-    """Complete a share, and choose the next one as `step_size.adapt`."""
+    """Complete a share, and choose the next one by `step_size.adapt`."""
     progress.corrections = NOT_STARTED
     if progress.share < 1.0:
         descent.since_factor = np.inf
@@ -345,7 +345,7 @@ def _next_share(ratio, iterations, stage, descent, progress):
 
 @jit_exact
 def _reported(outcome, progress):
-    """Return the outcome by which a march ends: the one that made the shares so short."""
+    """Return the outcome with which a march ends: the outcome that made the shares so short."""
     if outcome == UNRESOLVED and progress.cause != CONVERGED:
         outcome = progress.cause
     return ITERATIONS if outcome == OUTGROWN else outcome
@@ -353,7 +353,7 @@ def _reported(outcome, progress):
 
 @jit_exact
 def _end_row(problem, stage, state, out, control, evaluation, progress):
-    """Write the last of the rows that are complete, and go on to the next one."""
+    """Write the last of the complete rows, and go on to the next one."""
     totals, rows = state.totals[0], int(progress.done)
     totals.iterations += progress.row_iterations
     totals.time += rows * stage.duration

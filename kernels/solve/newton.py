@@ -1,17 +1,17 @@
 """Newton's method with a line search: minimises the potential of one step.
 
 The exact Hessian is used where it is positive definite (all pivots positive). Elsewhere the search
-direction is that of the projected Hessian, or the direction of negative curvature of the first
-negative pivot, whichever has the larger predicted decrease. The line search starts from the
-admissible share of the move and backtracks to sufficient decrease (Armijo); predictors and moves
-that drive the problem are accepted at any finite energy. Converged means: scaled residual and
+direction is the Newton direction of the projected Hessian, or the direction of negative curvature
+of the first negative pivot, whichever has the larger predicted decrease. The line search starts
+from the admissible share of the move and backtracks to sufficient decrease (Armijo); predictors and
+moves that drive the problem are accepted at any finite energy. Converged means: scaled residual and
 Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a point within
 `Coordinates.close`. A factor is reused within that distance. A residual above the tolerance is
-round-off where positions do not resolve the move that it has led to.
+round-off where positions do not resolve the move that it led to.
 
 Exact means not projected. Lagged forces have a primal-dual matrix, which is the second derivative
-where the duals fit (`Problem.follow`), and `solver.hessian` of configs may leave a part out. With
-either, a point without a negative pivot need not be a minimum.
+where the duals agree (`Problem.follow`), and `solver.hessian` of configs may leave a part out. In
+both cases, a point without a negative pivot need not be a minimum.
 """
 
 from typing import NamedTuple
@@ -34,16 +34,16 @@ from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE, TIED
 from kernels.solve.residual import allowed, allowed_decrement, largest_residual
 
 ARMIJO = 1e-4  # share of the predicted decrease that is sufficient
-HALVINGS = 40  # of a line search, at most
+HALVINGS = 40  # greatest number in a line search
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
-LEAST_SHARE = 1e-12  # of a move: a shorter one is a stall
+LEAST_SHARE = 1e-12  # share of a move: a shorter one is a stall
 RESOLVED = 1e-11  # relative energy changes below it are round-off
-DRIVEN_CAP = 5.0  # least cap of a move that contains a driven one, as a multiple of that: with a
-# shorter one the driven coordinate would often not arrive
+DRIVEN_CAP = 5.0  # least cap of a move, as a multiple of the driven move in it: with a
+# smaller cap the driven coordinate would often not arrive
 DESCENT = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             # Set before a minimisation.
             ("target", np.float64),  # of the driven coordinate, m
@@ -63,7 +63,7 @@ DESCENT = np.dtype(
             ("residual", np.float64),  # the largest, N; infinite before it is known
             ("balanced", np.bool_),  # whether residual and remaining move are admissible
             ("stable", np.bool_),  # whether the last exact factor has no negative pivot
-            ("duals_fit", np.bool_),  # whether the duals of lagged forces allow to keep a factor
+            ("duals_fit", np.bool_),  # whether the duals of lagged forces allow a factor to be kept
         ],
     )
 )
@@ -72,8 +72,8 @@ DESCENT = np.dtype(
 class Move(NamedTuple):
     """The next move, ``work.dx``.
 
-    slope, curvature: the predicted change of energy in a share s of it is s slope + s^2 curvature /
-    2, J; of a Newton move s slope alone, curvature 0. longest: of a coordinate, m. arrives: the
+    slope, curvature: the predicted change of energy in a share s of the move is s slope + s^2
+    curvature / 2, J; curvature is 0 for a Newton move. longest: of a coordinate, m. arrives: the
     whole move brings the driven coordinate to its target. shortened: by `Coordinates.cap`.
     any_energy: the move is accepted if the energy is finite: it is a predictor, or drives the
     problem.
@@ -99,9 +99,8 @@ def _longest(direction, coordinates):
 
 @jit_exact
 def _newton_direction(problem, evaluation, work, remaining):
-    """Fill ``work.direction`` with the Newton direction; return the slope g . direction in J.
-
-    The driven coordinate moves by ``remaining`` m in it.
+    """Fill ``work.direction`` with the Newton direction, in which the driven coordinate moves by
+    ``remaining`` m; return the slope g . direction in J.
     """
     direction = work.direction
     zero(direction)
@@ -191,7 +190,9 @@ def _choose_move(slope, escape, coordinates, work, descent):
 
 @jit_exact
 def _start_move(x, problem, step, tolerance, work, descent, move):
-    """Return an outcome, `UNFINISHED` if the move may begin, and the share of it to begin with."""
+    """Return an outcome, `UNFINISHED` if the move may begin, and the share of the move to begin
+    with.
+    """
     descent.travel_bound = problem.travel(work.dx)
     if not problem.covers(x, descent.travel_bound):
         return OUTGROWN, 0.0
@@ -261,8 +262,8 @@ def _balance(x, problem, tolerance, evaluation, work, descent):
 
 @jit_exact
 def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
-    """Factor the exact Hessian, and where it has a negative pivot the projected one, unless ``x``
-    is an equilibrium.
+    """Unless ``x`` is an equilibrium, factor the exact Hessian and, if it has a negative pivot, the
+    projected one.
 
     Return the outcome, `UNFINISHED` if the factor can be used; and slope and curvature along
     ``work.escape``, J. Without a negative pivot that is not filled, and both are 0.
@@ -279,7 +280,7 @@ def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
         escape = _escape_direction(problem, evaluation, work, pivot)
         if descent.balanced:
             return UNFINISHED, escape
-        # The trial point is x but for round-off of the driven coordinate: what is evaluated stays.
+        # The trial point is x up to round-off of the driven coordinate: the evaluation stays valid.
         problem.evaluate(work.trial, step, evaluation, True)
         result, _ = problem.factor(x, step, evaluation, True, False)
     if result == NO_ROOM:
@@ -291,10 +292,11 @@ def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
 @jit_exact
 def _is_settled(step, move, tolerance, descent):
     """Return whether the residual is admissible, or the last move was too short for positions to
-    resolve: what is left is then round-off, though more than that of the stiffest coordinate.
+    resolve: the remaining residual is then round-off, though larger than for the stiffest
+    coordinate.
 
-    The predictor of a motion is not accepted: what slows it down, such as damping, may be below the
-    admissible residual for thousands of steps, and would be booked without having acted.
+    The predictor of a motion is not accepted: forces that slow the motion, such as damping, may be
+    below the admissible residual for thousands of steps, and would be booked without having acted.
     """
     if descent.iterations == 0:
         return descent.balanced and (not step.dynamic or descent.residual == 0.0)
@@ -304,7 +306,7 @@ def _is_settled(step, move, tolerance, descent):
 
 @jit_exact
 def _descend(x, problem, step, tolerance, workspace, descent, control):
-    """Iterate as `minimise`; return the outcome."""
+    """Iterate as described in `minimise`; return the outcome."""
     evaluation, work, coordinates = workspace.evaluation, workspace.work, problem.scene.coordinates
     move, escape = _predictor(x, work.dx, coordinates, descent.target), (0.0, 0.0)
     while True:
@@ -343,9 +345,9 @@ def minimise(x, problem, step, tolerance, workspace, descent, control):
     """Minimise over ``x`` (n,), in place, with the driven coordinate at ``descent.target``.
 
     Start from the admissible share of ``x`` + ``work.dx`` or, if ``descent.evaluated``, from ``x``,
-    which ``workspace.evaluation`` is of. Return the outcome and fill ``descent``. OUTGROWN: the
-    neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix lacks an entry:
-    renew them and call again. control[0] != 0 interrupts.
+    at which ``workspace.evaluation`` is up to date. Return the outcome and fill ``descent``.
+    OUTGROWN: the neighbour lists do not cover a move of ``descent.travel_bound`` m, or the matrix
+    lacks an entry: renew them and call again. control[0] != 0 interrupts.
     """
     descent.iterations = 0 if descent.evaluated else -1
     descent.residual, descent.travel_bound = np.inf, 0.0

@@ -2,8 +2,8 @@
 
 A *problem* is a named tuple of arrays whose class has the verbs of `Problem`:
 ``problem.evaluate(...)`` and so on. Compiled code finds a verb by the type of the tuple, so that
-the solver is compiled once for each kind of problem in the process, and the call of a verb costs no
-more than that of any other kernel (`compile.verbs`). The solver knows mechanics (mass, stored
+the solver is compiled once for each kind of problem in the process, and calling a verb costs no
+more than calling any other kernel (`compile.verbs`). The solver knows mechanics (mass, stored
 energy, dissipation, lagged forces) and the role of each coordinate, but no structure: no walls, no
 plates and no dimension of space.
 """
@@ -26,7 +26,7 @@ class Coordinates(NamedTuple):
     (n,): 1 where the coordinate, or the one that it is tied to, has mass, else 0. load (n,): dead
     forces in N at a load factor of 1. driven: coordinate with a prescribed value, -1 if none. cap:
     longest move in one iteration, m. leap: length of a move along a direction of negative
-    curvature, m. close: a move so short that stability cannot be lost in it, m.
+    curvature, m. close: a move too short for stability to be lost in it, m.
     """
 
     role: np.ndarray
@@ -47,8 +47,8 @@ class Step(NamedTuple):
     y (n,): (x - y) / h is the velocity, h in s. x_pred (n,): x~, positions that inertia alone would
     lead to (`integrators`). duration: of the step, s, static steps included. dynamic: whether the
     step has inertia. factor: load factor at the end of the step. theta: weight of the forces at the
-    end of the step in the energy book. rows: of the history that the step spans, 1 for a part of
-    a row. speed: the root mean square, over all mass, of the velocity at x0, m/s.
+    end of the step in the energy book. rows: number of rows of the history that the step spans, 1
+    for a part of a row. speed: the root mean square, over all mass, of the velocity at x0, m/s.
     """
 
     x0: np.ndarray
@@ -65,7 +65,7 @@ class Step(NamedTuple):
 
 SUMS = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("potential", np.float64),  # of the step, which is minimised, J
             ("friction", np.float64),  # its friction part, J
@@ -96,8 +96,8 @@ class Evaluation(NamedTuple):
 class Problem(Protocol):
     """The verbs of a problem; the vectors x, dx, g, direction ... are (n,), by coordinate.
 
-    scene: the data of the problem, with the verbs of `Scene`. A problem may keep what it computes
-    at a point in arrays of its own until the next `evaluate`.
+    scene: the data of the problem, with the verbs of `Scene`. Until the next `evaluate`, a problem
+    may keep what it computes at a point in arrays of its own.
     """
 
     scene: "Scene"
@@ -105,17 +105,18 @@ class Problem(Protocol):
     # One step, from its start until it is accepted or rejected.
 
     def begin(self, step, ahead, scratch):
-        """Prepare data of the start of the step. ahead: `integrators.Ahead`. scratch (n,)."""
+        """Prepare the data at the start of the step. ahead: `integrators.Ahead`. scratch (n,)."""
 
     def evaluate(self, x, step, evaluation, projected):
         """Return the potential of the step at ``x`` in J, and fill ``evaluation``.
 
-        projected: `factor`, called with the same flag, is to use the positive semi-definite
+        projected: `factor`, called with the same flag, will use the positive semi-definite
         projection of the Hessian.
         """
 
     def store(self, x, step, evaluation):
-        """Renew what `project` may have changed in ``evaluation.stored``, in a step of no duration.
+        """Renew the part of ``evaluation.stored`` that `project` may have changed, in a step of no
+        duration.
 
         The gradient is added to ``evaluation.elastic``, which the next `evaluate` sets.
         """
@@ -135,9 +136,9 @@ class Problem(Protocol):
     def factor(self, x, step, evaluation, projected, through):
         """Factor the Hessian; return the result and the first negative pivot.
 
-        projected: as in the last `evaluate`. POSITIVE: all pivots are positive. NEGATIVE: one is
-        not; the factorisation stops there, unless ``through``. NO_ROOM: the pattern lacks an entry,
-        `Scene.renew_neighbours` adds it.
+        projected: as in the last `evaluate`. POSITIVE: all pivots are positive. NEGATIVE: a pivot
+        is negative; the factorisation stops there, unless ``through``. NO_ROOM: the pattern lacks
+        an entry, which `Scene.renew_neighbours` adds.
         """
 
     def solve(self, b):
@@ -155,8 +156,8 @@ class Problem(Protocol):
     # Constraints.
 
     def reduce(self, g, residual):
-        """Fill ``residual`` with ``g`` of the FREE coordinates and, as its reaction, of the driven
-        one, each with its followers; else 0.
+        """Fill ``residual`` with ``g`` of the FREE coordinates and with the reaction of the driven
+        one, each including its followers; other entries are 0.
         """
 
     def lead(self, move, direction):
@@ -166,7 +167,7 @@ class Problem(Protocol):
         """Fill ``direction`` with the linearised change of the gradient in the moves of `lead`."""
 
     def tie(self, vector):
-        """Set entries of TIED coordinates to those of their leaders times the ratio of moves."""
+        """Set each TIED coordinate of ``vector`` to its leader times the ratio of their moves."""
 
     # Step limits and neighbour lists.
 
@@ -185,12 +186,15 @@ class Problem(Protocol):
         """Lag the forces at ``y``; return whether there are any now, or were before."""
 
     def exchange(self, step, evaluation):
-        """Replace the lagged part of ``evaluation`` by that of the present forces; return E."""
+        """Replace the lagged part of ``evaluation`` by its value for the present forces; return
+        E.
+        """
 
     def follow(self, dx, share, step, evaluation):
         """Update dual variables of lagged forces in a share of a Newton step ``dx``.
 
-        Return whether they agree with the primal ones at the end, so that the factor may be kept.
+        Return whether they agree with the primal variables at the end, so that the factor may be
+        kept.
         """
 
     def forget(self):
@@ -207,10 +211,10 @@ class Problem(Protocol):
         """Return whether the neighbour lists hold for `project` at ``x``."""
 
     def write(self, out, k, state, evaluation):
-        """Write row ``k`` of the history, and its frame if one is asked for."""
+        """Write row ``k`` of the history, and its frame if ``out`` has a slot for it."""
 
     def write_share(self, out, k, state, evaluation):
-        """Write what row ``k`` has of a share of it that is not its last."""
+        """Write the data of row ``k`` at the end of a share that is not the last of the row."""
 
 
 class Scene(Protocol):
@@ -219,7 +223,7 @@ class Scene(Protocol):
     coordinates: Coordinates
 
     def make_buffers(self, memory):
-        """Return the arrays that are allocated once a march. memory: `history.State.memory`."""
+        """Return the arrays that are allocated once per march. memory: `history.State.memory`."""
 
     def find_neighbours(self, x):
         """Return the neighbour lists at ``x`` and a matrix with room for their couplings."""

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from kernels.compile.jit import jit_exact
 
-MOST_CUT_MOVES = 20  # shortened moves of a dynamic step: after more, a shorter step costs less
+MOST_CUT_MOVES = 20  # most shortened moves of a dynamic step: beyond, a shorter step costs less
 
 
 class Tolerance(NamedTuple):
@@ -27,7 +27,7 @@ class Tolerance(NamedTuple):
 def largest_residual(residual, coordinates):
     """Return the largest residual of the free coordinates in N, NaN if any is NaN.
 
-    residual (n,): of `Problem.reduce`. The driven coordinate, a support, is left out.
+    residual (n,): from `Problem.reduce`. The driven coordinate, a support, is left out.
     """
     largest_size = 0.0
     for i in range(residual.size):
@@ -54,8 +54,8 @@ def allowed_decrement(stiffest, tolerance, n):
     """Return the admissible Newton decrement of ``n`` coordinates in J.
 
     It is at least the energy of moves of ``tolerance.resolution`` against the ``stiffest``
-    coordinate (N/m): an admissible residual that can release more is one of softer coordinates, and
-    no round-off.
+    coordinate (N/m): an admissible residual that can release more energy belongs to softer
+    coordinates, and is no round-off.
     """
     return max(tolerance.decrement, n * stiffest * tolerance.resolution**2)
 
@@ -77,8 +77,8 @@ def scaled(tolerance, factor, sharpness):
 
 @jit_exact
 def patient(tolerance, doublings):
-    """Return the tolerance with twice as many iterations, ``doublings`` times; all of their moves
-    may be shortened.
+    """Return the tolerance with its iterations doubled ``doublings`` times, all of whose moves may
+    be shortened.
     """
     iterations = tolerance.iterations << doublings
     return Tolerance(

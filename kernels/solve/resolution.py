@@ -7,10 +7,11 @@ momentum that the load gives it. A point is therefore a step only if
 
     max |r| <= LARGEST_RESIDUAL F,   F: the largest force of this step and of all before,
 
-or if two energies are small beside those of the run: what the residual can still release (twice the
-Newton decrement), and the work of the residual. That is so at a stiff contact, a small element or a
-small opening. A residual above the limit is not accepted, however, where the inertia of its own
-coordinate is not resolved: the momentum lost there adds up from step to step.
+or if two energies are small compared with the energies of the run: the energy that the residual can
+still release (twice the Newton decrement), and the work of the residual. This is the case at a
+stiff contact, a small element or a small opening. A residual above the limit is not accepted,
+however, where the inertia of its own coordinate is not resolved: the momentum lost there adds up
+from step to step.
 """
 
 from kernels.arrays import total
@@ -47,8 +48,8 @@ def _largest_mass(coordinates):
 
 @jit_exact
 def first_share(problem, tolerance, duration, factor, state, work):
-    """Return the share of a first step of ``duration``: `integrators.FIRST_SHARE`, or as much more
-    as the next share needs, of half the length h, to be resolved.
+    """Return the share of a first step of ``duration``: `integrators.FIRST_SHARE`, or a larger
+    share if the next one, with half the length h, would not be resolved.
     """
     coordinates, momentum, share = problem.scene.coordinates, 0.0, FIRST_SHARE
     load = largest_load(problem, factor, work)
@@ -69,7 +70,7 @@ def fit(tolerance, step, coordinates, load):
     """Return the tolerance of a step, tightened to `TOLERATED` of the ``load`` (N).
 
     Where inertia alone makes a larger residual than `LARGEST_RESIDUAL` admissible, the resolution
-    is tightened too, as far as the round-off of positions admits.
+    is tightened too, as far as the round-off of positions allows.
     """
     if load == 0.0:
         return tolerance
@@ -85,7 +86,7 @@ def fit(tolerance, step, coordinates, load):
 def is_coarse(tolerance, step, problem, load):
     """Return whether inertia makes a considerable part of the ``load`` (N) unresolved.
 
-    No shorter step is resolved better.
+    A shorter step would not be resolved better.
     """
     unresolved = tolerance.resolution * _largest_mass(problem.scene.coordinates)
     return step.dynamic and unresolved > LARGEST_IMBALANCE * load * step.h**2 > 0.0
@@ -93,7 +94,9 @@ def is_coarse(tolerance, step, problem, load):
 
 @jit_exact
 def is_tighter(one, other):
-    """Return whether ``one``, which is `fit` of the ``other`` tolerance, is tighter than that."""
+    """Return whether ``one``, which `fit` has returned for the ``other`` tolerance, is tighter than
+    it.
+    """
     return one.force < other.force or one.resolution < other.resolution
 
 
@@ -113,7 +116,7 @@ def largest_force(coordinates, state, evaluation, load):
 
 @jit_exact
 def _largest_inertia(coordinates, v, h):
-    """Return the largest force that stops a coordinate, of velocity ``v`` (n,), in h, N."""
+    """Return the largest force, N, that stops a coordinate of velocity ``v`` (n,) within h."""
     force = 0.0
     for i in range(v.size):
         force = max(force, coordinates.mass[i] * abs(v[i]) / h)
@@ -124,9 +127,9 @@ def _largest_inertia(coordinates, v, h):
 def is_resolved(problem, step, tolerance, state, evaluation, work, load, decrement):
     """Return whether the residual of a step is small enough.
 
-    It is if only a prescribed move drives the problem, or nothing drives it in a static step.
+    It is if only a prescribed move drives the problem, or if nothing drives it in a static step.
     Without a load, motion from rest is due to stored energy: of a strained spring, or after a
-    release. load: `largest_load` of the step. decrement: of Newton at the point, J.
+    release. load: `largest_load` of the step. decrement: Newton decrement at the point, J.
     """
     coordinates, driving = problem.scene.coordinates, load
     if step.dynamic and state.book[0].kinetic > tolerance.noise:

@@ -1,25 +1,26 @@
 """The length of the next step: a share of a row, or a number of rows.
 
-A share that fails or is inaccurate is halved, and doubled again where it is easy. A failed attempt
-costs more than a double share saves: after every failure more shares have to be accepted before a
-double one is tried.
+A share that fails or is inaccurate is halved, and an easy one is doubled again. A failed attempt
+costs more than a doubled share saves: after every failure more shares have to be accepted before a
+share is doubled.
 """
 
 import numpy as np
 
 from kernels.compile.jit import jit_exact
 
-DOUBLING_ERROR = 0.1  # of the allowed error: below it the next share may be twice as long
-SPANNING_ERROR = 0.2  # the same, of shares of a static row and more
+DOUBLING_ERROR = 0.1  # share of the allowed error: below it the next share may be twice as long
+SPANNING_ERROR = 0.2  # the same, for static shares of a row and longer
 LONGEST = 4  # rows that a static step may span
 MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 
 
 @jit_exact
 def _spanning(share, ratio):
-    """Return a share that spans rows, halved until its error, quadratic in it, is admissible.
+    """Return a share that spans rows, halved until its error, quadratic in its length, is
+    admissible.
 
-    ratio: of its error to the allowed one.
+    ratio: its error / the allowed one.
     """
     while share > 1.0 and ratio > 1.0:
         share, ratio = 0.5 * share, 0.25 * ratio
@@ -28,9 +29,9 @@ def _spanning(share, ratio):
 
 @jit_exact
 def _fits(stage, progress, share):
-    """Return whether a share is one of a row, or may span rows and ends before the stage does.
+    """Return whether a share is part of one row, or may span rows and ends before the stage does.
 
-    Shares start at multiples of their own length, so that those of a row end with it.
+    Shares start at multiples of their own length, so that shares of a row end with it.
     """
     at = progress.row + progress.done
     if at % share != 0.0:
@@ -53,9 +54,9 @@ def shorten(ratio, inaccurate, progress):
 
 @jit_exact
 def adapt(ratio, iterations, stage, progress):
-    """Complete a share; double the next one if this one was easy and the double fits.
+    """Complete a share; double the next one if this one was easy and a doubled one fits.
 
-    ratio: of its error to the allowed one. iterations: most of an easy one.
+    ratio: its error / the allowed one. iterations: greatest number in an easy share.
     """
     most = DOUBLING_ERROR if stage.dynamic else SPANNING_ERROR
     easy = progress.share_iterations <= iterations and ratio < most

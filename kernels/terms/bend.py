@@ -21,10 +21,10 @@ at the ends of a classical element:
     theta_i = s_0 (a_2 - a_1) +- s_1 (a_1 + a_2)
 
 w: potential of one section, J/m^3. e: strain of `stretch`. theta: bending kappa z of its outer
-fibre (`section`), but for the sign, which is immaterial as fibres are in pairs. Hence s_0 = z / l0
-and, without shear, s_1 = 3^(1/2) s_0 in a cubic, s_0 in a classical element
-(sweep/scene/bending.py). theta_1 belongs to the section nearer end 2. V: volume that each fibre
-stands for, m^3. k_s: stiffness of the element in shear, N m.
+fibre (`section`), up to a sign, which is immaterial as fibres are in pairs. Hence s_0 = z / l0 and,
+without shear, s_1 = 3^(1/2) s_0 in a cubic, s_0 in a classical element (sweep/scene/bending.py).
+theta_1 belongs to the section nearer end 2. V: volume that each fibre represents, m^3. k_s:
+stiffness of the element in shear, N m.
 
 Where the material relaxes, linear bending and shear relax alike: each is made of springs whose law,
 `hinge`, has unit stiffness. Linear bending is the sum of two springs,
@@ -64,8 +64,8 @@ class Bend(NamedTuple):
 
 @jit
 def points(bend):
-    """Return the number of material points of an element: those of its section, and its shear; or
-    both springs of linear bending.
+    """Return the number of material points of an element: the points of its section and one for its
+    shear, or two springs of linear bending.
     """
     return bend.section.points() + 1
 
@@ -195,10 +195,10 @@ def _through_section(bend, stretch, memory, point, k, shape, resultants, project
 
 @jit
 def evaluate(bend, stretch, memory, shape, resultants, projected):
-    """Return E_b in J; add its derivatives to ``resultants``. Where E_b is infinite, these are
-    incomplete.
+    """Return E_b in J; add its derivatives to ``resultants``, which are incomplete if E_b is
+    infinite.
 
-    Material points are numbered after those of stretching. projected: without the second
+    Material points are numbered after the points of stretching. projected: without the second
     derivatives of chi and of e, and with no falling moment, which makes every element
     semi-definite.
     """
@@ -219,7 +219,7 @@ def _elastic(bend):
 
 @jit
 def _evaluate(bend, stretch, memory, shape, resultants, projected):
-    """Return E_b as `evaluate`. Laws without memory and laws with one are compiled apart."""
+    """Return E_b as `evaluate` does. Laws with and without memory are compiled separately."""
     total, point, each = 0.0, shape.length.size, points(bend)
     for k in range(shape.length.size):
         if is_bent(bend, k):
@@ -248,7 +248,7 @@ def begin(bend, memory):
 
 @jit_exact
 def _commit_section(bend, stretch, memory, point, k, shape):
-    """Commit the strains of element ``k`` to its section, as `commit`."""
+    """Commit the strains of element ``k`` to its section; return the results of `commit`."""
     at = (strain(stretch, shape, k)[0], *bending(bend, shape, k))
     released, dissipated = bend.section.commit(at, memory, point)
     both = shape.turn[0, k] + shape.turn[1, k]
@@ -259,7 +259,7 @@ def _commit_section(bend, stretch, memory, point, k, shape):
 
 @jit_exact
 def _commit_linear(bend, memory, point, k, shape):
-    """Commit the turns of element ``k``, as `commit`."""
+    """Commit the turns of element ``k``; return the results of `commit`."""
     stiff, ratio, rest = _springs(bend, k)
     one, two = (
         measured(bend, k, 0, shape.turn[0, k])[0],

@@ -9,8 +9,8 @@ distance at which contact starts, (t_p + t_e) / 2 with the thicknesses of node a
 at a platen; E_p: of profiles in place of platens (`terms.profile`); c: a number,
 `contact.stiffness` in configs; Y': modulus in stretching, Pa; depth: of the lattice, m; b:
 `barrier`. Rules for pairs near joints replace l_p and t_c (`contact_near_joints`). With the
-subtraction a straight wall counts once at any mesh; 1/2, as each pair of walls counts from both
-sides.
+subtraction a straight wall counts once with any mesh; the factor is 1/2, as each pair of walls
+counts from both sides.
 """
 
 from typing import NamedTuple
@@ -43,9 +43,9 @@ class Contact(NamedTuple):
     that neighbour lists cover. edges (m, 2). tributary (n,): l_p. node_thickness (n,),
     edge_thickness (m,). subtract (m, 2): 1 for ends that another segment counts. special_*: rules
     of pairs near a joint or near at rest, by edge (start (m + 1,)): node, weight, contact distance,
-    subtract. One of weight 0 is only kept from crossing, with the whole tributary length; at a
+    subtract. A pair of weight 0 is only kept from crossing, with the whole tributary length; at a
     distance of 0, by collision detection alone. platen_nodes (k,): nodes that may touch a platen.
-    low, high: coordinates of the surfaces of the lower and the upper platen. profiles: what is in
+    low, high: coordinates of the surfaces of the lower and the upper platen. profiles: profiles in
     place of a platen. low_away, high_away: how far a platen is beyond its coordinate: 0, or
     infinite where a profile is in its place.
     """
@@ -207,7 +207,9 @@ def platen_force(contact, p, d):
 
 @jit
 def platens_of(contact):
-    """Return the coordinate of each platen, the side on which walls are, and `low_away`."""
+    """Return, for each platen, its coordinate, the side on which walls are, and its `low_away` or
+    `high_away`.
+    """
     return (contact.low, 1.0, contact.low_away), (contact.high, -1.0, contact.high_away)
 
 

@@ -1,6 +1,6 @@
 """Contact rules of node-segment pairs near joints, where walls touch without being in contact.
 
-What touches must have been apart. The face of a wall can be bent to a point but not shortened
+Parts that touch must have been apart. The face of a wall can be bent to a point but not shortened
 further, so that the centre line turns by at most 2 / t per length, t the mean thickness. Parts of
 walls may therefore come to face each other only if the path s between them along the network is
 longer than
@@ -8,7 +8,7 @@ longer than
     D = t [pi/2 + |c|],   c = sum (tan(tau/2) - tau/2)   over the turns tau of the path,
 
 pi t / 2 along a straight wall, 1.79 t round a right angle, 2.26 t if two arms are 60 degrees apart.
-(To face each other the parts turn by pi in all. The corner is a turn of tau already, at which the
+(To face each other the parts turn by pi in all. The corner is already a turn of tau, at which the
 inner face is shorter than the centre line by t tan(tau/2). The rest, pi - tau, takes a length of at
 least t (pi - tau) / 2.) A pair is weighted by the part of the node's tributary length that is
 farther than D from the segment.
@@ -25,8 +25,8 @@ Parts of two arms at rest that are farther apart than D along the path are apart
 the plane: by D sin(gamma/2) = t [cos(gamma/2) + gamma/2 sin(gamma/2)]. Contact of walls that are
 printed into each other starts at 0.9 x their rest distance, so that the rest state is free of
 stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance a barrier keeps it from
-crossing: collision detection alone would stop every move that presses it. Evaluated once for a
-scene.
+crossing: collision detection alone would stop every move that presses it. The rules are evaluated
+once for a scene.
 """
 
 import math
@@ -40,7 +40,7 @@ from kernels.geometry.distance import direction, squared_distance
 from kernels.geometry.near_pairs import near
 
 REST_SHARE = 0.9
-GUARDED_SHARE = 0.2  # of the rest distance, at which walls without contact are kept from crossing
+GUARDED_SHARE = 0.2  # of the rest distance: walls without contact are kept from crossing below it
 FAR = 5.0  # s / t beyond which t_c = t: it would be less than 2 % smaller
 UNLISTED = -1.0  # weight of an edge without a rule
 
@@ -48,9 +48,9 @@ UNLISTED = -1.0  # weight of an edge without a rule
 class Graph(NamedTuple):
     """The network: edges (m, 2) of lengths l0 (m,), m.
 
-    The edges at node p, ascending, are incident[start[p]:start[p + 1]], d of them; place (m, 2):
-    of an edge among those at its ends. At its node, corner[first[p] + d i + j] is tan(tau/2) -
-    tau/2 of the path along the edge at place i and then that at j.
+    The edges at node p, ascending, are incident[start[p]:start[p + 1]], d of them; place (m, 2): of
+    an edge among the edges at its ends. At node p, corner[first[p] + d i + j] is tan(tau/2) - tau/2
+    of the path along the edge at place i and then along the edge at place j.
     """
 
     edges: np.ndarray
@@ -63,9 +63,9 @@ class Graph(NamedTuple):
 
 
 class Paths(NamedTuple):
-    """Shortest paths from an edge. By node: length (n,), m, infinite where none was found; the last
-    edge (n,) and the sum c (n,) up to that edge. reached (n,): nodes with a path. queue, queued
-    (n,): scratch.
+    """Shortest paths from an edge. By node: length (n,), m, infinite without a path; the last edge
+    (n,) and the sum c (n,) up to that edge. reached (n,): nodes with a path. queue, queued (n,):
+    scratch.
     """
 
     length: np.ndarray
@@ -90,7 +90,7 @@ class Reduced(NamedTuple):
 
 
 class Rules(NamedTuple):
-    """Rules of pairs; those of edge e are start[e] .. start[e + 1].
+    """Rules of pairs; the rules of edge e are start[e] .. start[e + 1].
 
     node, weight (contact length, m), distance (at which contact starts, m) (s,); subtract (s, 2):
     as in `near_pairs.counted`.
@@ -163,7 +163,9 @@ def _graph(x, n_nodes, edges, l0):
 
 @jit_exact
 def _corners(graph, paths, p, k):
-    """Return c of the path to node ``p`` and on along edge ``k``, if it does not come along it."""
+    """Return c of the path to node ``p`` and on along edge ``k``, if it does not arrive along
+    ``k``.
+    """
     last = paths.last[p]
     i = graph.place[last, 0 if graph.edges[last, 0] == p else 1]
     j = graph.place[k, 0 if graph.edges[k, 0] == p else 1]
@@ -226,7 +228,7 @@ def _half(p, k, t, graph, paths):
     """Return the part of the half of edge ``k`` at node ``p`` that is farther than D: its length,
     and the mean length of the paths to it.
 
-    Both ways to a point have to be long enough, over ``p`` and over the other end of ``k``.
+    Both ways to a point have to be long enough, via ``p`` and via the other end of ``k``.
     """
     l0, near_end, far_end = graph.l0[k], paths.length[p], np.inf
     low, high = t * _least_path(_corners(graph, paths, p, k)) - near_end, 0.5 * l0
@@ -299,8 +301,8 @@ def _reduced(graph, node_thickness, edge_thickness, tributary):
 
 @jit_exact
 def _list_edge(k, value, share, weight, shares, listed, count):
-    """List edge ``k`` with a contact length ``value`` and ``share`` unless it is listed; return
-    the count.
+    """List edge ``k`` with a contact length ``value`` and ``share`` unless it is listed already;
+    return the count.
     """
     if weight[k] == UNLISTED:
         weight[k], shares[k] = value, share
@@ -313,7 +315,7 @@ def _list_edge(k, value, share, weight, shares, listed, count):
 def _entries(p, graph, tributary, reduced, near_pairs, weight, shares, listed):
     """List the edges with rules for node ``p``; return their number.
 
-    They are near along the network or across it, or share a vertex with such an edge.
+    These edges are near along the network or across it, or share a vertex with such an edge.
     """
     count = 0
     start, order, rows = reduced
@@ -336,7 +338,7 @@ def _entries(p, graph, tributary, reduced, near_pairs, weight, shares, listed):
 
 @jit_exact
 def _is_counted(p, e, v, graph, weight):
-    """Return whether another edge counts vertex ``v`` of edge ``e``: that of the largest weight."""
+    """Return whether another edge, with the largest weight, counts vertex ``v`` of edge ``e``."""
     for q in range(graph.start[v], graph.start[v + 1]):
         k = graph.incident[q]
         if k != e and weight[k] != UNLISTED:

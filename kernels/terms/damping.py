@@ -47,7 +47,8 @@ def _measure_ahead(x0, scene, before, move, place):
 
 @jit
 def prepare(x0, scene, memory, before, ahead, place, past, resultants):
-    """Fill ``before`` for a step from ``x0``; data that no damping of the scene needs is left out.
+    """Fill ``before`` for a step from ``x0``, except data that the damping of the scene does not
+    need.
 
     ahead: `integrators.Ahead`. place (n,), past (`Shape`), resultants: scratch.
     """
@@ -100,8 +101,8 @@ def evaluate(u, scene, before, h, shape, resultants, stiffness, projected, g):
 
 @jit_exact
 def hessian(scene, h, diagonal):
-    """Add the Hessian of D_mass to the ``diagonal`` (n,); `evaluate` has added that of the others
-    to the stiffness of the walls. h: s.
+    """Add the Hessian of D_mass to the ``diagonal`` (n,); `evaluate` has already added the other
+    parts to the stiffness of the walls. h: s.
     """
     factor, mass = scene.damp.alpha_m / h, scene.coordinates.mass
     for i in range(2 * scene.layout.n_nodes):

@@ -76,7 +76,7 @@ class Stiffness(NamedTuple):
 @jit
 def renew_frame(x, walls, frame):
     """Update ``frame`` (m, 3): direction at rest of every element rotated with its ends (cos, sin),
-    and the mean phi of both.
+    and the mean phi of its ends.
 
     Turns are measured from the frame, so that they never wrap. A frame within `NEAR_ENOUGH` of the
     present phi is kept.

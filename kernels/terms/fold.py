@@ -6,9 +6,9 @@ openings at a node inside a wall):
     E_f = K (gamma_0 / 2)^2 b(gamma / gamma_f)   for gamma < gamma_f = min(20 degrees, gamma_0 / 2),
           0                                      else
 
-K: bending stiffness of the adjacent halves of both elements in series, N m. They would take K
-gamma_0^2 / 2 to close the opening: the barrier is of that order, and zero at rest. 20 degrees is a
-choice, by which it acts only where walls have nearly closed.
+K: bending stiffness of the adjacent halves of both elements in series, N m. To close the opening
+they would take an energy of K gamma_0^2 / 2: the barrier is of that order, and zero at rest. The 20
+degrees are chosen so that the barrier acts only where walls have nearly closed.
 
 For the vector v of an element from the node, of length r: d arg(v) = (-v_y, v_x) / r^2 =: q, and
 d2 arg(v) = [[-2 q_x q_y, q_x^2 - q_y^2], [., 2 q_x q_y]].

@@ -5,19 +5,19 @@
 
 delta is the tangential slip since y (`solve.integrators`), lambda the normal force of a pair (Li et
 al. 2020, eq. 16) at the point where it was last lagged: the start of the step, in statics its
-extrapolated end, or, in the second minimisation of integrators of second order, the end that the
-first one has found. Walls have a thickness, so that two walls that rotate together do not slip:
-with the tangent T, the distance d, the moves dp of the node and dc of the closest point, and the
-rotation omega of the segment,
+extrapolated end, or, in the second minimisation of integrators of second order, the end found by
+the first one. Walls have a thickness, so that two walls that rotate together do not slip: with the
+tangent T, the distance d, the moves dp of the node and dc of the closest point, and the rotation
+omega of the segment,
 
     delta = T . (dp - dc) - d omega,   linear in the moves of p, a, b, with the slopes of
                                        `LaggedContacts`.
 
 Contributions that the contact sum subtracts at a vertex are taken from the other normal forces of
-the same node: from those at this vertex, then from those of segments that end there, then from all,
-in proportion, in whatever order pairs are listed. None becomes negative: a negative lambda would
-have a concave potential, and give energy. So the normal forces of a node have the sum of those of
-contact, unless that is negative.
+the same node: from forces at this vertex, then from forces of segments that end there, then from
+all forces, in proportion, in whatever order pairs are listed. None becomes negative: a negative
+lambda would have a concave potential, and generate energy. So the normal forces of a node have the
+same sum as its contact forces, unless this sum is negative.
 
 f'' is a spike at delta = 0, over which Newton's method oscillates. A primal-dual method avoids
 this: the dual w = f' is an unknown, and with f' = delta / psi(delta) the linearised equation is
@@ -120,7 +120,8 @@ def _lag_segment(x, lagged_contacts, n, nodes, tau, load):
 
 @jit_exact
 def settle(load, claim, after, first):
-    """Take claims from the loads of a node, and what is left of negative loads from all alike.
+    """Subtract claims from the loads of a node, and the remaining negative loads from all in
+    proportion.
 
     first: a contact of the node; after (n,): the next one of each, `NO_CONTACT` after the last.
     """
@@ -146,8 +147,8 @@ def _nearness(contact, pairs, touching, i, v):
 
 @jit_exact
 def _claim(lagged_contacts, contact, pairs, first, v, nearness, wanted):
-    """Claim ``wanted`` in N from the loads of a node that are so near to vertex ``v``, in
-    proportion; return what they do not have.
+    """Claim ``wanted`` in N, in proportion, from the loads of a node with this ``nearness`` to
+    vertex ``v``; return the part that exceeds these loads.
     """
     touching, load = lagged_contacts.touching, lagged_contacts.load
     total, j = 0.0, first
@@ -195,7 +196,7 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
     _fill_loads(lagged_contacts, contact, pairs)
     for i in range(touching.count[0]):
         k, load = touching.pair[i], friction.mu * lagged_contacts.load[i]
-        if load > 0.0:  # n <= i: loads that are still to be read are not overwritten
+        if load > 0.0:  # n <= i: no load is overwritten before it is read
             a, b = pair(contact.edges, pairs.edge[k])
             n = _lag_segment(x, lagged_contacts, n, (pairs.node[k], a, b), touching.tau[i], load)
     for p in contact.platen_nodes:
@@ -247,7 +248,7 @@ def _lag_on(lagged_contacts, n, nodes, tau, normal, low, carrier):
 def _lag_vertex(x, lagged_contacts, n, contact, k, i, mu):
     """Append the contacts of vertex ``i`` of profile ``k`` with elements; return the new count.
 
-    What is subtracted at nodes is taken from all of them alike.
+    Subtracted contributions at nodes are taken from all contacts in proportion.
     """
     profiles, begun = contact.profiles, n
     low, carrier = contact.low, profiles.carrier[k] - contact.low
@@ -278,7 +279,9 @@ def _lag_vertex(x, lagged_contacts, n, contact, k, i, mu):
 
 @jit_exact
 def _kept(lagged_contacts, begun, end, mu):
-    """Move the contacts from ``begun`` on that have a load together; return the new count."""
+    """Close the gaps in the contacts from ``begun`` on, keeping those with a load; return the new
+    count.
+    """
     n = begun
     for j in range(begun, end):
         if lagged_contacts.load[j] > 0.0:
@@ -372,9 +375,9 @@ class LaggedContacts(NamedTuple):
 
     points (n, 3): first coordinates of p, a, b, or of two nodes and both platens. slopes (n, 3, 2):
     derivatives of the slip in their moves. load (n,): mu lambda, N. dual (n,): w; `UNKNOWN` stands
-    for f'. A rigid platen does not move sideways: a = b = p with slope zero. touching, first
-    (nodes,), after, claim (n,): scratch for the contacts, for those of each node, the first and the
-    one after each, and for what is taken from each, N.
+    for f'. A rigid platen does not move sideways: a = b = p with slope zero. Scratch: touching, the
+    contacts; first (nodes,), the first contact of each node; after (n,), the next contact of the
+    same node; claim (n,), the load to be subtracted from each, N.
     """
 
     points: np.ndarray

@@ -12,7 +12,7 @@ from kernels.terms import stretch
 
 @jit
 def _bend(bend, before, rate, k, shape, resultants):
-    """Return the part of the turns of element ``k``; add its derivatives."""
+    """Return the part of D that is due to the turns of element ``k``; add its derivatives."""
     k11, k12, k22 = bend.stiffness[0, k], bend.stiffness[1, k], bend.stiffness[2, k]
     one, two = shape.turn[0, k] - before.turn[0, k], shape.turn[1, k] - before.turn[1, k]
     first, second = rate * (k11 * one + k12 * two), rate * (k12 * one + k22 * two)

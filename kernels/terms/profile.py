@@ -4,9 +4,9 @@
 
 d(p): distance of node p from the profile; d(v, e), d(v, q): of vertex v of its chain from element
 e, from node q, each less the radius r; n_q: elements at q; phi, t_c = t / 2, l_p: as at a platen
-(`contact`). The second sum is of walls between their nodes, which a sharp vertex reaches there: the
-trapezoidal rule of the first misses l^2 / (8 (r + t_c)) of the distance, l being the length of an
-element, so that w_v is l times the share of t_c that this is, l at most.
+(`contact`). The second sum is for walls that a sharp vertex touches between their nodes: the
+trapezoidal rule of the first sum misses l^2 / (8 (r + t_c)) of the distance, l being the length of
+an element, so that w_v is l times the ratio of this distance to t_c, at most l.
 """
 
 import numpy as np
@@ -106,14 +106,14 @@ def _nodes(x, profiles, k, stiffness, g):
 
 @jit
 def _elements(x, profiles, k, i, stiffness, g):
-    """Return the energy of vertex ``i`` with elements, J; add its gradient."""
+    """Return the energy of contact of vertex ``i`` with elements, J; add its gradient."""
     total, weight = 0.0, profiles.weight[i]
     for e in range(profiles.edges.shape[0]):
         starts = profiles.edge_half[e]
         tau, nx, ny, d = near_element(x, profiles, k, i, e, starts)
         if d >= starts:
             continue
-        if d <= 0.0:  # what is subtracted may be infinite too
+        if d <= 0.0:  # the subtracted energy may be infinite too
             return np.inf
         value, slope, _ = phi(weight, stiffness, starts, d)
         total += value
@@ -230,7 +230,9 @@ def _block(qi, qj, ri, rj, vectors, terms):
 
 @jit_exact
 def step_limit(x, dx, profiles):
-    """Return the share of the move ``dx``, at most 1, at which an element is still apart."""
+    """Return a share of the move ``dx``, at most 1, up to which elements and profiles stay
+    apart.
+    """
     first = 1.0
     for k in range(profiles.radius.size):
         for e in range(profiles.edges.shape[0]):
@@ -243,7 +245,7 @@ def step_limit(x, dx, profiles):
 
 @jit_exact
 def _stays_far(profiles, k, a, b, da, db):
-    """Return whether the box around a moving element does not meet that of a profile."""
+    """Return whether the box around a moving element stays outside the box of a profile."""
     low_x = min(a[0], b[0], a[0] + da[0], b[0] + db[0])
     high_x = max(a[0], b[0], a[0] + da[0], b[0] + db[0])
     low_y = min(a[1], b[1], a[1] + da[1], b[1] + db[1])
@@ -266,7 +268,7 @@ def least_gap(x, profiles):
 @jit_exact
 def free_path(x, profiles, carrier, towards):
     """Return a distance in m by which the profiles of ``carrier`` may move before one touches the
-    surface of a wall; it is a good share of the whole way. towards: 1 upwards, -1 downwards.
+    surface of a wall, a good share of the whole way. towards: 1 upwards, -1 downwards.
     """
     path = np.inf
     for k in range(profiles.radius.size):

@@ -11,26 +11,26 @@ this is the exact bending of a block (Rivlin 1949). Below `CRUSHED`, where measu
 continued to second order in q.
 
 Fibres are at Gauss points through the thickness, in pairs at +-z and one in the middle, which
-belongs to stretching. The potential of a section is that of its pairs, over their part of the
+belongs to stretching. The potential of a section is summed over its pairs, by their part of the
 volume,
 
     w(e, theta) = sum of v (W(a(theta p) - 1) + W(a(-theta p) - 1) - 2 W(e)) - R(theta) + S(theta),
     R = 2/3 (1 - nu'^2) Y' theta^4 / (1 + c theta^2).
 
 theta = kappa z is the bending of the outer of three fibres, z = (3/20)^(1/2) t. A pair is p times
-as far out and has v times its weight; of three fibres p = v = 1. R is the energy of the radial
+as far out and has v times its weight; with three fibres p = v = 1. R is the energy of the radial
 stress Y' kappa^2 (t^2/4 - z^2) / 2 that keeps fibres on their bent line, (1 - nu'^2) Y' t^5 kappa^4
-/ 240 per length and depth. With a curve it is that of the stress of fibres, for which Y' theta / (1
-+ c theta^2)^(1/2) stands: c follows from the curve (`sweep.scene.material`).
+/ 240 per length and depth. With a curve, Y' theta / (1 + c theta^2)^(1/2) approximates the stress
+of fibres in R: c follows from the curve (`sweep.scene.material`).
 
 S stops bending where the faces of a wall meet. A wall bent onto itself turns by 2 / t per length
 (`contact_near_joints`), which is theta = `TOUCHING`. Beyond it,
 
     S = Y' (|theta| - TOUCHING)^3 / (3 TOUCHING)
 
-whose tangent reaches that of linear bending, 2 Y', at twice this curvature. The moment of fibres
-alone has a maximum near there, as the moment of a bent block has whose material softens; without a
-stop a wall would fold in one element, however short. R and S stay elastic where fibres relax.
+whose tangent reaches the tangent 2 Y' of linear bending at twice this curvature. The moment of
+fibres alone has a maximum near there, as in a bent block whose material softens; without a stop a
+wall would fold in one element, however short. R and S stay elastic where fibres relax.
 """
 
 import math
@@ -40,7 +40,7 @@ import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
 
-LEAST = 0.05  # stretch of the centre line up to which bending takes infinite energy: second
+LEAST = 0.05  # stretch of the centre line below which bending takes infinite energy: second
 # derivatives grow without bound at 0, and the barrier below `elastic.GUARD` keeps walls longer
 TOUCHING = 2.0 * math.sqrt(3.0 / 20.0)  # theta of kappa t = 2
 CRUSHED = 0.3  # stretch of a fibre below which a is continued
@@ -107,10 +107,10 @@ def middle(m, stretched):
 
 @jit
 def bent(law, centre, theta, memory, point):
-    """Return the part of w that is of bent fibres: w without its terms W(e), J/m^3.
+    """Return the part of w due to bent fibres, w without its terms W(e), J/m^3.
 
-    Its value is followed by the first derivatives in e and theta, and the second ones in e e, e
-    theta and theta theta. centre: of `middle`. point: material point of the first fibre.
+    It is followed by the first derivatives in e and theta, and the second ones in e e, e theta and
+    theta theta. centre: from `middle`. point: material point of the first fibre.
     """
     centre_q, q_e, q_ee = centre
     energy, by_theta, tt = turned(law, theta)
@@ -135,7 +135,7 @@ def respond(law, strain, memory, point):
     """Return the sum of w over both sections of an element (J/m^3), its slopes in e, theta_1,
     theta_2 and the upper triangle of its second derivatives, row by row (Pa).
 
-    point: of the first fibre of the first section; those of the second follow, then the middle.
+    point: first fibre of the first section; the fibres of the second follow, then the middle.
     """
     e, one, two = strain
     fibres = law.place.size
@@ -194,8 +194,8 @@ def commit(law, strain, memory, point):
 
 
 class BentSection(NamedTuple):
-    """curve: law of a fibre. place, weight (f,): +-p and v of the fibres of a section but the
-    middle. middle: sum of v over both sections. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa.
+    """curve: law of a fibre. place, weight (f,): +-p and v of the fibres of a section except the
+    middle one. middle: sum of v over both sections. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa.
     bound: c. stop: Y', Pa; 0: without S.
     """
 

@@ -20,8 +20,8 @@ from kernels.compile.jit import jit, jit_exact
 class Stretch(NamedTuple):
     """l0 (m,) rest length in m, area (m,) in m^2, arc (2, m): c_s and c_m.
 
-    geometric: the Hessian has its part N n n / l (`elements`). Without that it is not exact: the
-    iteration is a quasi-Newton method, and stability is checked with that matrix.
+    geometric: the Hessian has its part N n n / l (`elements`). Without it the Hessian is not exact:
+    the iteration is a quasi-Newton method, and stability is checked with this matrix.
     """
 
     l0: np.ndarray
@@ -67,7 +67,9 @@ def push(stretch, resultants, k, volume, slopes, stress, tangent, projected):
 @jit
 def _convex(same, mixed):
     """Return the second derivatives [[same, mixed], [mixed, same]] of e with negative eigenvalues
-    set to zero. With shear, a short thick element shortens when both ends turn the same way.
+    set to zero.
+
+    With shear, a short thick element shortens when both ends turn the same way.
     """
     if abs(mixed) <= same:
         return same, mixed
@@ -89,7 +91,7 @@ def evaluate(stretch, law, memory, shape, resultants, projected):
 
 @jit
 def _evaluate(stretch, law, memory, shape, resultants, projected):
-    """Return E_s as `evaluate`. Laws without memory and laws with one are compiled apart."""
+    """Return E_s as `evaluate` does. Laws with and without memory are compiled separately."""
     total = 0.0
     for k in range(stretch.l0.size):
         e, one, two = strain(stretch, shape, k)

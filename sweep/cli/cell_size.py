@@ -1,5 +1,5 @@
-"""What `lattice.cell_size` has become: whole numbers of cells, and their size; the period of a
-sheet; the walls of a drawing.
+"""Reports the result of `lattice.cell_size`: whole numbers of cells, and their size; the period of
+a sheet; the walls of a drawing.
 """
 
 from collections.abc import Sequence
@@ -56,7 +56,7 @@ def _pair(lengths: tuple[float, float], between: str) -> str:
 
 def _of_sheet(lattice: Surface, infill: Any) -> str:
     """A line: "gyroid, pressed along the print axis: 2 periods of 6.25 mm in a height of 12.5 mm";
-    of a block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
+    for a block, "...; a block of 12.5 x 12.5 x 12.5 mm within perimeters".
     """
     height, period = (text_in(size, "mm") for size in (lattice.pressed_height, lattice.period))
     number = f"{lattice.pressed_height / lattice.period:.4g}"
@@ -71,7 +71,9 @@ def _of_sheet(lattice: Surface, infill: Any) -> str:
 
 
 def _share(taken: float, given: Any) -> str:
-    """The share of a sheet whose period fits, and the one given, if it is another one."""
+    """The share of infill of a sheet whose period fits, and the given share, if it is another
+    one.
+    """
     texts = [text_in(share, "%", 3) for share in (taken, given or taken)]
     return " for ".join(dict.fromkeys(texts))
 

@@ -14,7 +14,7 @@ SOME = 1000  # ids that are offered
 
 
 def script(shell: str) -> str:
-    """What a shell reads at its start to complete `crumple`."""
+    """The script that a shell reads at its start to complete `crumple`."""
     from argcomplete.shell_integration import shellcode
 
     return shellcode(["crumple"], shell=shell).strip()
@@ -29,12 +29,12 @@ def complete(parser: ArgumentParser) -> None:
 
 
 def offer(argument: Any, words: Any) -> None:
-    """Let a shell offer `words(prefix, parsed_args)` for an argument, beside files."""
+    """Let a shell offer `words(prefix, parsed_args)` for an argument, in addition to files."""
     argument.completer = words
 
 
 def configs(prefix: str, **_: object) -> list[str]:
-    """Examples, and the files and folders that begin so."""
+    """Examples, and the files and folders whose names start with ``prefix``."""
     from argcomplete.completers import FilesCompleter
 
     from sweep.config.reading.examples import examples
@@ -43,7 +43,7 @@ def configs(prefix: str, **_: object) -> list[str]:
 
 
 def results(prefix: str, **_: object) -> list[str]:
-    """Results files and folders that begin so."""
+    """Results files and folders whose names start with ``prefix``."""
     from argcomplete.completers import FilesCompleter
 
     return list(FilesCompleter(["h5"])(prefix))
@@ -57,7 +57,7 @@ def columns(parsed_args: Namespace, **_: object) -> list[str]:
 
 
 def cases(parsed_args: Namespace, **_: object) -> list[str]:
-    """The ids of the cases in the results file that is named before."""
+    """The ids of the cases in the results file that precedes them on the command line."""
     from sweep.store.read import StoreError, read_statuses
 
     with suppress(StoreError):

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
-DIGITS = 3  # of a number in the ranking; a longer one begins an id
+DIGITS = 3  # most digits of a number in the ranking; a longer one begins an id
 
 
 class CaseError(ValueError):
@@ -64,7 +64,7 @@ def by_number(
 
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
-    """Why there is no number in a scene, and the id that takes its place."""
+    """Why a scene has no numbered places, and the id to use instead."""
     from sweep.report.tables.design_text import named_case
 
     why = f"no design is ranked{f' in {label}' if label else ''}"

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from sweep.coupon.answers import Answers
 
 PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
-UNBROKEN = 0.1  # strain to which a plastic is drawn that states no break
+UNBROKEN = 0.1  # strain to which a plastic is drawn if its file states no break
 PICTURE = "materials.png"
 OF_A_FIT = ("gauge", "area", "density", "speed", "test", "zero", "units", "columns")
 
 
 class MaterialsError(ValueError):
-    """Words that the verb does not know; the text is one sentence with what is allowed."""
+    """Words that the verb does not know; the text is one sentence with the allowed words."""
 
 
 def materials(arguments: Namespace) -> None:
@@ -137,7 +137,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
 
 
 def _answers(arguments: Namespace) -> Answers:
-    """What the options say of a record."""
+    """The options that describe a record."""
     from sweep.coupon.answers import Answers
 
     return Answers(
@@ -152,7 +152,7 @@ def _answers(arguments: Namespace) -> Answers:
 
 
 def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
-    """Words such as "force=kN" of an option, by what is measured."""
+    """The words of an option, such as "force=kN", by their quantity."""
     from sweep.coupon.unit import SI
 
     pairs = [word.partition("=") for word in words or []]

@@ -1,4 +1,6 @@
-"""The verb `merge`: the results of several runs of one sweep, as of a job array, in one file."""
+"""The verb `merge`: combines the results of several runs of one sweep, such as a job array, in one
+file.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,7 @@ from sweep.numbers import counted
 
 
 def merge(out: str, files: list[str]) -> None:
-    """Bring the rows of ``files`` into the results file ``out``, which may exist."""
+    """Copy the rows of ``files`` into the results file ``out``, which may exist."""
     from sweep.store.read import exists, read_attributes, read_summary
     from sweep.store.write import Writer
 

@@ -1,17 +1,17 @@
-"""Results files by the names that users have for them: their path, a sweep, or its config."""
+"""Finds results files by the names that users give: their path, a sweep, or its config."""
 
 import tomllib
 from pathlib import Path
 
 from sweep.config.faults import MisfitError
 
-FOLDER = "results"  # of the files that `run` writes
+FOLDER = "results"  # folder of the files that `run` writes
 
 
 def results_file(text: str) -> str:
-    """The path of the results file that ``text`` means.
+    """The path of the results file that ``text`` refers to.
 
-    That is the file itself; or NAME.h5, or results/NAME.h5 as `run` writes it, for the name or the
+    It is the file itself; or NAME.h5, or results/NAME.h5 as `run` writes it, for the name or the
     config of a sweep.
     """
     path = Path(text)
@@ -26,7 +26,7 @@ def results_file(text: str) -> str:
 
 
 def _name_in(config: Path) -> str:
-    """The name that a config states, else that of its file."""
+    """The name that a config states, else the name of its file."""
     from sweep.config.reading.text import text_of
 
     try:

@@ -87,7 +87,7 @@ class NewError(ValueError):
 def new(name: str, kind: str, out: str | None) -> Path:
     """Write the config of a kind of loading; return its path. An existing file is refused.
 
-    The schema that it names, for editors, is written beside it.
+    The schema that the config names, for editors, is written beside it.
     """
     name = name.removesuffix(".toml")
     if not NAME.fullmatch(name):

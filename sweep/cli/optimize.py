@@ -1,4 +1,6 @@
-"""The verb `optimize`: search, simulate the best designs again, show how far to trust them."""
+"""The verb `optimize`: searches for the best design, simulates the best ones again, and reports how
+reliable they are.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,7 @@ def optimize(config: Config, arguments: Namespace) -> int:
 
 
 def _search(config: Config, arguments: Namespace, how: Settings) -> int:
-    """Search, and show what is best; return how many of the finalists' cases failed."""
+    """Search, and print the best designs; return how many of the finalists' cases failed."""
     from sweep.running.searching.optimize import search_of, start_of
 
     question = _question(config, arguments)
@@ -52,7 +54,9 @@ def _search(config: Config, arguments: Namespace, how: Settings) -> int:
 
 
 def _question(config: Config, arguments: Namespace) -> Question:
-    """What the options ask, else the config; without --max-force, but for "none"."""
+    """The question of the options, completed by the config; without --max-force, except for
+    "none".
+    """
     from sweep.ranking.assessment import check_column
     from sweep.ranking.requirement_table import MEASURES
     from sweep.running.searching.optimize import question_of
@@ -132,7 +136,7 @@ def _show_best(search: Search) -> int:
 
 
 def _show_nearest(search: Search) -> None:
-    """Print that no design fulfils all requirements, why, and which comes nearest."""
+    """Print that no design fulfils all requirements, why, and which design comes nearest."""
     from sweep.ranking.rank import answer
     from sweep.report.tables.search_sheets import nearest_sheet
     from sweep.report.tables.sheets import ranking_sheets

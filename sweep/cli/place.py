@@ -1,4 +1,4 @@
-"""Where the cases of a command run, by --workers, --processes, --scheduler and --wait."""
+"""Chooses where the cases of a command run, by --workers, --processes, --scheduler and --wait."""
 
 from __future__ import annotations
 

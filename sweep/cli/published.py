@@ -1,4 +1,6 @@
-"""The verb `published`: predictions of crushes beside what was measured, and a user's own."""
+"""The verb `published`: predictions of published crushes beside the measured values, and a user's
+own.
+"""
 
 from __future__ import annotations
 
@@ -24,9 +26,9 @@ COLUMN_LIST = "docs/results.md lists them"
 
 
 def published(arguments: Namespace) -> int:
-    """Print the table; with --run repeat its predictions, with --add put in a row of the user.
+    """Print the table; with --run repeat its predictions, with --add enter a row of the user.
 
-    Return how many rows have cases that failed, or predictions that did not come out again.
+    Return how many rows have cases that failed, or predictions that could not be reproduced.
     """
     from sweep.published.table import OURS, read_table
 
@@ -56,7 +58,7 @@ def _is_meant(row: Row, words: list[str]) -> bool:
 
 
 def _print(rows: list[Row], details: bool) -> None:
-    """Print the table; details: also where each number is from, and the files to repeat it."""
+    """Print the table; details: also the source of each number, and the files to repeat it."""
     from sweep.report.tables.comparison_sheet import comparison_sheet
 
     print_sheets([comparison_sheet(row.comparison for row in rows)])
@@ -85,7 +87,7 @@ def _write(rows: list[Row], folder: Path) -> None:
 
 
 def _repeat(rows: list[tuple[Path, Row]], workers: int | None) -> tuple[list[Row], int]:
-    """Predict rows anew; return them, and how many failed or differ from what is stored.
+    """Predict rows anew; return them, and how many failed or differ from the stored predictions.
 
     A row of a table without a prediction gets this one.
     """
@@ -114,7 +116,7 @@ def _repeat(rows: list[tuple[Path, Row]], workers: int | None) -> tuple[list[Row
 
 
 def _predicted(row: Row, table: Path, workers: int | None) -> tuple[Row, DataFrame]:
-    """A row with its prediction, and the results of its cases; those that are missing are run."""
+    """A row with its prediction, and the results of its cases; missing cases are run."""
     from sweep.published.predict import cases_of, predicted
     from sweep.running.sweep import run_sweep
     from sweep.running.threads import usual_workers
@@ -147,7 +149,9 @@ def _add(arguments: Namespace, mine: Path) -> None:
 
 
 def _question(arguments: Namespace, mine: Path, text: str) -> tuple[Row, str]:
-    """The row that is asked for, and the number of a measured value, in whose unit the row is."""
+    """The requested row, and the number of a measured value; the row uses the unit of this
+    value.
+    """
     from sweep.columns import describe_column, in_words, is_grid_key
     from sweep.published.predict import cases_of
     from sweep.published.quantity import split_quantity
@@ -168,7 +172,7 @@ def _question(arguments: Namespace, mine: Path, text: str) -> tuple[Row, str]:
 
 
 def _of_curve(row: Row, file: str, summary: DataFrame) -> Row:
-    """The row with the value of a measured curve."""
+    """The row with the value from a measured curve."""
     from sweep.published.curve import measure_of
 
     value = measure_of(Path(file), row.measure, summary.iloc[0])

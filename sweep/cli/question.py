@@ -1,4 +1,4 @@
-"""The question of a ranking: from the options of a command, else from the config of the results."""
+"""The question of a ranking, from the options of a command, else from the config of the results."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ TOP, TOP_OF_A_BUDGET = 10, 3
 
 
 def asked(arguments: Namespace) -> Question:
-    """What the options ask, completed from the config.
+    """The question of the options, completed from the config.
 
     The budgets of the config are used unless --budget or --by is given; its panel is used unless
-    --panel is given, or --by without --budget where nothing is asked of a panel.
+    --panel is given, or --by without --budget if no requirement applies to a panel.
     """
     stored = stored_table(arguments.file, "rank")
     budgets, panel = stored.get("budgets"), stored.get("panel")
@@ -49,7 +49,7 @@ def stored_heights(file: str) -> list[float]:
 
 
 def question_of(budgets: Iterable[Any] | None, panel: Iterable[Any] | None) -> Question:
-    """A question with these; several budgets show fewer places each."""
+    """A question with these budgets and this panel; several budgets show fewer places each."""
     masses, sides = list(budgets or ()), list(panel or ())
     top = TOP_OF_A_BUDGET if len(masses) > 1 else TOP
     return Question(masses or None, sides or None, top=top)

@@ -1,4 +1,4 @@
-"""Errors that end a command, with their text as all that it prints."""
+"""Errors that end a command; their text is all that it prints."""
 
 import sys
 from collections.abc import Iterator
@@ -31,7 +31,9 @@ class ArgumentError(ValueError):
 
 @contextmanager
 def writing(folder: Path, file: Path | None = None) -> Iterator[None]:
-    """Refuse in one line what cannot be written into a folder; file: what is to be written."""
+    """Refuse in one line to write into a folder that is not writable; file: the file to be
+    written.
+    """
     try:
         yield
     except (FileExistsError, NotADirectoryError) as error:
@@ -44,7 +46,7 @@ def writing(folder: Path, file: Path | None = None) -> Iterator[None]:
 def refusals() -> tuple[type[Exception], ...]:
     """Error classes whose text says what is wrong with a config, a file or an argument.
 
-    Only modules that are loaded are asked: no other module can have raised an error.
+    Only loaded modules are searched: no other module can have raised an error.
     """
     loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
     ours = [getattr(module, error) for module, error in loaded]

@@ -1,4 +1,6 @@
-"""The verb `run`: simulate what is missing, with error bars, a first screen or a spread; rank."""
+"""The verb `run`: simulates the missing cases, with error bars, a first screen or a spread; ranks
+them.
+"""
 
 from __future__ import annotations
 
@@ -79,7 +81,7 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
 
 
 def _part(config: Config, arguments: Namespace) -> Config:
-    """Every Nth case of a sweep, from the Kth on, so that the parts take about as long."""
+    """Every Nth case of a sweep, starting with the Kth, so that the parts take about as long."""
     from sweep.config.grid import cases_of
 
     number, count = arguments.part
@@ -99,7 +101,7 @@ def _part(config: Config, arguments: Namespace) -> Config:
 def _screen(
     config: Config, out: str, how: tuple[Any, ...], question: Question, count: int
 ) -> tuple[Config, DataFrame, int]:
-    """Run the unit columns of a sweep; return the config of what is to run as a whole, the
+    """Run the unit columns of a sweep; return the config of the designs to simulate in full, the
     estimates, and how many designs have none.
     """
     from sweep.running.beside.run_beside import file_beside

@@ -1,4 +1,4 @@
-"""The verb `status`: counts, failures and their messages, run time, origin of a results file."""
+"""The verb `status`: counts, failures and their messages, run time and origin of a results file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 NEEDED = ("case_id", "status", "message", "model_version", "git_revision", "cpu_s")
-IDS = 3  # shown for each kind of failure
+IDS = 3  # cases shown for each kind of failure
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
@@ -48,14 +48,16 @@ def print_status(file: str, as_json: bool) -> bool:
 
 
 def _is_needed(column: str) -> bool:
-    """Whether the status of a file tells of a column."""
+    """Whether the status of a file needs a column."""
     from sweep.columns import ERROR
 
     return column in NEEDED or bool(ERROR.fullmatch(column))
 
 
 def _failures(file: str, summary: DataFrame) -> Iterator[str]:
-    """A line for each kind of failure with its first cases, and how to list the others."""
+    """A line for each kind of failure with its first cases, and the command that lists the
+    others.
+    """
     failed = failed_cases(summary)
     kind = failed["message"].str.replace(NUMBER, "#", regex=True)
     for _, rows in failed.groupby([failed["status"], kind], sort=False):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> dict[str, Any]:
-    """What `crumple status` says, as a dict of plain values.
+    """The output of `crumple status`, as a dict of plain values.
 
     about : the attributes of the file. `failures` has each message with its status and its cases.
     """
@@ -51,7 +51,7 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
 
 
 def missing_cases(summary: DataFrame, about: Mapping[str, Any]) -> int:
-    """How many cases the last run was asked for that the file does not hold: it was interrupted."""
+    """How many cases of the last run the file does not contain, as the run was interrupted."""
     count = len(summary) - int(about["other_cases"])
     return max(int(about["asked_cases"]) - count, 0)
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
     from sweep.report.tables.sheet import Sheet
 
-USUAL = 80  # columns of text; in wider tables, columns are closer
-WIDE = 10_000  # where no terminal limits the width
+USUAL = 80  # usual width in characters; in wider tables, columns are closer
+WIDE = 10_000  # width where no terminal limits it
 
 
 def print_ranking(
@@ -31,7 +31,7 @@ def print_ranking(
 ) -> Ranking:
     """Print the tables of a ranking, and the warnings; return it.
 
-    Their legend and the commands that follow are left out if it is to be ``brief``.
+    Legend and further commands are left out if ``brief``.
     """
     from sweep.ranking.rank import answer
     from sweep.report.tables.legend import legend
@@ -55,7 +55,7 @@ def version_counts(counts: Mapping[int, int]) -> str:
 
 
 def warnings(file: str, ranking: Ranking) -> Iterator[str]:
-    """Sentences about cases that a reader of the ranking should know of."""
+    """Warnings about cases for a reader of the ranking."""
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
@@ -82,9 +82,9 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
 
 
 def next_commands(file: str, ranking: Ranking) -> Iterator[str]:
-    """Where the results are, and the commands that a user may want next.
+    """The place of the results, and the commands that a user may want next.
 
-    Where no design is ranked, `nearest_commands` says more.
+    If no design is ranked, `nearest_commands` says more.
     """
     yield f"results: {file}"
     name = quoted(file)
@@ -97,7 +97,7 @@ def next_commands(file: str, ranking: Ranking) -> Iterator[str]:
 
 
 def nearest_commands(file: str, ranking: Ranking, summary: DataFrame) -> Iterator[str]:
-    """How to see and print the nearest design of the first scene in which none has a place."""
+    """How to show and print the nearest design of the first scene in which none has a place."""
     from sweep.report.tables.design_text import short_id
 
     placed = {*ranking.table["scene"]}
@@ -165,7 +165,7 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
                 console.print(plain(sheet.title), style="bold", markup=False, highlight=False)
         sys.stdout.write(text.get())
         if sheet.heads:
-            console.width = max(limit or 0, WIDE)  # rich would cut numbers off
+            console.width = max(limit or 0, WIDE)  # rich would truncate numbers
             with console.capture() as text:
                 console.print(_headed(shown))
             console.width = limit or WIDE
@@ -176,13 +176,13 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
 
 
 def _plain(sheet: Sheet) -> Sheet:
-    """A table without characters that steer a terminal."""
+    """A table without characters that control a terminal."""
     heads, *rows = [[plain(text) for text in texts] for texts in [sheet.heads, *sheet.rows]]
     return sheet._replace(heads=heads, rows=rows)
 
 
 class Fitted(NamedTuple):
-    """A table as it fits a terminal: its heads on several lines, the widths of its columns, and the
+    """A table fitted to a terminal: its heads on several lines, the widths of its columns, and the
     blanks between them.
     """
 
@@ -193,16 +193,16 @@ class Fitted(NamedTuple):
 
     @property
     def width(self) -> int:
-        """Of the whole table."""
+        """Width of the whole table."""
         return sum(self.widths) + self.gap * (len(self.widths) - 1)
 
 
 def fitted(sheet: Sheet, limit: int, usual: int) -> Fitted:
-    """A table in at most ``limit`` columns of text; numbers are never cut off.
+    """A table in at most ``limit`` characters; numbers are never truncated.
 
-    In a table wider than ``usual``, columns are closer. In one that is wider than the limit, heads
-    have one word in a line, then texts go on in a second line, then columns that are `spare` are
-    left out. If that is not enough, the terminal wraps its lines.
+    In a table wider than ``usual``, columns are closer. In a table wider than the limit, heads have
+    one word per line, then texts continue on a second line, then columns that are `spare` are left
+    out. If that is not enough, the terminal wraps its lines.
     """
     table = _laid_out(sheet, by_words=False, gap=2)
     if table.width > usual:
@@ -216,7 +216,7 @@ def fitted(sheet: Sheet, limit: int, usual: int) -> Fitted:
 
 
 def _laid_out(sheet: Sheet, by_words: bool, gap: int) -> Fitted:
-    """A table with all of its texts in one line; heads have their unit in the second line."""
+    """A table with each text on one line; heads have their unit on the second line."""
     heads = [_in_lines(head, by_words) for head in sheet.heads]
     columns = zip(heads, sheet.columns, strict=True)
     widths = [max(map(len, [*head.split("\n"), *texts])) for head, texts in columns]
@@ -224,14 +224,16 @@ def _laid_out(sheet: Sheet, by_words: bool, gap: int) -> Fitted:
 
 
 def _in_lines(head: str, by_words: bool) -> str:
-    """A head with its unit, or every word, in a line of its own."""
+    """A head with its unit, or every word, on a line of its own."""
     if by_words:
         return head.replace(" ", "\n").replace("_", "_\n")
     return "\n".join(head.rsplit(" ", 1))
 
 
 def _folded(table: Fitted, limit: int) -> Fitted:
-    """A table whose longest texts go on in further lines, so that it fits the limit if it can."""
+    """A table whose longest texts continue on further lines, so that it fits the limit if it
+    can.
+    """
     widths, columns = list(table.widths), table.sheet.columns
     least = [
         max(len(word) for text in [head.replace("\n", " "), *texts] for word in text.split(" "))
@@ -253,7 +255,7 @@ def _is_number(texts: list[str]) -> bool:
 
 
 def _is_text(texts: list[str]) -> bool:
-    """Whether a column may go on in a second line."""
+    """Whether a column may continue on a second line."""
     return not _is_number(texts) and not any(" x " in text for text in texts)
 
 
@@ -309,7 +311,7 @@ def _side(texts: list[str]) -> Literal["left", "right"]:
 
 
 def quoted(name: str) -> str:
-    """The name of a file as the shells of this system take it."""
+    """The name of a file, quoted for the shells of this system."""
     return list2cmdline([name]) if sys.platform == "win32" else quote(name)
 
 
@@ -325,6 +327,6 @@ def say_all(lines: Iterable[object]) -> None:
 
 
 def hint(lines: Iterable[str]) -> None:
-    """Print lines on stderr, after what is on stdout."""
+    """Print lines on stderr, after the output on stdout."""
     sys.stdout.flush()
     sys.stderr.writelines(f"{plain(line)}\n" for line in lines)

@@ -68,7 +68,7 @@ def accuracy(arguments: Namespace) -> int:
 
 
 def warm(_: Namespace) -> int:
-    """Compile the kernels ahead of the first run: those of shells in a process of their own."""
+    """Compile the kernels before the first run, the kernels of shells in a process of their own."""
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
@@ -95,14 +95,14 @@ def status(arguments: Namespace) -> int:
 
 
 def verify(arguments: Namespace) -> int:
-    """Check that a results file is whole, and that cases of it come out again."""
+    """Check that a results file is undamaged, and that some of its cases can be reproduced."""
     from sweep.cli.verify import verify as is_sound
 
     return DONE if is_sound(arguments.file, arguments.again) else SOME_FAILED
 
 
 def merge(arguments: Namespace) -> int:
-    """Bring the results of several runs into one file."""
+    """Combine the results of several runs in one file."""
     from sweep.cli.merge import merge as bring_together
 
     bring_together(arguments.out, arguments.files)
@@ -233,7 +233,7 @@ def card(arguments: Namespace) -> int:
 
 
 def published(arguments: Namespace) -> int:
-    """Print predictions of crushes beside what was measured."""
+    """Print predictions of crushes beside the measured values."""
     from sweep.cli.published import published as compare
 
     return SOME_FAILED if compare(arguments) else DONE
@@ -250,7 +250,7 @@ def new(arguments: Namespace) -> int:
 
 
 def completion(arguments: Namespace) -> int:
-    """Print what a shell needs to complete words."""
+    """Print the script with which a shell completes words."""
     from sweep.cli.completion import script
 
     say(script(arguments.shell))
@@ -293,7 +293,9 @@ def _warn(file: str, ranking: Ranking, summary: DataFrame) -> None:
 
 
 def _of_a_number(arguments: Namespace) -> list[str]:
-    """The options that say in which ranking a number is a place; an export has a panel anyway."""
+    """The options that select the ranking in which a number is a place; an export has a panel
+    anyway.
+    """
     from sweep.ranking.requirement_table import MEASURES
 
     names = ["scene", "budget", "panel", "by", "allowed_force", "per", *MEASURES]
@@ -303,7 +305,7 @@ def _of_a_number(arguments: Namespace) -> list[str]:
 
 
 def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
-    """The row that CASE names, and a sentence about its place if CASE is a number."""
+    """The row that CASE refers to, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
     from sweep.ranking.curves import with_allowed
 

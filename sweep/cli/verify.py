@@ -1,4 +1,6 @@
-"""The verb `verify`: whether a results file is whole, and whether its numbers come out again."""
+"""The verb `verify`: whether a results file is undamaged, and whether its numbers can be
+reproduced.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +16,15 @@ if TYPE_CHECKING:
 
     from sweep.result import Result
 
-SEED = 0  # of the choice of cases that run again
-SAME = 1e-6  # relative: of numbers that are equal
-ROUNDED = 1e-6  # relative: of curves and shapes, which are stored with seven digits
-SHOWN = 10  # of what is wrong
+SEED = 0  # seed for the choice of cases that run again
+SAME = 1e-6  # relative difference of numbers that count as equal
+ROUNDED = 1e-6  # the same for curves and shapes, which are stored with seven digits
+SHOWN = 10  # most faults that are listed
 VARYING = ("cpu_s", "git_revision")  # not compared
 
 
 def verify(file: str, again: int) -> bool:
-    """Print what is wrong with a results file, and return whether nothing is.
+    """Print the faults of a results file, and return whether there are none.
 
     Checksums, curves, shapes and stored cases of all rows are read, the ids are computed anew, and
     ``again`` cases that converged, drawn at random, are simulated again.
@@ -55,7 +57,7 @@ def _drawn(ids: Sequence[str], count: int) -> list[str]:
 
 
 def _different(file: str, rows: DataFrame) -> Iterator[str]:
-    """A sentence for each case that has other numbers now, or ends in another way."""
+    """A sentence for each case whose numbers, or whose end, now differ."""
     import numpy as np
 
     from sweep.running.warming import real_simulate
@@ -82,7 +84,7 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
 
 
 def _other_array(file: str, result: Result) -> str:
-    """The first curve or array of shapes that is not the stored one; empty if all are."""
+    """The first curve or array of shapes that differs from the stored one; empty if none does."""
     import numpy as np
 
     from sweep.store.read import read_frames, read_history

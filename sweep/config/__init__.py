@@ -1,9 +1,9 @@
-"""What a user writes: tables of keys with units, read from TOML into the cases of a sweep.
+"""Reads a user's config: tables of keys with units, from TOML or a dict, into the cases of a sweep.
 
-`reading` takes a file apart, `units` reads quantities into SI, `keys` lists the keys, which the
-`tables` have with their fixed defaults. `lattice_table` and `material_table` are the long tables;
-the former is checked by `lattice_limits`, and by `slicer_lines` if there is a slicer. `axis` and
-`grid` expand a grid, `case` is one case with its id, and `network` has the walls of a case.
-`defaults` fills in what depends on the case; `materials`, `structures`, `drawings` and `profiles`
+`load` reads a sweep, `reading` takes a document apart, `units` converts quantities to SI, `keys`
+lists the keys and `json_schema` writes them for editors. `axis` and `grid` expand a grid into
+`cases`; `case` is one case with its id, completed from the `kinds` of its tables, and `changes`
+replaces some of its values. `question` has the tables that rank results, `faults` the errors.
+`defaults` has values that follow from others; `materials`, `structures`, `drawings` and `profiles`
 read files of their own.
 """

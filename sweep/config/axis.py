@@ -1,10 +1,10 @@
-"""The values of a key in a config: one that is written, or those of an axis of a search."""
+"""The values of a key in a config: a single written value, or the values of an axis of a search."""
 
 from dataclasses import dataclass
 from math import floor, log10
 from typing import Any, NamedTuple
 
-DIGITS = 4  # of a searched number: no printer resolves more
+DIGITS = 4  # digits of a searched number: no printer resolves more
 
 
 class Written(NamedTuple):
@@ -34,7 +34,9 @@ class Interval:
         return isinstance(self.low, int)
 
     def at(self, share: float) -> Written:
-        """The value at a share, 0 to 1, of the way; every whole number has an equal part of it."""
+        """The value at a share, 0 to 1, of the interval; every whole number has an equal part of
+        it.
+        """
         if self.whole:
             count = self.high - self.low + 1
             return self.written(self.low + min(int(share * count), int(count) - 1))
@@ -57,7 +59,7 @@ class Choice:
     values: tuple[Written, ...]
 
     def at(self, share: float) -> Written:
-        """The value at a share, 0 to 1, of the way; every value has an equal part of it."""
+        """The value at a share, 0 to 1, of the list; every value has an equal part of it."""
         return self.values[min(int(share * len(self.values)), len(self.values) - 1)]
 
     @property
@@ -68,13 +70,13 @@ class Choice:
 
 
 def between(low: float, high: float, share: float) -> float:
-    """The number at a share, 0 to 1, of the way from low to high, of `DIGITS` digits."""
+    """The number at a share, 0 to 1, of the way from low to high, with `DIGITS` digits."""
     value = float(f"{low + share * (high - low):.{DIGITS}g}")
     return min(max(value, low), high)
 
 
 def rounded_down(value: float) -> float:
-    """The greatest number of `DIGITS` digits that is no greater than a positive value."""
+    """The greatest number with `DIGITS` digits that is no greater than a positive value."""
     near = float(f"{value:.{DIGITS}g}")
     last = 10.0 ** (floor(log10(value)) + 1 - DIGITS)
     return near if near <= value else float(f"{near - last:.{DIGITS}g}")

@@ -44,7 +44,7 @@ from sweep.config.kinds.table import (
 
 T = TypeVar("T")
 
-TABLES_KEPT = 20_000  # of a sweep, 2 kB each
+TABLES_KEPT = 20_000  # tables of a sweep, 2 kB each
 
 
 class Case(BaseModel):
@@ -64,8 +64,8 @@ class Case(BaseModel):
     def of(axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
         """The case of these values by table and key, in SI; a key that is None has its default.
 
-        `RefusedError` says what contradicts what, which keys a table of its kind has, or that there
-        is no such table.
+        `RefusedError` says which values contradict each other, which keys a table of its kind has,
+        or that there is no such table.
         """
         contents = {name: _values(values) for name, values in _checked(tables).items()}
         case = complete(contents).sound(axes)
@@ -96,18 +96,19 @@ class Case(BaseModel):
 
     @property
     def pressed(self) -> Body:
-        """What is pressed."""
+        """The body that is pressed."""
         return _pressed_of(self.lattice, self.along)
 
     @property
     def footprint(self) -> tuple[float, float]:
-        """Outer width and depth (m) of the area that is pressed."""
+        """Outer width and depth (m) of the pressed area."""
         width, height = self.lattice.outer_size
         return (width, height) if self.along else (width, self.lattice.depth)
 
     @property
     def widens(self) -> bool:
-        """Whether the period of tied sides is free: no platen holds it, nor does inertia.
+        """Whether the width of the period of tied sides is free: neither a platen nor inertia holds
+        it.
 
         Between platens without friction the mean lateral force of a crush is zero. An endless panel
         that moves cannot widen in a finite time. The periods of shells are fixed.
@@ -126,17 +127,17 @@ class Case(BaseModel):
         return blake2b(f"{{{tables}}}".encode(), digest_size=8).hexdigest()
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> "Case":
-        """The case with other tables, or other labels, which alone leave it its id."""
+        """The case with other tables, or other labels, which alone do not change its id."""
         copied = super().model_copy(update=update, deep=deep)
         if set(update or ()) - {"axes"}:
             copied.__dict__.pop("case_id", None)
         return copied
 
     def changed(self, axes: Mapping[str, Any] | None = None, **tables: Unpack[Tables]) -> "Case":
-        """The case with other values, by table and key, completed anew; None takes a value away.
+        """The case with other values, by table and key, completed anew; None drops a value.
 
-        axes: labels beside those it has. `changes` says which of its own values a new one replaces;
-        the others stay, such as a duration or a time step that followed from old ones.
+        axes: further labels. `changes` says which of its own values a new one replaces; the others
+        stay, such as a duration or a time step that followed from old ones.
         """
         return self._changed(self.axes | dict(axes or {}), tables)
 
@@ -157,7 +158,8 @@ class Case(BaseModel):
 
     @staticmethod
     def from_json(text: str | bytes, cache: dict[Any, Any] | None = None) -> "Case":
-        """The case of `to_json`, for which no file is read; `MisfitError` if it is no case.
+        """The case that `to_json` wrote, without reading files; raises `MisfitError` if the text is
+        no case.
 
         cache: the tables of other cases so far, see `Draft`.
         """
@@ -176,10 +178,10 @@ class Case(BaseModel):
 
 @dataclass
 class Draft:
-    """A case that is being completed: its tables so far, and the values that are refused.
+    """A case that is being completed: its tables so far, and the refused values.
 
-    cache: tables by what they are made from, as the cases of a sweep share most of them; it is
-    emptied when it holds `TABLES_KEPT`.
+    cache: tables by the values they are made from, as the cases of a sweep share most of them; it
+    is emptied when it holds `TABLES_KEPT`.
     """
 
     cache: dict[Any, Any] = field(default_factory=dict)
@@ -187,7 +189,7 @@ class Draft:
     refused: list[RefusedError] = field(default_factory=list)
 
     def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
-        """Make a table, or note why it cannot be made."""
+        """Make a table, or record why it cannot be made."""
         try:
             if (name, values) not in self.cache:
                 if len(self.cache) >= TABLES_KEPT:
@@ -242,7 +244,7 @@ def _numerics(
     loading: Loading,
     material: Material,
 ) -> None:
-    """Complete the tables that say how a case is computed; the first refusal ends it."""
+    """Complete the tables of numerical settings; the first refusal ends it."""
     model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
     by_position = model == "position_based"
     given = pairs["solver"], material, loading, pressed, by_position
@@ -256,7 +258,7 @@ def _numerics(
 
 
 def _pressed(lattice: Lattice | None, given: Inputs, along: bool) -> Body:
-    """What is pressed; of a lattice that is refused, by its own values."""
+    """The body that is pressed; for a refused lattice, from its given values."""
     if lattice is not None:
         return _pressed_of(lattice, along)
     key = "depth" if along else "height"
@@ -293,7 +295,7 @@ def _values(table: Inputs | Table) -> dict[str, Any]:
 
 
 def _checked(tables: Mapping[str, Any]) -> dict[str, Inputs | Table]:
-    """The tables that are given; refused are those that no case has, and what is no table."""
+    """The given tables; refuses tables that no case has, and values that are no table."""
     given = {name: values for name, values in tables.items() if values is not None}
     for name, values in given.items():
         if name not in TABLES:
@@ -306,7 +308,7 @@ def _checked(tables: Mapping[str, Any]) -> dict[str, Inputs | Table]:
 
 
 def _check_types(table: str, values: Inputs) -> None:
-    """Refuse a value of another type than its key has, such as a text for a number."""
+    """Refuse a value of a type that its key does not have, such as a text for a number."""
     keys = table_keys(table)
     for key, value in values.items():
         if value is None or f"{table}.{key}" not in keys:

@@ -1,4 +1,4 @@
-"""The cases of a sweep, each made when it is asked for."""
+"""The cases of a sweep, each made when it is requested."""
 
 from collections.abc import Iterable, Iterator, KeysView, Mapping, Sequence
 from typing import Any, NamedTuple, overload
@@ -11,7 +11,7 @@ OTHERS = tuple(name for name in TABLES if name != "lattice")
 
 
 class _Shared(NamedTuple):
-    """What many cases share: the kind of their lattices, the keys that these are given (None: all),
+    """Data that many cases share: the kind of their lattices, the given keys of these (None: all),
     the other tables, the names of the labels.
     """
 
@@ -24,8 +24,8 @@ class _Shared(NamedTuple):
 class Cases(Sequence[Case]):
     """Different cases, in order; of cases with the same id the last one counts.
 
-    Only the values of its lattice and of its labels are kept of a case, in one tuple: 0.5 kB in
-    place of 2. The case itself is made anew whenever it is asked for, in 15 us.
+    Of each case only the values of its lattice and of its labels are kept, in one tuple: 0.5 kB
+    instead of 2 kB. The case itself is made anew whenever it is requested, in 15 us.
     """
 
     def __init__(self, cases: Iterable[Case] = ()) -> None:
@@ -106,7 +106,7 @@ class Cases(Sequence[Case]):
 
 
 class _Labels(Mapping[str, Mapping[str, Any]]):
-    """The labels of cases by id, each made when they are asked for."""
+    """The labels of cases by id, each made when it is requested."""
 
     def __init__(self, numbers: Mapping[str, int], rows: Sequence[tuple[Any, ...]]) -> None:
         self._numbers, self._rows = numbers, rows

@@ -1,4 +1,4 @@
-"""Other values of a case: which of its own values they replace, and which are computed anew."""
+"""Changes of the values of a case: which old values they replace, and which are computed anew."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -11,8 +11,8 @@ def merged(tables: Mapping[str, Table], changes: Mapping[str, Inputs]) -> dict[s
     """The values of the tables of a case with changes, by table and key.
 
     Another material has only the new values; so has another kind of lattice, and a loading of
-    another mode, whose numerics are chosen anew. What another value sets follows from it when the
-    lattice or the direction changes.
+    another mode, whose numerics are chosen anew. Values that follow from others are computed anew
+    when the lattice or the direction changes.
     """
     values = {name: tables[name].inputs() for name in TABLES}
     values |= {name: {} for name in _renewed(values, changes)}
@@ -31,7 +31,7 @@ def merged(tables: Mapping[str, Table], changes: Mapping[str, Inputs]) -> dict[s
 
 
 def _renewed(values: Mapping[str, Inputs], changes: Mapping[str, Inputs]) -> Iterator[str]:
-    """The tables of which only new values count."""
+    """The tables for which only new values count."""
     after = {name: {**values[name], **changes.get(name, {})} for name in values}
     if kind_of(after["lattice"]) is not kind_of(values["lattice"]):
         yield "lattice"
@@ -42,7 +42,7 @@ def _renewed(values: Mapping[str, Inputs], changes: Mapping[str, Inputs]) -> Ite
 
 
 def _resized(changes: Mapping[str, Inputs]) -> bool:
-    """Whether the walls or what is pressed may have another size."""
+    """Whether the walls or the pressed body may have another size."""
     others = changes.get("lattice") or changes.get("material")
     return bool(others) or "direction" in changes.get("loading", {})
 

@@ -3,7 +3,7 @@
 from collections import Counter
 from typing import NamedTuple
 
-SHOWN = 12  # faults that the text of a ConfigError lists
+SHOWN = 12  # most faults that the text of a ConfigError lists
 
 
 class Fault(NamedTuple):
@@ -14,7 +14,7 @@ class Fault(NamedTuple):
 
 
 class MisfitError(ValueError):
-    """What cannot be used; the text says why, in our own words.
+    """An input that cannot be used; the text says why, in our own words.
 
     Only this class is caught to be shown, as the text of a library's `ValueError` tells users
     nothing, and would be blamed on the key that is being read.

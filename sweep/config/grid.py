@@ -1,4 +1,4 @@
-"""From what a config writes to its cases: grid x zips, without excluded ones and duplicates."""
+"""Expands a config into its cases: grid x zips, without excluded ones and duplicates."""
 
 import json
 import re
@@ -37,11 +37,11 @@ Axes = dict[str, tuple[Written, ...]]
 
 @dataclass(frozen=True)
 class Recipe:
-    """What a config writes: the values that all cases share, and the axes; keys are dotted.
+    """The content of a config: the values that all cases share, and the axes; keys are dotted.
 
-    grid, zip: key -> values; every value of the grid meets every row of every zip.
+    grid, zip: key -> values; every value of the grid is combined with every row of every zip.
     exclude: tables key -> rounded values. A case is dropped if, for every key of a table, its value
-    is among the values of that key. search: key -> what a search may choose.
+    is among the values of that key. search: key -> values that a search may choose.
     """
 
     base: Values = field(default_factory=dict)
@@ -67,11 +67,11 @@ class LeftOut(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Config:
-    """A sweep: its cases, and what it asks of their results.
+    """A sweep: its cases, and the question about their results.
 
-    cases: of a config with a search, those that the search has chosen so far. left_out: the
-    combinations without a case. seed: of a search. recipe: what its file says; nothing for cases
-    without a file. notes: sentences about what was read, of the profiles of slicers.
+    cases: for a config with a search, the cases that the search has chosen so far. left_out: the
+    combinations without a case. seed: of a search. recipe: content of its file; nothing for cases
+    without a file. notes: sentences about the slicer profiles that were read.
     """
 
     name: str
@@ -90,12 +90,12 @@ class Config:
 
 
 def expand(config: Config) -> list[Case]:
-    """All cases of a config; those of a search are not known before it."""
+    """All cases of a config; the cases of a search are not known before it."""
     return list(cases_of(config))
 
 
 def cases_of(config: Config) -> Sequence[Case]:
-    """The same, each made when it is asked for."""
+    """The same as `expand`, with each case made when it is requested."""
     if not isinstance(config, Config):
         raise _no_sweep(config, "what crumple.load_config returns")
     if config.recipe.search and not config.cases:
@@ -123,7 +123,7 @@ def _no_sweep(source: object, needed: str) -> ConfigError:
 
 
 def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:
-    """The case of a search with these values, in SI; None if they cannot be combined."""
+    """The case that a search chooses by these values, in SI; None if they cannot be combined."""
     alone: Axes = {key: (value,) for key, value in chosen.items()}
     (combination,) = _drafts(replace(recipe, search={}, grid=alone))
     return None if combination.faults else combination.labelled()
@@ -133,9 +133,9 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     """The cases, and which combinations are left out, as their values cannot be combined.
 
     The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
-    value that no combination can use, unless it only does not print, a grid of which nothing is
-    left, a key that no case uses, and a table of [[exclude]] that drops no case. A search is tried
-    at a few points (`_combinations`), and has no cases.
+    value that no combination can use, unless it is merely not printable, a grid without any
+    possible case, a key that no case uses, and a table of [[exclude]] that drops no case. A search
+    is tried at a few points (`_combinations`), and has no cases.
     """
     count = recipe.count
     if count > MAX_CASES:
@@ -191,16 +191,16 @@ class _Combination:
         return {(key, written.text) for key, written in self.chosen.items()}
 
     def needs(self, usable: set[tuple[str, str]]) -> bool:
-        """Whether it has a value that is not usable, and not only walls that do not print."""
+        """Whether it has a value that is not usable, not merely walls that are not printable."""
         return [fault.key for fault in self.faults] != [PRINTABLE] and not self.texts <= usable
 
     def value(self, key: str) -> Any:
-        """The value of the case; of an alias, the value that all its targets share."""
+        """The value of the case; for an alias, the value that all its targets share."""
         first, *others = [self._value(target) for target in _keys(key)]
         return first if all(other == first for other in others) else None
 
     def _value(self, target: str) -> Any:
-        """The value of a key; where its table is refused, the given one or the default."""
+        """The value of a key; if its table is refused, the given value or the default."""
         table, name = target.split(".")
         if part := self.draft.tables.get(table):
             words = getattr(part, "words", ()) if name == "mode" else ()
@@ -238,7 +238,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
 
 
 def _keys_to_use(recipe: Recipe) -> list[str]:
-    """The keys of a case that a config sets, of which every one must have an effect."""
+    """The keys of a case that a config sets, each of which must have an effect."""
     stated = [
         key for key, value in recipe.base.items() if not (key in MAY_BE_UNUSED or value.implied)
     ]
@@ -272,7 +272,7 @@ def _axes(recipe: Recipe) -> Iterator[tuple[str, str, tuple[Written, ...]]]:
 def _combinations(recipe: Recipe) -> Iterator[Values]:
     """Values along the axes: every value of the grid with every row of each zip.
 
-    Of a search, one axis at a time takes its values, while the others keep their middle.
+    In a search, one axis at a time takes its values, while the others keep their middle.
     """
     if recipe.search:
         middle = {key: axis.probes[0] for key, axis in recipe.search.items()}
@@ -336,7 +336,7 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
 
 
 def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:
-    """One fault for each value that is refused; count: number of all combinations."""
+    """One fault for each refused value; count: number of all combinations."""
     alike: dict[str, list[tuple[Fault, Values]]] = {}
     for draft in refused:
         for fault in draft.faults:
@@ -346,7 +346,7 @@ def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fa
 
 
 def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
-    """The line of the first of several refusals, with how many there are and what they share."""
+    """The line of the first of several refusals, with their number and their common values."""
     (key, line), _ = refusals[0]
     if count > 1:
         shared = _shared(key, [chosen for _, chosen in refusals], recipe)
@@ -355,8 +355,8 @@ def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) ->
 
 
 def _shared(key: str, chosen: list[Values], recipe: Recipe) -> str:
-    """The values along the axes, but for those of a key, that all of these combinations have, and
-    not all others.
+    """The values along the axes, except of one key, that all of these combinations have, and not
+    all others.
     """
     words = [
         f"{name} = {values[0].text}"

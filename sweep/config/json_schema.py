@@ -1,4 +1,4 @@
-"""The keys of a config as a JSON schema, with which an editor completes and marks them."""
+"""Writes the keys of a config as a JSON schema, with which an editor completes and checks them."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -8,7 +8,7 @@ from sweep.config.kinds.table import TABLES
 from sweep.config.question import QUESTION
 from sweep.config.reading.other_names import CHOICES
 
-DIALECT = "http://json-schema.org/draft-07/schema#"  # of which editors of TOML know most
+DIALECT = "http://json-schema.org/draft-07/schema#"  # the version that editors of TOML know best
 OWN = {"unit", "bare", "bare_most", "title", "default"}
 """Entries of our schemas in SI that mean nothing to an editor."""
 PROFILE = "the profile of a slicer, such as profile.ini, profile.json or project.3mf"
@@ -42,7 +42,7 @@ def json_schema() -> Schema:
 
 
 def _table(table: str, keys: Mapping[str, Key]) -> Schema:
-    """A table, whose keys are those of all its kinds, and aliases."""
+    """A table with the keys of all its kinds, and aliases."""
     own = [name for name in keys if name.startswith(f"{table}.")]
     profile = {"profile": _profile()} if table == "lattice" else {}
     return _object({name.partition(".")[2]: _defined(name) for name in own} | profile)
@@ -60,7 +60,7 @@ def _value(key: Key) -> Schema:
 
 
 def _one(key: Key) -> Schema:
-    """A value that is no list: of a quantity a text, and a number if its unit may be left out."""
+    """A single value, no list: for a quantity a text, and a number if its unit may be left out."""
     if key.unit:
         return {"type": ["string", "number"] if key.bare else "string"}
     schema = {name: entry for name, entry in key.schema.items() if name not in OWN}
@@ -92,7 +92,7 @@ def _searched(name: str, key: Key) -> Schema:
 
 def _of_keys(written: Callable[[str, Key], Schema], profiles: Schema | None = None) -> Schema:
     """An object with all keys of a case, dotted, which TOML nests unless they are quoted; profiles:
-    what may stand for the profile of a slicer.
+    schema of the profile of a slicer.
     """
     flat = {name: written(name, key) for name, key in case_keys().items()}
     flat |= {"lattice.profile": profiles} if profiles else {}

@@ -1,4 +1,4 @@
-"""The keys of a config: which values each key accepts, in words, and the key nearest to a typo.
+"""The keys of a config: the values that each key accepts, in words, and the key nearest to a typo.
 
 All of it is derived from the kinds of the tables, so that a new key needs no second entry.
 """
@@ -47,7 +47,7 @@ CHOICES: dict[str, Any] = {
     "damping.model": Literal["none", "rayleigh", "kelvin_voigt"],
     "solver.integrator": Integrator,
 }
-"""The choices of keys which choose a kind, or of which a kind has only some."""
+"""The choices of keys that select a kind, or of which a kind has only some."""
 
 ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
@@ -81,9 +81,9 @@ _BOUNDS = {
 class Key:
     """One key of a config.
 
-    targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out, of
+    targets: the keys of a case that it sets. unit: its SI unit. bare: the unit may be left out, for
     numbers up to ``bare_most``. allowed: the accepted values in words. schema: JSON schema of a
-    value in SI, or of one in a list. adapter: checks a value in SI.
+    value in SI, or of an item of a list. adapter: checks a value in SI.
     """
 
     targets: tuple[str, ...]

@@ -27,9 +27,9 @@ def load_config(path: Source) -> Config:
     """Read a sweep and check all of its cases; `ConfigError` holds all faults.
 
     path: path of a TOML file; if there is no such file, the name of an example, such as "smoke"; or
-    a dict with what a file has: {"lattice": {"width": "50 mm"}, "grid": {"lattice.kind": [...]}}.
-    Quantities are text with a unit there too. Paths in a dict are relative to the current folder,
-    and without a `name` it is "unnamed".
+    a dict with the content of a file: {"lattice": {"width": "50 mm"}, "grid": {"lattice.kind":
+    [...]}}. Quantities are text with a unit there too. Paths in a dict are relative to the current
+    folder, and without a `name` it is "unnamed".
     """
     if isinstance(path, Mapping):
         document = document_of(path)
@@ -45,7 +45,8 @@ def load_config(path: Source) -> Config:
 
 
 def case(**tables: Unpack[Tables]) -> Case:
-    """One case of the keys of a config, which other keys complete; `ConfigError` holds all faults.
+    """One case of the given keys of a config, completed with defaults; `ConfigError` holds all
+    faults.
 
     case(lattice={"kind": "hex", "width": "50 mm"}, loading={"mode": "displacement"}), or by dotted
     keys: case(**{"lattice.kind": "hex"}). Quantities are text with a unit; `Case.of` takes numbers
@@ -55,7 +56,7 @@ def case(**tables: Unpack[Tables]) -> Case:
 
 
 def case_of(source: Case | Mapping[str, Any]) -> Case:
-    """A case itself, or the one of these tables of a config, as `case` takes them."""
+    """A `Case` itself, or the case of these tables of a config, as in `case`."""
     if isinstance(source, Case):
         return source
     if not isinstance(source, Mapping):
@@ -103,12 +104,14 @@ def _document(path: Path) -> dict[str, Any]:
 
 
 def _nearest_examples(path: Path) -> str:
-    """The examples whose names are nearest, or the usual ones."""
+    """The examples with the most similar names, or the usual ones."""
     return ", ".join(get_close_matches(path.stem, examples(), 3) or ("armor", "infills", "smoke"))
 
 
 def _quoted_line(message: str, text: str) -> str:
-    """The line of a text at which its parser gave up, shortened; nothing if it tells no line."""
+    """The line of a text at which its parser failed, shortened; empty if the message names no
+    line.
+    """
     place = re.search(r"\(at (?:line (\d+)|end of document)", message)
     lines = text.rstrip().split("\n")
     if place is None:

@@ -1,4 +1,4 @@
-"""The tables of a config that ask something of the results: they enter no case and no id."""
+"""The tables of a config that pose a question about the results: they enter no case and no id."""
 
 from typing import Literal
 
@@ -8,7 +8,7 @@ from sweep.config.kinds.table import Acceleration, Energy, Force, Length, Mass, 
 class Rank(Table):
     """Defaults of a ranking: budgets of mass (kg), and the panel that specimens fill (m).
 
-    per: what allowed forces and requirements are of. drop_heights: of cushion curves (m).
+    per: to which allowed forces and requirements apply. drop_heights: of cushion curves (m).
     """
 
     budgets: tuple[Mass, ...] = ()
@@ -18,7 +18,7 @@ class Rank(Table):
 
 
 class Require(Table):
-    """What a design must fulfil to have a place in a ranking."""
+    """The requirements that a design must fulfil to have a place in a ranking."""
 
     max_force: Force | None = None
     max_deceleration: Acceleration | None = None

@@ -1,7 +1,7 @@
-"""A number with a unit, such as "100 mm/min", in SI.
+"""Converts a number with a unit, such as "100 mm/min", to SI.
 
-A unit is a product such as "kg m/s^2", in which a stroke divides by the next factor alone. Names
-may have a prefix and a plural. No regular expression here backtracks: a long text costs no time.
+A unit is a product such as "kg m/s^2", in which a slash divides only by the next factor. Names may
+have a prefix and a plural. No regular expression here backtracks: a long text costs no time.
 """
 
 import re
@@ -64,15 +64,15 @@ PREFIXES = {
     **dict.fromkeys(("G", "giga"), 1e9),
 }
 SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
-"""Other signs in a unit -> those that are read."""
+"""Other signs in a unit -> the signs that are understood."""
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
 _POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)
 
 
 def in_si(text: object, unit: str) -> float:
-    """A number with a unit in the SI unit given, rounded to 15 digits, or `MisfitError` with
-    the reason.
+    """A number with a unit, in the given SI unit, rounded to 15 digits; raises `MisfitError` with
+    the reason if it cannot be read.
     """
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise MisfitError("no quantity")
@@ -92,7 +92,7 @@ def in_si(text: object, unit: str) -> float:
 
 
 def quantity(text: object, unit: str) -> float:
-    """As `in_si`, for one value that a user gives; `ConfigError` with a line."""
+    """`in_si` for one value that a user gives; raises `ConfigError` with a line."""
     try:
         return in_si(text, unit)
     except MisfitError as error:

@@ -1,4 +1,4 @@
-"""What a user says of a record, where its file does not."""
+"""The user's answers about a record, for data that its file does not state."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Answers:
-    """What a user says of a record, in SI; empty: as the file says.
+    """The user's answers about a record, in SI; empty: as the file says.
 
     gauge: m. area: m^2. speed: m/s, of the travel, if no time was recorded. test: "pulled" or
     "pressed". zero: see `zero`. columns, units: by the quantities of `unit.SI`.

@@ -1,4 +1,6 @@
-"""What no record of a printed coupon is; with the option that mends it, if a unit is wrong."""
+"""Refuses values that no record of a printed coupon can have, with the option that corrects a
+unit.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +13,15 @@ from sweep.numbers import text_in, to_si, with_unit
 
 Floats = NDArray[np.float64]
 
-FORCE = "kN"  # that is recorded as N at times
+FORCE = "kN"  # a unit of mass that is sometimes recorded as N
 
 
 def doubts(strain: Floats, stress: Floats, words: dict[str, str]) -> list[str]:
-    """Options for units that are probably wrong; `MisfitError` for what no unit explains.
+    """Options for units that are probably wrong; raises `MisfitError` for values that no unit
+    explains.
 
-    strain, stress (n,) in Pa: positive in tension, negative in compression. words: heads with
-    their units, by what was measured.
+    strain, stress (n,) in Pa: positive in tension, negative in compression. words: heads with their
+    units, by quantity.
     """
     advice = []
     if strain.min() <= -1.0 and not in_percent(np.abs(strain).tolist()):

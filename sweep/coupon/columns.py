@@ -1,7 +1,8 @@
-"""Which column of a machine's table is time, displacement, strain, force or stress, and its unit.
+"""Identifies the columns of a machine's table: time, displacement, strain, force or stress, with
+units.
 
-The words of a head say what it may be, its unit which of it. Of several columns that may be the
-same, the user is asked, unless their numbers are the same.
+The words of a head say which quantities it may be, its unit which of them. If several columns may
+be the same quantity, the user is asked, unless their numbers are the same.
 """
 
 import re
@@ -41,21 +42,22 @@ OTHERS = (
     "rate speed velocity true max maximum peak lateral transverse transversal width breite "
     "temperature command target setpoint work energy modulus break count cycles"
 )
-"""Words of what else a machine records."""
+"""Words for other quantities that a machine records."""
 CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 """Where a word ends in "LoadCell" and "XForce"."""
-EQUAL = 0.01  # of the range of a column: it tells nothing else than another one
-LONGEST = 40  # characters of a head that are shown
-MOST_HEADS = 8  # heads that a message lists
+EQUAL = 0.01  # share of the range of a column within which two columns are the same
+LONGEST = 40  # most characters of a head that are shown
+MOST_HEADS = 8  # most heads that a message lists
 EXAMPLES = {"time": "s", "displacement": "mm", "strain": "%", "force": "N", "stress": "MPa"}
 
 
 @dataclass
 class Columns:
-    """The columns of a table by what they are, in SI, and what was found on the way.
+    """The columns of a table by their quantity, in SI, and remarks on how they were identified.
 
     words: their heads, with units. notes: sentences on how they were read. questions: what could
-    not be decided, with the option that decides it. undecided: of these, what is asked for already.
+    not be decided, with the option that decides it. undecided: quantities among these that already
+    have a question.
     """
 
     values: dict[str, Floats] = field(default_factory=dict)
@@ -68,7 +70,7 @@ class Columns:
 def columns_of(table: Table, chosen: Mapping[str, str], units: Mapping[str, str]) -> Columns:
     """The columns of a table.
 
-    chosen: heads, or numbers from 1, that the user has given; units: units likewise.
+    chosen: heads, or numbers from 1, given by the user; units: units given by the user.
     """
     columns = Columns(notes=[*table.notes])
     test = _test(table, chosen)
@@ -103,7 +105,7 @@ def _test(table: Table, chosen: Mapping[str, str]) -> range:
 
 
 def _ask_for_units(columns: Columns) -> None:
-    """Ask for the units of all columns that state none, or another one, at once."""
+    """Ask at once for the units of all columns that state none, or an unsuitable one."""
     if unknown := [quantity for quantity in columns.words if quantity not in columns.values]:
         words = " ".join(f"{quantity}={EXAMPLES[quantity]}" for quantity in unknown)
         heads = ", ".join(columns.words[quantity] for quantity in unknown)
@@ -112,7 +114,7 @@ def _ask_for_units(columns: Columns) -> None:
 
 
 def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
-    """Add a column in SI; its words alone, if its unit is not known."""
+    """Add a column in SI, or only its words if its unit is not known."""
     head, unit = table.heads[k], given or table.units[k]
     if head == quantity == "strain" and not unit:
         unit = "1"
@@ -126,7 +128,7 @@ def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | Non
 def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
     """The columns that may be a quantity, by their words and units; constant ones are left out.
 
-    Where no unit fits, those whose words do and whose unit is none of anything that is measured.
+    If no unit fits, columns whose words fit and whose unit is not the unit of any quantity.
     """
     moving = [k for k, values in enumerate(table.values.T) if np.ptp(_finite_or_zero(values)) > 0.0]
     units = {k: given or table.units[k] for k in moving}
@@ -145,7 +147,7 @@ def _finite_or_zero(values: Floats) -> Floats:
 
 
 def _may_be(head: str, unit: str, quantity: str) -> bool:
-    """Whether words and unit of a head allow that it is a quantity."""
+    """Whether words and unit of a head fit a quantity."""
     words = words_of(head)
     if set(words) & set(OTHERS.split()):
         return False
@@ -162,7 +164,7 @@ def _is_called(words: list[str], quantity: str) -> bool:
 
 
 def words_of(head: str) -> list[str]:
-    """The words of a head in small letters, without accents and numbers."""
+    """The words of a head in lower case, without accents and numbers."""
     plain_letters = unicodedata.normalize("NFKD", CAMEL.sub(" ", head).lower())
     letters = "".join(c for c in plain_letters if not unicodedata.combining(c))
     return re.findall(r"[^\W\d_]+", letters)
@@ -190,7 +192,9 @@ def _named(table: Table, name: str) -> list[int]:
 
 
 def _name(table: Table, k: int) -> str:
-    """What names a column alone: its head, or its number if it has none, or others have it too."""
+    """A unique name of a column: its head, or its number if it has no head, or one that others have
+    too.
+    """
     head = table.heads[k]
     return shown(head) if head and table.heads.count(head) == 1 else str(k + 1)
 
@@ -205,6 +209,6 @@ def heads_of(table: Table) -> str:
 
 
 def shown(text: str) -> str:
-    """A text of a file as a message may show it."""
+    """A text from a file, made safe for a message."""
     text = plain(text)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."

@@ -1,9 +1,9 @@
 """The curve of a material, at a few strains, from the first loading of a coupon.
 
-The material relaxes during the test, so that the first loading is not the curve that holds at one
-time after loading. The stresses of the curve are therefore chosen such that the law, taken through
-the same test, has the same first loading: each is multiplied by record / law until they agree.
-Record and law are compared as least-squares fits of straight lines between the points.
+The material relaxes during the test, so that the first loading is not the curve at one time after
+loading. The stresses of the curve are therefore chosen such that the law, taken through the same
+test, reproduces the first loading: each is multiplied by record / law until they agree. Record and
+law are compared as least-squares fits of straight lines between the points.
 """
 
 from typing import Any
@@ -23,13 +23,13 @@ from sweep.scene.material import UPPER_WEIGHT, law_in_stretch
 STRAINS = np.array(
     [0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0]
 )
-LAST = 0.9  # of the greatest strain: no point but the last beyond
+LAST = 0.9  # share of the greatest strain: no point but the last beyond
 FEWEST = 3  # points
 UNSURE = 0.05  # greatest standard error of a stress, relative
-ROUNDS = 4  # of record / law
+ROUNDS = 4  # rounds of record / law
 RISE = 1e-3  # least relative rise of the stress from point to point
 MIDDLE = 0.025  # strain: the middle of the secant modulus
-DENSITY, POISSON = 1200.0, 0.48  # of a material that serves as law alone
+DENSITY, POISSON = 1200.0, 0.48  # of a material that serves only as a law
 
 
 class Loading:
@@ -50,8 +50,8 @@ class Loading:
         self.reference_time = float(np.interp(MIDDLE, first, coupon.time[: rows[1] + 1]))
 
     def follow(self, memory: dict[str, float]) -> tuple[Floats, Floats]:
-        """Stresses (k,) at the points, in Pa, with which a law of this memory has the first loading
-        of the record; and the stress (n,) of that law in all rows.
+        """Stresses (k,) at the points, in Pa, with which a law with this memory reproduces the
+        first loading of the record; and the stress (n,) of that law in all rows.
         """
         at_points, stress = self.record, self.replay(self.record, memory)
         for _ in range(ROUNDS):
@@ -94,7 +94,7 @@ class Loading:
         return material(values | numbers)
 
     def curve(self, at_points: Floats) -> tuple[Floats, Floats]:
-        """Strains and stresses of the curve; that of a puck has both signs, see `tension`."""
+        """Strains and stresses of the curve; the curve of a puck has both signs, see `tension`."""
         if self.sign > 0.0:
             return self.points, at_points
         pulled = tension(self.points, at_points)
@@ -102,17 +102,18 @@ class Loading:
 
 
 def tension(strain: Floats, stress: Floats) -> Floats:
-    """Stress in tension of a material whose compression is known: of the `rubber` that follows it,
-    else the `tension_by_rules`.
+    """Stress in tension of a material whose compression is known: by the `rubber` that fits it,
+    else by `tension_by_rules`.
     """
     law = rubber(strain, stress)
     return tension_by_rules(strain, stress) if law is None else law.at(strain)
 
 
 def tension_by_rules(strain: Floats, stress: Floats, cauchy: float = UPPER_WEIGHT) -> Floats:
-    """The mean of `scene.material` the other way, of stress odd in nominal strain and the share
-    ``cauchy`` of Cauchy stress odd in log strain. It gives back a tension from its compression to
-    5 % up to 10 % strain, to 20 % up to 30 %.
+    """Stress in tension by the inverse of the rule in `scene.material`: a mean of stress odd in
+    nominal strain and, with the share ``cauchy``, of Cauchy stress odd in log strain.
+
+    It recovers a tension from its compression to 5 % up to 10 % strain, to 20 % up to 30 %.
     """
     return _monotonic_stress((1.0 - cauchy) * stress + cauchy * cauchy_odd(strain, stress))
 
@@ -120,7 +121,7 @@ def tension_by_rules(strain: Floats, stress: Floats, cauchy: float = UPPER_WEIGH
 def with_tension(
     curve_strain: tuple[float, ...], curve_stress: tuple[float, ...], cauchy: float
 ) -> tuple[Floats, Floats]:
-    """Strains and stresses of a curve with another tension: that of `tension_by_rules`."""
+    """Strains and stresses of a curve whose tension is replaced by `tension_by_rules`."""
     pressed = np.array(curve_strain) < 0.0
     strain, stress = -np.array(curve_strain)[pressed][::-1], -np.array(curve_stress)[pressed][::-1]
     pulled = tension_by_rules(strain, stress, cauchy)
@@ -136,7 +137,7 @@ def cauchy_odd(strain: Floats, stress: Floats) -> Floats:
 
 
 def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:
-    """The rows of all loadings in which the strain is greater than ever before."""
+    """The rows of all loadings in which the strain exceeds its past maximum."""
     loadings, most = [np.arange(rows[1] + 1)], strain[rows[1]]
     for low, high in zip(rows[2::2], rows[3::2], strict=False):
         loading = np.arange(low, high + 1)
@@ -146,7 +147,7 @@ def _first_time(strain: Floats, rows: list[int]) -> NDArray[np.intp]:
 
 
 def _sure_points(strain: Floats, stress: Floats) -> Floats:
-    """The points whose stresses a noisy record gives, to `UNSURE`."""
+    """The points whose stresses a noisy record determines to within `UNSURE`."""
     most = strain.max()
     points = np.r_[STRAINS[LAST * most > STRAINS], most]
     while True:
@@ -180,7 +181,7 @@ def _hats(strain: Floats, points: Floats) -> Floats:
 
 
 def _monotonic_stress(stress: Floats) -> Floats:
-    """Stresses (k,), Pa, each raised to at least (1 + RISE) times the one before."""
+    """Stresses (k,), Pa, each raised to at least (1 + RISE) times the previous one."""
     values = np.array(stress)
     values[0] = max(values[0], RISE * values[-1])
     for k in range(1, values.size):

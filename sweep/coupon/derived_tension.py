@@ -1,4 +1,4 @@
-"""What a material file says of a tension that is derived from the compression of a puck."""
+"""Comments in a material file on a tension that is derived from the compression of a puck."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,9 @@ COMPARED = 0.2  # strain, or the end of a shorter record
 
 
 def tension_lines(strain: Floats, stress: Floats) -> Iterator[str]:
-    """Comment lines on the rule, and how far the others are apart; strain, stress: of the curve."""
+    """Comment lines on the rule, and on how far the other rules deviate; strain, stress: of the
+    curve.
+    """
     pressed = strain < 0.0
     shortening, pressure = -strain[pressed][::-1], -stress[pressed][::-1]
     at = min(COMPARED, float(shortening[-1]))

@@ -1,4 +1,4 @@
-"""Whether a specimen was pulled or pressed. Machines often record pressing as positive numbers.
+"""Decides whether a specimen was pulled or pressed. Machines often record compression as positive.
 
 The stiffness of pulled printed TPU falls from the first point on, the stiffness of pressed rubber
 grows, by a factor 1 + 2 b e / a of a parabola s = a e + b e^2 through the first loading.
@@ -18,12 +18,12 @@ SIGNS = {"pulled": (1.0, 1.0), "pressed": (-1.0, -1.0)}
 """Signs of strain and stress in a test."""
 PRESSED = re.compile(r"compress|stauch|druckversuch|druckspannung|écrasement", re.IGNORECASE)
 PULLED = re.compile(r"tensile|tension test|zugversuch|traction", re.IGNORECASE)
-GROWTH = 0.1  # of the stiffness in the first loading, from which pulling is doubtful
-UP_TO = 0.3  # strain: rubber that is pulled farther grows stiffer again
+GROWTH = 0.1  # growth of the stiffness in the first loading from which pulling is doubtful
+UP_TO = 0.3  # strain: beyond it pulled rubber becomes stiffer again
 
 
 def stated_test(texts: Iterable[str]) -> str | None:
-    """What a file says of its test, "pulled" or "pressed"; None if nothing, or both."""
+    """The test that a file states, "pulled" or "pressed"; None if it states neither, or both."""
     words = "\n".join(texts)
     said = [word for word, sign in (("pulled", PULLED), ("pressed", PRESSED)) if sign.search(words)]
     return said[0] if len(said) == 1 else None
@@ -46,8 +46,8 @@ def sides_of(strain: Floats, stress: Floats) -> tuple[float, float]:
 def doubt(strain: Floats, stress: Floats, said: str | None, to_scale: bool) -> str | None:
     """Why it cannot be decided how a specimen was tested; None if it can.
 
-    said: what the file says, see `stated_test`. to_scale: false if the strains are not known but
-    for a factor.
+    said: the test that the file states, see `stated_test`. to_scale: false if the strains are known
+    only up to a factor.
     """
     sides = sides_of(strain, stress)
     if said == "pressed" or (said and sides[0] != sides[1]):

@@ -1,11 +1,11 @@
 """Fits the curve, the loss and the softening of a material to the test of a coupon.
 
-Loss and softening (r, m, beta) are those of least squares between the record and the law, taken
-through the same test (`Loading.follow`). What the record does not show is left out: without
-unloading there is no loss, without reloading no softening, and unless a second cycle is larger than
-the first one only m + beta W is known, W being the greatest energy: beta is then an assumption. Of
-the laws that are as good as the best, the one with the fewest numbers is chosen. Standard errors
-follow from the Jacobian of the least squares (`uncertainty`).
+Loss and softening (r, m, beta) minimise the squared differences between the record and the law,
+taken through the same test (`Loading.follow`). Effects that the record does not show are left out:
+without unloading there is no loss, without reloading no softening, and unless a second cycle is
+larger than the first one only m + beta W is known, W being the greatest energy: beta is then an
+assumption. Of the laws that are as good as the best, the one with the fewest numbers is chosen.
+Standard errors follow from the Jacobian of the least squares (`uncertainty`).
 """
 
 from dataclasses import dataclass
@@ -19,19 +19,19 @@ from sweep.coupon.uncertainty import standard_errors
 from sweep.numbers import text_in
 
 BETA = 0.1  # assumed where the record does not show it
-LARGER = 1.2  # of the first peak: a second one that determines beta
-SLACK = 0.02  # of the greatest stress: below it a strip may be slack
-ABOVE = 0.02  # of the work: by so much unloading may lie above loading, by noise
-UNLOADED = 0.05  # of the greatest stress
-AS_GOOD = 1.05, 5e-4  # of the least misfit, and of the greatest stress
-STEP = 1e-3  # relative, of the numbers, for differences
+LARGER = 1.2  # ratio to the first peak from which a second peak determines beta
+SLACK = 0.02  # share of the greatest stress below which a strip may be slack
+ABOVE = 0.02  # share of the work by which noise may raise unloading above loading
+UNLOADED = 0.05  # share of the greatest stress
+AS_GOOD = 1.05, 5e-4  # share of the least misfit, and of the greatest stress
+STEP = 1e-3  # relative step of the numbers for finite differences
 BOUNDS = {
     "loss": (0.005, 0.7),
     "softening": (0.0, 0.95),
     "width": (0.01, 3.0),
     "softening_beta": (0.0, 2.0),
 }
-"""Of the numbers that are fitted: softening 1 / r; width: m over the work of the first loading."""
+"""Bounds of the fitted numbers; softening: 1 / r; width: m over the work of the first loading."""
 START = {"loss": 0.3, "softening": 0.4, "width": 0.3, "softening_beta": BETA}
 
 
@@ -40,10 +40,10 @@ class Fit:
     """A material that follows a coupon.
 
     strain, stress (k,): curve at ``reference_time`` (s) after loading. memory: loss and softening.
-    errors: standard errors of these numbers that are fitted, and of the modulus over the modulus.
-    model (n,): stress of the law in every row, Pa. misfit: root mean square of record - law over
-    the greatest stress. worst: the greatest of it, with its row. shares: lost share of the work of
-    the first cycle and of the second, None where there is none.
+    errors: standard errors of the fitted ones of these numbers, and of the modulus over the
+    modulus. model (n,): stress of the law in every row, Pa. misfit: root mean square of record -
+    law over the greatest stress. worst: the greatest difference, with its row. shares: lost share
+    of the work of the first cycle and of the second, None for a missing cycle.
     """
 
     coupon: Coupon
@@ -97,7 +97,7 @@ def fit(coupon: Coupon) -> Fit:
 
 
 def _check_unloading(coupon: Coupon, rows: list[int]) -> None:
-    """Refuse a record whose first unloading gives back more than the loading has taken."""
+    """Refuse a record whose first unloading returns more work than the loading has taken."""
     if len(rows) < 3:
         return
     strain, stress = coupon.sign * coupon.strain, coupon.sign * coupon.stress
@@ -142,7 +142,7 @@ def _laws(rows: list[int], grows: bool) -> list[tuple[str, ...]]:
 def _fitted(
     coupon: Coupon, loading: Loading, names: tuple[str, ...], scale: float
 ) -> tuple[dict[str, float], dict[str, float], float]:
-    """The memory of least squares with these numbers, its standard errors, and its misfit."""
+    """The memory by least squares with these numbers, its standard errors, and its misfit."""
 
     def apart(numbers: Floats) -> Floats:
         memory = _memory(dict(zip(names, numbers.tolist(), strict=True)), scale)
@@ -162,7 +162,7 @@ def _fitted(
 
 
 def _memory(numbers: dict[str, float], scale: float) -> dict[str, float]:
-    """The keys of a material of fitted numbers."""
+    """The keys of a material from fitted numbers."""
     memory = {"loss": numbers["loss"]} if "loss" in numbers else {}
     if numbers.get("softening", 0.0) > 0.0:
         memory["softening_r"] = 1.0 / numbers["softening"]

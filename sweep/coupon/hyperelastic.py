@@ -1,4 +1,5 @@
-"""The tension of a material whose compression is known, by an incompressible hyperelastic law.
+"""Derives the tension of a material whose compression is known, by an incompressible hyperelastic
+law.
 
 Mooney and Rivlin, nominal stress over stretch s, with both constants 0 or more, so that the stress
 rises with every stretch:
@@ -6,7 +7,7 @@ rises with every stretch:
     P(s) = 2 (C1 + C2 / s) (s - 1 / s^2)
 
 C2 = 0 is the neo-Hookean law. Two constants follow a puck from 0 to 40 % compression if it is a
-rubber; a printed TPU that yields softens more than any such law, and is not followed.
+rubber; a printed TPU that yields softens more than any such law, and cannot be fitted.
 """
 
 from typing import NamedTuple
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-FOLLOWED = 0.02  # of the greatest stress, root mean square: a law that is farther off is not used
-LEAST = 0.1  # strain: a shorter record does not tell one constant from the other
+FOLLOWED = 0.02  # rms misfit over the greatest stress: a law with a larger one is not used
+LEAST = 0.1  # strain: a shorter record does not distinguish the two constants
 
 
 class Rubber(NamedTuple):
@@ -33,7 +34,7 @@ class Rubber(NamedTuple):
 
 
 def rubber(strain: Floats, stress: Floats) -> Rubber | None:
-    """The law of least squares of a compression; None if no such law follows it.
+    """The law fitted to a compression by least squares; None if no such law fits.
 
     strain, stress (n,): nominal, both positive in compression, without the origin.
     """

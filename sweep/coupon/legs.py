@@ -6,8 +6,8 @@ import numpy as np
 
 from sweep.coupon.record import Coupon, Floats
 
-TURN = 0.05  # of the greatest strain: smaller turns are noise
-POINTS = 80  # of the path of a leg
+TURN = 0.05  # share of the greatest strain: smaller turns are noise
+POINTS = 80  # most points of the path of a leg
 NAMES = ("the first loading", "unloading", "reloading")
 
 
@@ -32,8 +32,8 @@ def leg_name(rows: list[int], row: int) -> str:
 
 
 def path(coupon: Coupon, rows: list[int]) -> tuple[Floats, Floats]:
-    """Times and strains of at most `POINTS` points of each leg; between its ends, means of the
-    rows around them, so that noise of the strain is no cycle.
+    """Times and strains of at most `POINTS` points of each leg; between its ends, means of the rows
+    around them, so that noise of the strain is no cycle.
     """
     time, strain = [coupon.time[0]], [coupon.strain[0]]
     for first, last in pairwise(rows):
@@ -47,6 +47,6 @@ def path(coupon: Coupon, rows: list[int]) -> tuple[Floats, Floats]:
 
 
 def work(coupon: Coupon, first: int, last: int) -> float:
-    """Work between two rows, J/m^3, of the rows whose stress has the sign of the strain."""
+    """Work between two rows, J/m^3, over the rows in which stress and strain have the same sign."""
     strain, stress = coupon.sign * coupon.strain, np.maximum(coupon.sign * coupon.stress, 0.0)
     return float(np.trapezoid(stress[first : last + 1], strain[first : last + 1]))

@@ -1,4 +1,6 @@
-"""Materials from Python: those that come with Crumple as a table, and a coupon fitted to a file."""
+"""Materials in Python: a table of the materials that come with Crumple, and a coupon fitted to a
+file.
+"""
 
 import os
 from collections.abc import Mapping
@@ -27,8 +29,8 @@ def materials() -> DataFrame:
     """The materials that come with Crumple, a row each, by name.
 
     Each number has its value and both ends of its range, `..._low` and `..._high`, which are the
-    value where no range is known; `loss`, `softening_r` and `yield_stress_Pa` are NaN where the
-    file states none. `source`: where the numbers are from.
+    value if no range is known; `loss`, `softening_r` and `yield_stress_Pa` are NaN if the file
+    states none. `source`: origin of the numbers.
     """
     rows = {}
     for name in available():
@@ -61,8 +63,8 @@ def fit_material(  # noqa: PLR0913  each answers one question that a record may 
 
     file : as the testing machine exports it. out : by default FILE_material.csv beside it. gauge,
     area, density, speed: text with a unit. test: "pulled" or "pressed". zero: where the record
-    begins. units, columns: by what is measured, such as {"force": "kN"}. All of them as of
-    `crumple materials fit`, which `CouponError` refers to if the file leaves something open.
+    begins. units, columns: by quantity, such as {"force": "kN"}. All are the options of `crumple
+    materials fit`, which `CouponError` refers to if the file leaves something open.
     """
     path = Path(file)
     target = Path(out or path.with_name(f"{path.stem}_material.csv"))

@@ -1,4 +1,4 @@
-"""Time, strain and stress of a record, from its columns and what the user says of them."""
+"""Time, strain and stress of a record, from its columns and the user's answers."""
 
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ from sweep.numbers import counted, with_unit
 Floats = NDArray[np.float64]
 
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
-"""What a size of the specimen makes of what is measured."""
+"""Size of the specimen -> the quantity that follows from it, and the measured quantity."""
 NEEDED = {
     "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
     "area": '"8 mm^2" (section of the specimen), to make a stress of',
@@ -25,8 +25,8 @@ EVEN = "time and an even speed"  # the head of a travel that was not recorded
 
 
 class Measured(NamedTuple):
-    """Time (n,), s; strain (n,) and stress (n,), Pa; to_scale: false if they are not known but for
-    a factor, as a size of the specimen is asked for.
+    """Time (n,), s; strain (n,) and stress (n,), Pa; to_scale: false if they are known only up to a
+    factor, as a size of the specimen is missing.
     """
 
     time: Floats
@@ -36,7 +36,9 @@ class Measured(NamedTuple):
 
 
 def measured(table: Table, columns: Columns, answers: Answers) -> Measured | None:
-    """What was measured; None if it is not known what. Adds to notes and questions of columns."""
+    """The measured curve; None if it cannot be determined. Adds to notes and questions of
+    columns.
+    """
     for name in (*SIZES, "speed"):
         if (given := getattr(answers, name)) is not None and not given > 0.0:
             raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
@@ -61,7 +63,9 @@ def _add_travel(columns: Columns, answers: Answers) -> None:
 def _over(
     size: str, table: Table, columns: Columns, answers: Answers
 ) -> tuple[Floats, bool] | None:
-    """Strain or stress, or what was measured, over a size of the specimen, if that is known."""
+    """Strain or stress, by division by a size of the specimen, if that is known; else the raw
+    values.
+    """
     ready, raw = SIZES[size]
     given: float | None = getattr(answers, size)
     if ready in columns.values and (given is None or raw not in columns.values):
@@ -111,7 +115,7 @@ def _time(table: Table, columns: Columns, answers: Answers, strain: Floats | Non
 
 
 def _complete_rows(columns: Columns, raw: Measured) -> Measured:
-    """The rows with all numbers whose time is later than the one before."""
+    """The rows without missing numbers whose time is later than in the previous row."""
     whole = np.isfinite(raw.time) & np.isfinite(raw.strain) & np.isfinite(raw.stress)
     time = raw.time[whole]
     if time.size < FEWEST:

@@ -1,9 +1,10 @@
 """Reads the record of a coupon, a printed strip or puck that was loaded, unloaded and loaded again.
 
-The export of a testing machine as it is (`table`, `columns`), with time, strain or displacement,
-and stress or force (`measured`). Nominal strain and stress are positive in tension; of a puck that
-is pressed, both are negative (`direction`). Travel that was not set to zero, preload and slack are
-shifted (`zero`). What cannot be decided is asked for at once, each with the option that decides it.
+It reads the unchanged export of a testing machine (`table`, `columns`), with time, strain or
+displacement, and stress or force (`measured`). Nominal strain and stress are positive in tension;
+in a puck that is pressed, both are negative (`direction`). Travel that was not set to zero, preload
+and slack are shifted (`zero`). All open questions are asked at once, each with the option that
+decides it.
 """
 
 from collections.abc import Iterable
@@ -25,14 +26,14 @@ Floats = NDArray[np.float64]
 
 
 class CouponError(MisfitError):
-    """A record that cannot be used; the text has the file and the fault, or all that is needed."""
+    """A record that cannot be used; the text has the file and the fault, or all open questions."""
 
 
 @dataclass(frozen=True)
 class Coupon:
     """Time (n,) in s from the first row, nominal strain (n,) and stress (n,) in Pa.
 
-    sign: 1 of a strip that is pulled, -1 of a puck that is pressed. notes: sentences on how the
+    sign: 1 for a strip that is pulled, -1 for a puck that is pressed. notes: sentences on how the
     record was read.
     """
 
@@ -74,14 +75,14 @@ def _coupon(path: Path, answers: Answers) -> Coupon:
 
 
 def _needed(questions: list[str]) -> str:
-    """All that could not be decided, in one message."""
+    """All open questions, in one message."""
     if len(questions) == 1:
         return f"needed: {questions[0]}"
     return "\n  ".join(["needed, all in one command:", *questions])
 
 
 def _directed(raw: Measured, columns: Columns, answers: Answers, texts: Iterable[str]) -> Measured:
-    """What was measured, with the signs of the test, or the question which test it is."""
+    """The measured curve with the signs of the test, or the question which test it is."""
     stated = direction.stated_test(texts)
     doubt = direction.doubt(raw.strain, raw.stress, stated, raw.to_scale)
     if doubt and answers.test is None:
@@ -98,7 +99,7 @@ def _directed(raw: Measured, columns: Columns, answers: Answers, texts: Iterable
 
 
 def _zeroed(raw: Measured, columns: Columns, answers: Answers) -> tuple[Floats, Floats, Floats]:
-    """Time, strain and stress that begin at zero, or the question where they do."""
+    """Time, strain and stress shifted to begin at zero; asks how to shift them if in doubt."""
     path = (raw.time, raw.strain, raw.stress)
     if answers.zero is None:
         if doubt := zero.doubt(raw.strain, raw.stress, raw.to_scale):

@@ -1,10 +1,10 @@
 """The table of numbers in the export of a testing machine: its heads, their units, its rows.
 
 Machines write lines about the test, then a row of heads, often a row of units, then rows of
-numbers. Between values stand semicolons, tabs, commas or blanks, and numbers have a decimal point
-or comma: of these, the table has those by which most values are numbers. Its rows are the longest
-run of rows of numbers; heads and units stand directly above them. A library that reads csv files
-would have to be told all of this.
+numbers. Values are separated by semicolons, tabs, commas or blanks, and numbers have a decimal
+point or comma: the combination that makes most values numbers is chosen. The rows of the table are
+the longest run of rows of numbers; heads and units stand directly above them. A library that reads
+csv files would need all of this as arguments.
 """
 
 import re
@@ -27,7 +27,7 @@ FEWEST = 20  # rows
 FORMS = ((";", ","), (";", "."), ("\t", ","), ("\t", "."), (",", "."), (",", ","), (" ", "."))
 """Separators and decimal signs; of equally good ones, the first is taken."""
 WORDS = {";": "semicolons", "\t": "tabs", ",": "commas", " ": "blanks"}
-SAMPLE = 400  # lines, over the whole text, by which the form is found
+SAMPLE = 400  # lines, spread over the whole text, from which the form is found
 NUMBERS = {
     sign: re.compile(rf"[+-]?(?:\d+{point}?\d*|{point}\d+)(?:[eE][+-]?\d+)?", re.ASCII)
     for sign, point in ((".", r"\."), (",", ","))
@@ -37,7 +37,7 @@ GROUPED = {
     ",": re.compile(r"[+-]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d+)?", re.ASCII),
 }
 """Numbers with a sign between thousands, by their decimal sign."""
-LARGE = 1e30  # no measured number
+LARGE = 1e30  # larger than any measured number
 MISSING = ("", "-", "--", "---", "nan", "n/a", "null")
 
 
@@ -91,7 +91,7 @@ def _too_few(count: int) -> str:
 
 
 def number(text: str, decimal: str) -> float | None:
-    """The number of a cell; None if it is none."""
+    """The number in a cell; None if it has none."""
     if not NUMBERS[decimal].fullmatch(text):
         text = text.replace("\N{MINUS SIGN}", "-")
         if GROUPED[decimal].fullmatch(text):
@@ -103,7 +103,7 @@ def number(text: str, decimal: str) -> float | None:
 
 
 def _numbers(row: Row, decimal: str) -> list[float]:
-    """The numbers of a row, NaN for what is none."""
+    """The numbers of a row, NaN for cells that are no numbers."""
     return [nan if (value := number(text, decimal)) is None else value for text in row]
 
 
@@ -122,7 +122,7 @@ def _form(lines: Sequence[str]) -> tuple[str, str]:
 
 
 def _cells(line: str, separator: str) -> Row:
-    """The values of a line, without those that are empty at its end."""
+    """The values of a line, without empty ones at its end."""
     row = line.split() if separator == " " else rows_of([line], separator)[0]
     row = [text.strip() for text in row]
     while len(row) > 1 and not row[-1]:
@@ -131,7 +131,7 @@ def _cells(line: str, separator: str) -> Row:
 
 
 def _is_numeric(row: Row, numbers: list[float]) -> bool:
-    """Whether at least two values of a row, and half of those that it has, are numbers."""
+    """Whether at least two values of a row, and half of those that are not empty, are numbers."""
     count = len(numbers) - sum(map(isnan, numbers))
     return count > 1 and 2 * count >= sum(text.lower() not in MISSING for text in row)
 

@@ -12,8 +12,8 @@ def covariance(jacobian: Floats, residuals: Floats) -> Floats:
     """Covariance (p, p) of p numbers: s^2 (J^T J)^-1 (1 + c) / (1 - c).
 
     jacobian (n, p), residuals (n,). s^2: sum of squares of the residuals over n - p. c: correlation
-    of neighbouring residuals, if it is positive: n rows in which the misfit changes slowly tell as
-    much as n (1 - c) / (1 + c) independent ones.
+    of neighbouring residuals, if it is positive: n rows in which the misfit changes slowly contain
+    as much information as n (1 - c) / (1 + c) independent ones.
     """
     rows, numbers = jacobian.shape
     squares = float(residuals @ residuals)

@@ -6,7 +6,7 @@ from sweep.config.faults import MisfitError
 from sweep.config.units import in_si
 
 SI = {"time": "s", "displacement": "m", "strain": "1", "force": "N", "stress": "Pa"}
-"""What is measured -> its unit."""
+"""Quantity -> its SI unit."""
 OTHER_NAMES = {
     **{name.lower(): name for name in ("N", "kN", "MN", "Pa", "kPa", "GPa", "mm", "ms")},
     "mpa": "MPa",
@@ -18,7 +18,7 @@ OTHER_NAMES = {
     "pct": "%",
     "-": "1",
 }
-"""Units as machines write them, in small letters -> as `sweep.config.units` reads them."""
+"""Units as machines write them, in lower case -> as `sweep.config.units` reads them."""
 BRACKETS = re.compile(r"\(([^()]*)\)|\[([^\[\]]*)\]|<([^<>]*)>")
 BEFORE_UNIT = re.compile(r"\s+in\s+|\s*[/,]\s*|[\s_]")
 POWER = re.compile(r"(?<=[a-zA-Z])([23])\b")
@@ -26,7 +26,7 @@ LONGEST = 12  # characters of a unit
 
 
 def size_in_si(unit: str, quantity: str) -> float | None:
-    """A unit over the SI unit of what is measured; None if it is no unit of that."""
+    """A unit over the SI unit of a quantity; None if it is no unit of this quantity."""
     written = POWER.sub(r"^\1", unit.strip())
     small = written.lower()
     for text in (written, OTHER_NAMES.get(small, small)):
@@ -38,7 +38,7 @@ def size_in_si(unit: str, quantity: str) -> float | None:
 
 
 def is_unit(text: str) -> bool:
-    """Whether a text is a unit of something that is measured, or of something else in brackets."""
+    """Whether a text is the unit of a quantity, or anything else in brackets."""
     inner = text.strip("()[]<> ")
     if len(inner) > LONGEST or inner.isdecimal():
         return False

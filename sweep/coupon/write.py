@@ -1,4 +1,6 @@
-"""Writes the material of a coupon as a csv file for `material.name`, and says how well it fits."""
+"""Writes the material of a coupon as a csv file for `material.name`, and reports how well it
+fits.
+"""
 
 from collections.abc import Iterator
 from math import inf
@@ -11,11 +13,11 @@ from sweep.coupon.legs import leg_name
 from sweep.numbers import in_unit, significant, text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
-USUAL_RATES = 2e-4, 1.0  # 1/s, of tests of coupons
+USUAL_RATES = 2e-4, 1.0  # 1/s: strain rates of coupon tests
 SOFT = 5e6  # Pa
 POOR = 0.03  # root mean square of record - law over the greatest stress
 SURE = 5e-4  # relative: smaller standard errors are not written
-LEAST = 0.01  # of a number: the low end of its range, if that were none
+LEAST = 0.01  # share of a number: the low end of its range if that were not positive
 POISSON = "0.48 (0.45 .. 0.48)"
 
 
@@ -70,7 +72,7 @@ def _memory(fit: Fit) -> Iterator[str]:
 
 
 def _with_error(fit: Fit, key: str) -> str:
-    """A fitted number with its standard error, within the numbers that a file may have."""
+    """A fitted number with its standard error, limited to the range that a file may have."""
     value, error = fit.memory[key], fit.errors.get(key, 0.0)
     if error <= SURE * value:
         return f"{value:.4g}"
@@ -100,7 +102,7 @@ def fit_sentence(fit: Fit) -> str:
 
 
 def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
-    """What was found, a line each; record: the file that was written, read again."""
+    """The results of a fit, a line each; record: the file that was written, read again."""
     yield from (f"read            {note}" for note in fit.coupon.notes)
     yield f"first loading   {_first_loading(fit)}"
     modulus = _plus_minus(record.modulus, fit.errors["modulus"] * record.modulus, "MPa", 4)
@@ -117,7 +119,7 @@ def sentences_on_fit(fit: Fit, record: Record) -> Iterator[str]:
 
 
 def doubts(fit: Fit, record: Record) -> Iterator[str]:
-    """Warnings about what is unusual and may be a mistake; record: as in `sentences_on_fit`."""
+    """Warnings about unusual results that may be a mistake; record: as in `sentences_on_fit`."""
     coupon, turn = fit.coupon, fit.rows[1]
     rate = abs(float(coupon.strain[turn])) / float(coupon.time[turn])
     low, high = USUAL_RATES
@@ -160,7 +162,7 @@ def _memory_lines(fit: Fit) -> Iterator[str]:
 
 
 def _first_loading(fit: Fit) -> str:
-    """What the curve is fitted to, in words."""
+    """The part of the record to which the curve is fitted, in words."""
     to = f"to a strain of {fit.coupon.strain[fit.rows[1]]:.3g}"
     loadings = len(fit.rows) // 2
     if loadings < 2:
@@ -169,7 +171,7 @@ def _first_loading(fit: Fit) -> str:
 
 
 def _shown(fit: Fit, key: str) -> str:
-    """A number of a memory with its standard error, if that is fitted."""
+    """A number of a memory with its standard error, if it is fitted."""
     return _plus_minus(fit.memory[key], fit.errors.get(key, 0.0), "", 3)
 
 

@@ -1,8 +1,8 @@
-"""Where strain and stress begin: travel that was not set to zero, preload, and slack.
+"""The origin of strain and stress: travel that was not set to zero, preload, and slack.
 
-"first": at the first row, from which both are measured. "line": where the straight line through
-the beginning of the loading meets zero stress, as the toe compensation of ASTM D638 has it: slack
-is cut off, and a preload is joined to the origin.
+"first": at the first row, from which both are measured. "line": where the straight line through the
+beginning of the loading meets zero stress, as in the toe compensation of ASTM D638: slack is cut
+off, and a preload is joined to the origin.
 """
 
 import numpy as np
@@ -16,17 +16,17 @@ Path = tuple[Floats, Floats, Floats]
 CHOICES = ("first", "line")
 OFFSET = 0.005, 0.05  # greatest first strain, and first stress over the greatest one
 NO_STRAIN = 1e-4
-UNLOADED = 0.002  # of the greatest stress
+UNLOADED = 0.002  # share of the greatest stress
 SLACK = 0.005  # strain
-SLACK_SHARE = 0.03  # of the greatest strain, if that is not known
-WINDOW = 0.02, 0.08  # of the greatest stress: the line goes through the rows between
-FEWEST = 4  # rows of the line
+SLACK_SHARE = 0.03  # share of the greatest strain, if strain is not to scale
+WINDOW = 0.02, 0.08  # shares of the greatest stress: the line goes through the rows between
+FEWEST = 4  # least number of rows of the line
 
 
 def doubt(strain: Floats, stress: Floats, to_scale: bool) -> str | None:
     """Why the zero of strain and stress (n,) cannot be decided; None if it can.
 
-    to_scale: false if the strains are not known but for a factor.
+    to_scale: false if the strains are known only up to a factor.
     """
     share = abs(float(stress[0])) / float(np.abs(stress).max())
     if share > OFFSET[1]:
@@ -47,7 +47,7 @@ def doubt(strain: Floats, stress: Floats, to_scale: bool) -> str | None:
 
 
 def begins_at_zero(strain: Floats, stress: Floats) -> bool:
-    """Whether a record begins at zero, or at a small strain with the stress of that."""
+    """Whether a record begins at zero, or at a small strain with the corresponding stress."""
     share = abs(float(stress[0])) / float(np.abs(stress).max())
     if abs(strain[0]) <= NO_STRAIN:
         return share <= OFFSET[1]

@@ -1,6 +1,7 @@
 """Area of the union of overlapping shapes.
 
-`united_area` gives the mass of a print (`network.mass`), `covered_area` that of deformed shapes.
+`united_area` gives the mass of a print (`network.mass`), `covered_area` the area of deformed
+shapes.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ Ints = NDArray[np.int64]
 
 LINES = 16  # scanlines across the thinnest wall: error 3e-4 with many walls, 1e-3 with one wall
 CHUNK = 1 << 19  # intervals held in memory at a time
-FAR = 1e6  # extent of a shape in thicknesses, above which its area is not computed
+FAR = 1e6  # extent of a shape in thicknesses above which its area is not computed
 
 
 def united_area(loops: Floats) -> float:

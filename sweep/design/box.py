@@ -50,7 +50,7 @@ def gradient(geometry: Geometry) -> Floats:
     """Thickness of every wall / the mean thickness of the infill, weighted by length, (w,).
 
     The thickness is linear in the height of the wall's middle; `grading` is its value at the top
-    over that at the bottom.
+    over its value at the bottom.
     """
     length, height = infill_walls(geometry)
     share = 1.0 + (geometry.grading - 1.0) * height
@@ -84,7 +84,9 @@ def _opening(drawn: Sketch) -> float:
 
 
 def clear_widths(points: Floats, walls: Indices) -> Floats:
-    """Diameter (m) of the largest circle in each cell between walls, but once of equal cells."""
+    """Diameter (m) of the largest circle in each cell between walls, with equal cells counted
+    once.
+    """
     import shapely  # few sweeps need it
 
     cells = shapely.get_parts(shapely.polygonize(shapely.linestrings(points[walls])))

@@ -1,4 +1,4 @@
-"""From centre lines to joints and walls: drawings are stretched to a box, clipped and welded."""
+"""Turns centre lines into joints and walls: drawings are stretched to a box, clipped and welded."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-TOLERANCE = 1e-9  # of the box: points nearer than that are one point
+TOLERANCE = 1e-9  # share of the box: points nearer than that are one point
 FEW = 4  # cells in a row, enough to tell how numbers and sizes grow with the number of cells
 SPILL = 1  # cells drawn beyond the box on each side, which an outline cuts off
 
@@ -27,7 +27,7 @@ SPILL = 1  # cells drawn beyond the box on each side, which an outline cuts off
 class Sketch(NamedTuple):
     """A family of infill in a box (m).
 
-    closed: with an outline on all four sides; capped: with one at the top and the bottom.
+    closed: with an outline on all four sides; capped: with an outline at the top and the bottom.
     """
 
     kind: str
@@ -39,7 +39,9 @@ class Sketch(NamedTuple):
 
 
 def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
-    """The sketch of a lattice; without ``outlined`` that of its infill alone, in whole cells."""
+    """The sketch of a lattice; without ``outlined`` the sketch of its infill alone, in whole
+    cells.
+    """
     kind, orientation, cells, box = geometry[:4]
     if any(geometry.periodic):
         low, high = extent(kind, orientation, cells)
@@ -87,7 +89,7 @@ def extent(kind: str, orientation: str | None, cells: tuple[int, int]) -> tuple[
 def pitch(kind: str, orientation: str | None) -> Floats:
     """Width and height (2,) of a regular cell, in the unit of its family.
 
-    They are half of what two more cells add to the extent.
+    They are half of the extent that two more cells add.
     """
     (low, high), (less, more) = (extent(kind, orientation, (n, n)) for n in (FEW, FEW + 2))
     return 0.5 * ((more - less) - (high - low))

@@ -6,7 +6,7 @@ from sweep.design.drawing import Floats, Indices
 from sweep.design.geometry import Drawing
 from sweep.design.network import Network
 
-BENT = 15.0  # degrees: two walls that meet at less are one bent wall
+BENT = 15.0  # degrees: two walls that meet at a smaller angle are one bent wall
 
 
 def build_drawn(drawing: Drawing, thickness: float) -> Network:
@@ -26,9 +26,9 @@ def loose_ends(network: Network) -> Indices:
 
 
 def _part(points: Floats, walls: Indices, share: Floats) -> Floats:
-    """Length of every wall over that of its smooth line, (w,), as `Network.part`.
+    """Length of every wall over the length of its smooth line, (w,), as in `Network.part`.
 
-    Walls of a line meet by twos, are equally thick, and turn by less than `BENT`.
+    In a smooth line walls meet in pairs, are equally thick, and turn by less than `BENT`.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

@@ -21,10 +21,10 @@ class Geometry(NamedTuple):
     """A family of infill in a box; lengths in m.
 
     kind, orientation: as in `infill`. cells: columns and rows. box: width and height over centre
-    lines, or of one period where the lattice repeats. periodic: whether it repeats in x and in y.
-    grading: thickness of the walls at the top over that at the bottom. outline: thickness of the
-    walls round the infill, at the left and right sides and at the bottom and top; 0: no outline.
-    sliced: how a slicer lays the infill; drawing: the walls themselves; with either, kind,
+    lines, or of one period if the lattice repeats. periodic: whether it repeats in x and in y.
+    grading: thickness of the walls at the top over the thickness at the bottom. outline: thickness
+    of the walls round the infill, at the left and right sides and at the bottom and top; 0: no
+    outline. sliced: how a slicer lays the infill; drawing: the walls themselves; with either, kind,
     orientation and cells have no meaning.
     """
 

@@ -1,4 +1,6 @@
-"""The lattice as drawn: the infill of a box, one period of what repeats, a slicer's, a user's."""
+"""The lattice as drawn: the infill of a box, one period of a repeating lattice, a slicer's, a
+user's.
+"""
 
 from functools import lru_cache
 
@@ -21,7 +23,7 @@ def build_network(geometry: Geometry) -> Network:
 
 
 def counted_area(geometry: Geometry) -> float:
-    """Area (m^2) whose mass budgets count: what a slicer extrudes, else the union of the walls."""
+    """Area (m^2) whose mass budgets count: as extruded by a slicer, else the union of the walls."""
     if geometry.sliced is not None:
         return extruded_area(geometry)
     return build_network(geometry).printed_area

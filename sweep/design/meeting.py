@@ -1,9 +1,10 @@
-"""Lines of any drawing as joints and walls: they meet where they cross, touch or overlap.
+"""Turns the lines of any drawing into joints and walls: they meet where they cross, touch or
+overlap.
 
-The lines of an infill have vertices where they meet (`drawing.welded`), and those of a slicer come
-to its outline (`slicer.joining`); those of a drawing lie anyhow. Points that are nearer to one
-another than `NEAR` are one point, that of the line that is drawn first; one that is so near to a
-line is on it.
+The lines of an infill have vertices where they meet (`drawing.welded`), and a slicer's lines end on
+its outline (`slicer.joining`); the lines of a drawing may lie anywhere. Points that are nearer to
+one another than `NEAR` become one point, the point of the line that is drawn first; a point that is
+so near to a line is on it.
 """
 
 from typing import NamedTuple
@@ -12,11 +13,11 @@ import numpy as np
 
 from sweep.design.drawing import Floats, Indices
 
-NEAR = 1e-4  # of the greater side of the drawing
-FAR = 10.0  # times `NEAR`: how far a point comes at most
-ROUND_OFF = 1e-9  # of the same side
-ROUNDS = 20  # in which lines that move by `NEAR` come to meet others
-CHUNK = 256  # lines whose crossings are found at a time
+NEAR = 1e-4  # share of the greater side of the drawing
+FAR = 10.0  # greatest move of a point / `NEAR`
+ROUND_OFF = 1e-9  # share of the same side
+ROUNDS = 20  # rounds in which lines that move by `NEAR` may meet others
+CHUNK = 256  # number of lines whose crossings are found at a time
 MOST_JOINTS = 50_000
 
 
@@ -35,10 +36,11 @@ class Meeting(NamedTuple):
 
 
 def met(lines: Floats) -> Meeting:
-    """The network of straight lines (s, 2, 2); where some overlap, the last of them is the wall's.
+    """The network of straight lines (s, 2, 2); where some overlap, the wall belongs to the last of
+    them.
 
-    `MeetingError` if lines have more than `MOST_JOINTS` joints, or points that follow one another
-    so closely that all of them would be one.
+    Raises `MeetingError` if lines have more than `MOST_JOINTS` joints, or a chain of points so
+    close to one another that all of them would become one.
     """
     near = NEAR * float(np.ptp(lines, axis=(0, 1)).max())
     line = np.arange(len(lines))
@@ -100,7 +102,7 @@ def _crossings(points: Floats, walls: Indices) -> Floats:
 
 
 def _crossing(one: Floats, two: Floats) -> Floats:
-    """Where pairs of lines (k, 2, 2) cross; parallel ones meet at their ends alone."""
+    """Points where pairs of lines (k, 2, 2) cross; parallel ones meet only at their ends."""
     u, v, apart = one[:, 1] - one[:, 0], two[:, 1] - two[:, 0], two[:, 0] - one[:, 0]
     turn, share = _cross(u, v), _cross(apart, v)
     steep = np.abs(turn) > 1e-12 * np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1)
@@ -115,7 +117,7 @@ def _cross(u: Floats, v: Floats) -> Floats:
 def _split(points: Floats, walls: Indices, near: float) -> tuple[Floats, Indices]:
     """Ends (2 p, 2) of the pieces of walls between all points on them, and the wall of each piece.
 
-    Points up to ``near`` beside a wall come to it; of several walls to the first.
+    Points up to ``near`` from a wall are moved onto it; if there are several walls, onto the first.
     """
     import shapely
 
@@ -140,8 +142,8 @@ def _split(points: Floats, walls: Indices, near: float) -> tuple[Floats, Indices
 def _in_rows(points: Floats, walls: Indices, line: Indices, near: float) -> Meeting:
     """The network with its joints row by row from the bottom, and its walls in their order.
 
-    Coordinates are rounded, so that those of a row are equal. Joints that are as near to the lowest
-    one, or the highest, as ``near`` are in one row with it.
+    Coordinates are rounded, so that joints of a row have equal ones. Joints within ``near`` of the
+    lowest or the highest joint are in one row with it.
     """
     digit = near * ROUND_OFF / NEAR
     points = np.rint((points - points.min(axis=0)) / digit) * digit

@@ -16,8 +16,8 @@ class Network:
     points (j, 2): joints in m; walls (w, 2): the two joints of each wall; wall_thickness (w,) in m.
     bottom, top: the joints of least and of greatest y, from left to right. Platens hold these
     joints; without a platen a dead load acts on the top ones. gyration (w,): radius of gyration of
-    the section of each wall over that of a rectangle of its thickness; None: 1. part (w,): length
-    of each wall over that of the smooth line of walls that it is part of; None: 1.
+    the section of each wall over the value of a rectangle of its thickness; None: 1. part (w,):
+    length of each wall over the length of the smooth line of walls that it is part of; None: 1.
     """
 
     points: Floats
@@ -29,7 +29,9 @@ class Network:
     part: Floats | None = field(default=None, kw_only=True)
 
     def pieces(self, most: int) -> Indices:
-        """Number of elements of every wall, (w,): ``most`` of a smooth line of them, 1 at least."""
+        """Number of elements of every wall, (w,): ``most`` in a smooth line of walls, at least
+        1.
+        """
         if self.part is None:
             return np.full(len(self.walls), most)
         return np.maximum(np.rint(most * self.part).astype(np.int64), 1)

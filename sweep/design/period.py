@@ -2,8 +2,7 @@
 
 It repeats in x and y without end; or in x alone, and begins and ends in y as the infill of a box
 does. No wall passes through another, so two walls can only touch if they border the same opening.
-Copies are needed of the walls round the openings next to the period, and of no others, at any
-strain.
+Therefore only the walls round the openings next to the period are copied, at any strain.
 """
 
 from dataclasses import dataclass
@@ -39,7 +38,7 @@ class Endless(Network):
     of walls of the period. original (w,): the wall of the period that each wall copies. origin
     (j,): the joint of the period that each joint is or copies; shift (j, 2): by how many periods it
     is moved in x and y. The joints of the period come first. bottom, top: the rows of the period;
-    where it repeats in y, a joint, and its image one period above.
+    if it repeats in y, a joint, and its image one period above.
     """
 
     period: Floats

@@ -1,6 +1,6 @@
 """Rigid profiles that press a lattice, or carry it: chains of straight lines, rounded by a radius.
 
-All lengths in m. A chain is convex and open; what it encloses is on its left
+All lengths in m. A chain is convex and open; the region it encloses is on its left
 (`kernels.geometry.profile`). A profile that moves has its tip at y = 0 and lies above it.
 """
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from sweep.design.drawing import Floats
 
-ARC = np.deg2rad(5.0)  # of the drawing of a round part
+ARC = np.deg2rad(5.0)  # turn between points of a drawn round part
 
 
 class Profile(NamedTuple):
@@ -22,13 +22,13 @@ class Profile(NamedTuple):
     tips: tuple[int, ...]
 
     def outline(self) -> Floats:
-        """The outline as a polygon, (k, 2): for pictures."""
+        """The outline as a polygon (k, 2), for pictures."""
         turns = np.arange(0.0, 2.0 * np.pi, ARC)
         disc = self.radius * np.column_stack([np.cos(turns), np.sin(turns)])
         return hull((self.chain[:, None] + disc).reshape(-1, 2))
 
     def upside_down(self) -> "Profile":
-        """The profile below its tip: what carries a lattice."""
+        """The profile below its tip, to carry a lattice."""
         return self._replace(chain=self.chain * [1.0, -1.0])
 
 
@@ -56,7 +56,7 @@ def _above(chain: list[list[float]], x: float, radius: float, tips: tuple[int, .
 
 
 def rib(x: float, radius: float, reach: float) -> Profile:
-    """A plate on edge, as thick as its round end is wide, as high as ``reach``, which points down.
+    """A plate on edge, as thick as its round end is wide and as high as ``reach``, pointing down.
 
     Its chain is one line, which encloses nothing.
     """

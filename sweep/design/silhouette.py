@@ -43,7 +43,7 @@ def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floa
 
 
 def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats) -> Floats:
-    """Where two sides meet, from the node.
+    """The point where two sides meet, relative to the node.
 
     `one` and `other` (m) are the distances of the sides from the node, along the unit normals
     `left` and `right`. If a thin wall continues a thick one nearly straight, the tip is the corner
@@ -57,7 +57,9 @@ def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats
 
 
 def _following(node: Integers) -> Integers:
-    """Index of the next arm of the same node; arms are sorted by node. The last gets the first."""
+    """Index of the next arm of the same node; arms are sorted by node. The first arm follows the
+    last.
+    """
     following = np.arange(len(node)) + 1
     last = np.append(node[1:] != node[:-1], True)
     following[last] = np.searchsorted(node, node[last])

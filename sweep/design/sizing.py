@@ -1,4 +1,4 @@
-"""Cells for a share of infill or for a size, and wall thickness for a mass."""
+"""Finds the cells for a share of infill or for a size, and the wall thickness for a mass."""
 
 from functools import lru_cache
 from math import log
@@ -13,8 +13,8 @@ from sweep.design.lattice import build_network
 from sweep.design.network import mass
 
 SLACK = 1 / 3  # relative error allowed in a share: one or two cells differ by as much
-CLOSE = 1e-14  # of the greatest mass: tolerance
-THIN = 1e-6  # of the greatest thickness: the least one tried
+CLOSE = 1e-14  # tolerance, as a share of the greatest mass
+THIN = 1e-6  # least thickness tried, as a share of the greatest
 
 
 def infill_share(geometry: Geometry) -> float:
@@ -63,7 +63,7 @@ def cell_of(geometry: Geometry) -> tuple[float, float]:
 def cells_of_size(geometry: Geometry, size: float, most: int) -> tuple[int, int] | None:
     """Columns and rows whose cells come nearest to a regular cell of width ``size`` (m).
 
-    Nearest in each direction, by the ratio of the lengths. None if the only cell of a direction is
+    Nearest in each direction, by the ratio of the lengths. None if the only cell in a direction is
     smaller than that by more than `SLACK`, or if more than ``most`` cells are needed.
     """
     shape = pitch(geometry.kind, geometry.orientation)
@@ -80,7 +80,7 @@ def cells_of_size(geometry: Geometry, size: float, most: int) -> tuple[int, int]
 def _nearest(geometry: Geometry, axis: int, count: float, side: float) -> int:
     """The number of cells, near ``count``, whose length along an axis is nearest to ``side`` (m).
 
-    It is even where the lattice and, every two cells, its pattern repeat.
+    It is even if the lattice repeats and its pattern does so every two cells.
     """
     shifted = trait(geometry.kind, "STAGGERED") and axis == (geometry.orientation != "flat")
     step = 2 if geometry.periodic[axis] and shifted else 1
@@ -97,7 +97,7 @@ def _nearest(geometry: Geometry, axis: int, count: float, side: float) -> int:
 def thickness_for(
     geometry: Geometry, target: float, thickest: float, depth: float, density: float
 ) -> tuple[float, float, float]:
-    """Wall thickness (m) for a mass (kg), and the least and greatest mass that are possible.
+    """Wall thickness (m) for a mass (kg), and the least and greatest possible mass.
 
     ``thickest``: the greatest allowed thickness, m. Regula falsi (Illinois) on the exact mass. The
     thickness is NaN if the mass is out of these bounds.

@@ -1,8 +1,8 @@
 """The plan of upright walls, which are pressed along their cells: its quads, its bow, its quarter.
 
-Equal walls between joints of an even network, one whose closed ways all have an even number of
-walls, buckle so that all arms of a joint turn alike and those of neighbouring joints oppositely.
-Half a wave is then as long as a wall.
+A network is even if all its closed paths have an even number of walls. Equal walls between joints
+of an even network buckle so that all arms of a joint turn alike and the arms of neighbouring joints
+turn oppositely. Half a wave is then as long as a wall.
 """
 
 from collections import deque
@@ -13,7 +13,7 @@ import numpy as np
 from sweep.design.drawing import Floats, Indices
 from sweep.design.network import Network
 
-NEAR = 1e-9  # of the size of the plan: points nearer than that are one point
+NEAR = 1e-9  # share of the size of the plan: points nearer than that are one point
 ROUND_OFF = 1e-9
 
 
@@ -67,10 +67,10 @@ def plan_of(network: Network, quarter: bool = False) -> Plan:
 
 
 def quads_along(plan: Plan, most: int | Indices) -> Indices:
-    """Number of equal quads along each wall, (w,): ``most`` (one number or (w,)) of a whole wall.
+    """Number of equal quads along each wall, (w,): ``most`` (one number or (w,)) in a whole wall.
 
-    A wall that a mirror plane cuts has half of them, rounded up. None is shorter than the wall is
-    thick, but of a wall that is itself shorter there is one.
+    A wall that a mirror plane cuts has half of them, rounded up. No quad is shorter than the wall
+    is thick, except that a wall that is itself shorter has one quad.
     """
     share = plan.length / plan.span
     count = np.ceil(share * np.asarray(most) - ROUND_OFF)
@@ -94,7 +94,7 @@ def most_layers(thickness: Floats, height: float) -> int:
 def turns(joints: int, walls: Indices) -> Indices:
     """1 or -1 for each joint, (j,): how it turns as equal walls buckle.
 
-    Neighbours turn oppositely; where closed ways have an odd number of walls that cannot be so for
+    Neighbours turn oppositely; if closed paths have an odd number of walls this is not possible for
     all of them, and joints turn oppositely to the neighbour from which they are first reached.
     """
     around: list[list[int]] = [[] for _ in range(joints)]
@@ -135,7 +135,7 @@ def mirror_fault(network: Network) -> str:
 
 
 def _images(points: Floats, axis: int) -> Indices | None:
-    """The point at the mirror image of each point; None if one has none."""
+    """The point at the mirror image of each point; None if a point has none."""
     from scipy.spatial import KDTree
 
     mirrored = points.copy()

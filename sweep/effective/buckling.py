@@ -25,13 +25,15 @@ from sweep.effective.stiffness import (
 )
 from sweep.scene.mesh import Floats
 
-PHASES = 12  # of a period, so that modes repeat after 2, 3, 4, 6 or 12 periods
-LONG = 0.01  # of 2 pi: a wave so long that the frame shears as a whole
-DIRECTIONS = 24  # of long waves, in half a turn
+PHASES = 12  # phases of a period, so that modes repeat after 2, 3, 4, 6 or 12 periods
+LONG = 0.01  # share of 2 pi: a wave so long that the frame shears as a whole
+DIRECTIONS = 24  # directions of long waves, in half a turn
 
 
 def buckling_stress(frame: Frame, depth: float, axis: int) -> float:
-    """Compressive stress (Pa) along x (axis 0) or y (1) at which the frame buckles; inf: never."""
+    """Compressive stress (Pa) along x (axis 0) or y (1) at which the frame buckles; inf if it never
+    does.
+    """
     own = element_stiffness(frame)
     geometric = geometric_stiffness(frame, *_resultants(frame, depth, axis))
     at = coordinates(frame)
@@ -40,7 +42,7 @@ def buckling_stress(frame: Frame, depth: float, axis: int) -> float:
 
 
 def _phases() -> Iterator[Floats]:
-    """Phases (2,), rad, of half of the plane: a phase and its opposite have the same modes."""
+    """Phases (2,), rad, in half of the plane: a phase and its opposite have the same modes."""
     for j in range(PHASES // 2 + 1):
         for k in range(PHASES):
             yield 2.0 * np.pi * np.array([j, k]) / PHASES
@@ -90,8 +92,8 @@ def _resultants(frame: Frame, depth: float, axis: int) -> tuple[Floats, Floats]:
 
 
 def geometric_stiffness(frame: Frame, force: Floats, moment: Floats) -> Floats:
-    """The geometric stiffness of elements at rest, (m, 6, 6): that of their forces N (m,), and of
-    the sums of the moments at both ends, M (m,).
+    """The geometric stiffness of elements at rest, (m, 6, 6), from their forces N (m,) and the sums
+    M (m,) of the moments at both ends.
     """
     return _of_chord(frame, force, moment) + _of_arc(frame, force, deformations(frame))
 

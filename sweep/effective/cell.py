@@ -23,7 +23,7 @@ ALLOWED = "cells of a family, or the infill of a slicer, of even walls that bend
 class Infill(NamedTuple):
     """An endless infill. angle: of its axes from the width of the design, rad. name: for people.
 
-    gyration: radius of gyration of walls over that of even ones of the same mean thickness.
+    gyration: radius of gyration of walls over the value for even walls of the same mean thickness.
     """
 
     case: Case
@@ -35,10 +35,10 @@ class Infill(NamedTuple):
 class Frame(NamedTuple):
     """One period as elements. The nodes of the period are numbered from 0.
 
-    ends (m, 2): nodes; shift (m, 2, 2): by how many periods each end is moved; period (2,) m.
-    along (m, 2): directions. length, thickness (m,) m. axial (m,): Y' A / l, N/m. bending (3, m):
-    second derivatives 11, 12, 22 in the turns of the ends, N m. arc (2, m): as in `Beams`. filled:
-    area of the walls over that of the period.
+    ends (m, 2): nodes; shift (m, 2, 2): by how many periods each end is moved; period (2,) m. along
+    (m, 2): directions. length, thickness (m,) m. axial (m,): Y' A / l, N/m. bending (3, m): second
+    derivatives 11, 12, 22 in the turns of the ends, N m. arc (2, m): as in `Beams`. filled: area of
+    the walls over the area of the period.
     """
 
     ends: Ints
@@ -64,10 +64,11 @@ class Frame(NamedTuple):
 
 
 def infill_of(case: Case) -> Infill:
-    """The infill of a case without end, perimeters and solid layers; `MisfitError` if it has none.
+    """The infill of a case, made endless, without perimeters and solid layers; raises `MisfitError`
+    if it has none.
 
-    Its period is the smallest that repeats in x and in y. The axes of a slicer's pattern are those
-    of the drawing of its family.
+    Its period is the smallest that repeats in x and in y. The axes of a slicer's pattern are the
+    axes in which its family is drawn.
     """
     lattice = case.lattice
     if case.material.bend == "none" or case.material.yield_stress is not None:
@@ -114,7 +115,7 @@ def _period(case: Case, kind: str, orientation: str | None, size: Floats) -> Cas
 
 
 def _way(kind: str, orientation: str | None) -> str | None:
-    """The orientation of a family that has one."""
+    """The orientation, if the family has one."""
     return (orientation or "pointy") if trait(kind, "ORIENTED") else None
 
 
@@ -146,7 +147,7 @@ def frame_of(infill: Infill) -> Frame:
 
 def turned(stiffness: Floats, angle: float) -> Floats:
     """A stiffness (3, 3), of strains xx, yy and the engineering shear xy, in axes x' that lie at an
-    angle (rad) from those in which it is given: C' = T^-T C T^-1 with T of the strains.
+    angle (rad) from the given axes: C' = T^-T C T^-1 with T of the strains.
     """
     c, s = cos(angle), sin(angle)
     strains = np.array(

@@ -17,14 +17,14 @@ from sweep.scene.mesh import Floats
 
 @dataclass(frozen=True, repr=False)
 class EffectiveMaterial:
-    """An infill as an orthotropic material; all in SI. Axes 1 and 2 are those of its drawing, 3 is
-    along the walls, out of the plane.
+    """An infill as an orthotropic material; all in SI. Axes 1 and 2 are the axes of its drawing, 3
+    is along the walls, out of the plane.
 
     angle: of axis 1 from the width of the design, rad. stiffness (3, 3): Pa, of strains 11, 22 and
-    the engineering shear 12 in the plane. modulus_3: along the walls, the share that they fill of
-    the modulus of the material. shear_13, shear_23: of thin walls. buckling: compressive stresses
-    (Pa) along 1 and 2 at which walls buckle, inf for none. relative_density: area of the walls /
-    that of the period. wall_thickness, period (2,): m, of the smallest period.
+    the engineering shear 12 in the plane. modulus_3: along the walls, the modulus of the material
+    times the share that they fill. shear_13, shear_23: of thin walls. buckling: compressive
+    stresses (Pa) along 1 and 2 at which walls buckle, inf for none. relative_density: area of the
+    walls / area of the period. wall_thickness, period (2,): m, of the smallest period.
     """
 
     name: str
@@ -116,9 +116,9 @@ class EffectiveMaterial:
 def card(case: Case | Mapping[str, Any]) -> EffectiveMaterial:
     """The effective material of the infill of a case, without its perimeters and solid layers.
 
-    case: or the tables of a config, as `crumple.case` takes them.
-    Walls are linear, with the modulus, Poisson's ratio and plane state of the material of the case,
-    and with its joints; small strains. What is no periodic infill of even walls is a `MisfitError`.
+    case: a `Case`, or the tables of a config, as `crumple.case` takes them. Walls are linear, with
+    the modulus, Poisson's ratio, plane state and joints of the case; strains are small. Designs
+    other than periodic infills of even walls raise a `MisfitError`.
     """
     case = case_of(case)
     infill = infill_of(case)

@@ -1,12 +1,12 @@
 """Effective stiffness of a periodic frame: the energy of a mean strain, its nodes at rest.
 
-With u = U + e X at a node that is moved by X (whole periods) from one of the period, the energy per
-volume of a mean strain e is least in the displacements and rotations U of the period:
+With u = U + e X at a node that is moved by X (whole periods) from a node of the period, the energy
+per volume of a mean strain e is minimised over the displacements and rotations U of the period:
 
     C = (K_ee - K_eu K_uu^-1 K_ue) / (area x depth).
 
-Out of the plane each wall is sheared along its length as a resistor conducts: G t / l for each
-element, w = W + g . X for the mean shears g of planes x and y against the depth.
+Out of the plane each wall is sheared along its length, like a resistor with the conductance G t / l
+for each element, w = W + g . X for the mean shears g of planes x and y against the depth.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ SLACK = "walls without stiffness against some strain, a mechanism; needed: joint
 
 
 def element_stiffness(frame: Frame) -> Floats:
-    """Of each element in x, y and rotation of both ends, (m, 6, 6)."""
+    """Stiffness of each element in x, y and rotation of both ends, (m, 6, 6)."""
     b = deformations(frame)
     d = np.zeros((len(b), 3, 3))
     d[:, 0, 0] = frame.axial
@@ -30,7 +30,9 @@ def element_stiffness(frame: Frame) -> Floats:
 
 
 def deformations(frame: Frame) -> Floats:
-    """Change of length and turns of both ends by the coordinates of an element, (m, 3, 6)."""
+    """Derivatives (m, 3, 6) of change of length and turns of both ends by the coordinates of an
+    element.
+    """
     t, n = frame.along, np.stack([-frame.along[:, 1], frame.along[:, 0]], axis=1)
     b = np.zeros((len(t), 3, 6))
     b[:, 0, 0:2], b[:, 0, 3:5] = -t, t
@@ -41,12 +43,12 @@ def deformations(frame: Frame) -> Floats:
 
 
 def coordinates(frame: Frame) -> np.ndarray:
-    """The coordinates of each element, of 3 for each node of the period, (m, 6)."""
+    """The coordinates of each element, (m, 6), with 3 for each node of the period."""
     return (3 * frame.ends[:, :, None] + np.arange(3)).reshape(-1, 6)
 
 
 def carried(frame: Frame) -> Floats:
-    """Coordinates of both ends of an element by mean strains xx, yy, xy, (m, 6, 3)."""
+    """Coordinates of both ends of an element due to mean strains xx, yy, xy, (m, 6, 3)."""
     x, y = np.moveaxis(frame.shift * frame.period, -1, 0)
     moved = np.zeros((len(x), 2, 3, 3))
     moved[:, :, 0, 0], moved[:, :, 1, 1] = x, y
@@ -55,7 +57,9 @@ def carried(frame: Frame) -> Floats:
 
 
 def response(frame: Frame) -> tuple[Floats, Floats]:
-    """Effective stiffness (3, 3) x depth, N/m, and the coordinates (n, 3) of unit mean strains."""
+    """Effective stiffness (3, 3) x depth, N/m, and the coordinates (n, 3) under unit mean
+    strains.
+    """
     own, at, carry = element_stiffness(frame), coordinates(frame), carried(frame)
     size = 3 * frame.nodes
     inner, mixed = np.zeros((size, size)), np.zeros((size, 3))
@@ -90,7 +94,7 @@ def sheared(frame: Frame, rigidity: float) -> Floats:
 
 
 def _solved(matrix: Floats, sides: Floats) -> Floats:
-    """Solution of a system, which is scaled to a diagonal of 1; refused if it is singular."""
+    """Solution of a system, which is scaled to a unit diagonal; refused if it is singular."""
     diagonal = np.diag(matrix)
     scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
     try:

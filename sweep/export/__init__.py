@@ -1,6 +1,7 @@
-"""Files for other programs: a part to print, an outline, curves, shapes. One file per format.
+"""Writes files for other programs: a part to print, an outline, curves, shapes. One file per
+format.
 
 `export.py` chooses the format by the ending of the file's name. `design.py` and `outline.py`
-rebuild what was drawn from a results file. `solid.py` makes a closed body of it, and refuses one
-whose volume is not that of the mass.
+rebuild the printed design from a results file. `solid.py` makes a closed body of it, and refuses a
+body whose volume does not match the mass.
 """

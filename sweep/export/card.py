@@ -15,7 +15,7 @@ from sweep.version import __version__
 if TYPE_CHECKING:
     from sweep.effective.material import EffectiveMaterial
 
-LONGEST = 60  # letters of a name: 80 in CalculiX, with what tells equal ones apart
+LONGEST = 60  # letters of a name: 80 in CalculiX, including the number of equal ones
 CONSTANTS = ("modulus_1", "modulus_2", "modulus_3", "poisson_12", "poisson_13", "poisson_23",
              "shear_12", "shear_13", "shear_23")  # fmt: skip
 """In the order of ENGINEERING CONSTANTS, eight in the first line."""
@@ -58,7 +58,7 @@ def _constant(card: EffectiveMaterial, key: str) -> str:
 
 
 def _names(cards: Sequence[EffectiveMaterial]) -> Iterator[str]:
-    """A name of letters, digits and underscores for each card, none of them twice."""
+    """A unique name of letters, digits and underscores for each card."""
     names: set[str] = set()
     for card in cards:
         words = f"{card.name}_{in_unit(card.wall_thickness, 'mm'):.3g}mm_{card.material}"

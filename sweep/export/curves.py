@@ -22,8 +22,8 @@ def write_curves(path: Path, history: DataFrame, row: Mapping[str, Any]) -> None
 
 
 def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
-    """The history with the column `stress_Pa`: force on the top / (width over all x depth); without
-    `time_s` if the case takes no time.
+    """The history with the column `stress_Pa`: force on the top / (overall width x depth); without
+    `time_s` if time has no meaning in the case.
     """
     stress = history["reaction_top_N"] / (row["outer_width_m"] * row["depth_m"])
     frame = history.copy()
@@ -34,6 +34,6 @@ def with_stress(history: DataFrame, row: Mapping[str, Any]) -> DataFrame:
 
 
 def _takes_time(history: DataFrame, row: Mapping[str, Any]) -> bool:
-    """Whether time means something: not in a slow crush of walls that do not relax."""
+    """Whether time has a meaning; it has none in a slow crush of walls that do not relax."""
     slow = MODES[row["loading_mode"]].driven and not history["kinetic_J"].any()
     return not slow or "relaxes" in row["material_memory"]

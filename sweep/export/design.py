@@ -1,4 +1,4 @@
-"""The design of a case: what is printed of it."""
+"""The printed design of a case."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Design:
-    """What is printed. network : the drawing; grams : mass of one specimen; along : whether it is
+    """The printed part. network : the drawing; grams : mass of one specimen; along : whether it is
     pressed along its cells.
     """
 
@@ -35,13 +35,15 @@ class Design:
 
     @property
     def footprint(self) -> tuple[float, float]:
-        """The sides of the area that is pressed, m."""
+        """The sides of the pressed area, m."""
         width, height = self.lattice.outer_size
         return (width, height) if self.along else (width, self.depth)
 
     @property
     def extruded_grams(self) -> float | None:
-        """Mass of one specimen as its slicer extrudes it, which budgets count; None without one."""
+        """Mass of one specimen as its slicer extrudes it, which budgets count; None without a
+        slicer.
+        """
         if not isinstance(self.lattice, Sliced):
             return None
         from sweep.design.lattice import counted_area
@@ -55,7 +57,7 @@ class Design:
 
 
 def design_of(case: Case) -> Design:
-    """The design of a case; a period is no part, and refused."""
+    """The design of a case; a period is no part, and is refused."""
     from sweep.design.network import mass
 
     if case.lattice.endless:

@@ -2,4 +2,6 @@
 
 
 class ExportError(ValueError):
-    """What cannot be exported; the text is one sentence that says why, and what is allowed."""
+    """A case that cannot be exported; the text is one sentence with the reason, and what is
+    allowed.
+    """

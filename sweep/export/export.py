@@ -1,6 +1,6 @@
-"""Writes a case as a file for another program, in the format that the ending of the file names.
+"""Writes a case as a file for another program, in the format given by the ending of its name.
 
-Nothing is half-written: a file is made in a folder beside, then gets its place.
+No file is left half-written: it is made in a folder beside, then moved to its place.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from sweep.export.solid import Body
 
 Kind = Literal["lattice", "settings"]
-SHOWN = 0.05  # mm: a difference of lengths that is reported
+SHOWN = 0.05  # mm: least difference of lengths that is reported
 
 
 class Exported(NamedTuple):
-    """The file that was written, and sentences about what is in it."""
+    """The file that was written, and sentences about its contents."""
 
     file: Path
     notes: list[str]
@@ -40,7 +40,7 @@ class Exported(NamedTuple):
 
 @dataclass(frozen=True)
 class Source:
-    """A case of a results file, of which each part is read when it is needed."""
+    """A case of a results file; each part is read when it is needed."""
 
     file: str | os.PathLike[str]
     row: Mapping[str, Any]
@@ -54,7 +54,7 @@ class Source:
 
     @cached_property
     def design(self) -> Design:
-        """What is printed."""
+        """The printed design."""
         from sweep.export.design import design_of
 
         return design_of(self.case)
@@ -92,7 +92,7 @@ class Planned:
 
     @cached_property
     def design(self) -> Design:
-        """What is printed."""
+        """The printed design."""
         from sweep.export.design import design_of
 
         return design_of(self.case)
@@ -120,7 +120,7 @@ class Planned:
 
 
 class Wish(NamedTuple):
-    """How a print is wanted: a panel of these sides (m) or one specimen, and the kind of 3MF."""
+    """The requested print: a panel of these sides (m) or one specimen, and the kind of 3MF."""
 
     panel: Sequence[float] | None
     kind: Kind
@@ -154,7 +154,7 @@ def export_case(
 def check_export(
     path: Path, panel: Sequence[float | str] | None = None, kind: Kind | None = None
 ) -> Wish:
-    """Refuse arguments of `export_case` that do not go together; nothing is read or written."""
+    """Refuse arguments of `export_case` that contradict each other; nothing is read or written."""
     writer = _writer(path)
     if (panel or kind) and writer not in PRINTS.values():
         raise ExportError(f"{path.name} shows no print; allowed with a panel or a kind: {PRINTED}")
@@ -166,7 +166,7 @@ def check_export(
 
 
 def _writer(path: Path) -> Writer:
-    """The writer of the format that the name of a file asks for."""
+    """The writer of the format that the name of a file implies."""
     if writer := WRITERS.get(path.suffix.lower()):
         return writer
     wrong = f"{path.suffix} is unknown" if path.suffix else "has no ending"
@@ -198,9 +198,10 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
 
 
 def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
-    """What ``write`` makes of a path beside; the file gets its place when it is complete.
+    """The sentences that ``write`` returns for a path beside; the file is moved to its place when
+    it is complete.
 
-    A folder that is missing is made, and removed again if nothing is written.
+    A missing folder is created, and removed again if nothing is written.
     """
     new = [folder for folder in (path.parent, *path.parent.parents) if not folder.exists()]
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -244,7 +245,7 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 
 def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:
-    """The walls, and what they are in sentences."""
+    """The walls, and a description in sentences."""
     from sweep.export.solid import solid
 
     if source.case.lattice.sheet:
@@ -265,7 +266,7 @@ def _as_printed(body: Body, source: Source | Planned) -> Body:
 
 
 def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    """A block, and what the slicer shall fill it with."""
+    """A block, and the settings with which the slicer fills it."""
     from sweep.export.slicer import by_hand, prusa_reads, settings_of, slicer_files
     from sweep.export.solid import extruded
     from sweep.export.three_mf import write_3mf
@@ -289,7 +290,7 @@ def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]
 
 
 def _block(source: Source | Planned, wish: Wish) -> tuple[Layout, list[str]]:
-    """The block, and what it is in sentences."""
+    """The block, and a description in sentences."""
     if source.case.lattice.sheet:
         from sweep.export.sheet import sheet_block
 
@@ -336,7 +337,7 @@ def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
 
 def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
-    """What a layout is, in a sentence; of a panel, in two."""
+    """A description of a layout in a sentence; for a panel, in two."""
     from sweep.export.outline import filled_panel
 
     _, _, width, height = layout.shape.bounds

@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
 FINE = 1e-7  # mm: the grid of the union
-SLIT = 1e-3  # mm: half the width of gaps that are no gaps
+SLIT = 1e-3  # mm: half the width of gaps that are closed
 
 
 class Layout(NamedTuple):
-    """What is printed: polygons and depth in mm, and how many specimens side by side and behind."""
+    """The printed layout: polygons and depth in mm, and numbers of specimens side by side and
+    behind.
+    """
 
     name: str
     shape: Any
@@ -70,9 +72,10 @@ def specimen(design: Design, shape: Any) -> Layout:
 def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     """The specimens that a ranking counts in a panel of two sides (m), with gaps of `BESIDE`.
 
-    Specimens one behind the other are one, with walls as deep as they are together, as nothing in
-    the model changes along the depth; those that are pressed along their cells are apart. Corners
-    that stick out of the outer width, by less than half a wall, make the row so much wider.
+    Specimens one behind the other become one, with walls as deep as all of them together, as
+    nothing in the model changes along the depth; specimens that are pressed along their cells stay
+    apart. Corners that stick out of the outer width, by less than half a wall, make the row wider
+    by as much.
     """
     import shapely
     import shapely.affinity

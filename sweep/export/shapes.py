@@ -1,8 +1,8 @@
 """VTKHDF: the shapes of a crush as one file for ParaView (5.12 and later), a grid that moves.
 
-The elements of the walls are lines, those of plates quads. Points have their displacement, in mm
-as all lengths; lines have their wall thickness and the strain of their chord, quads that of their
-area. Steps have the time and the strain of the lattice. What does not change is there once:
+The elements of walls are lines, the elements of plates quads. Points have their displacement, in mm
+as all lengths; lines have their wall thickness and the strain of their chord, quads the strain of
+their area. Steps have the time and the strain of the lattice. Constant data are stored once:
 https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/index.html
 """
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 LINE, QUAD = 3, 9  # VTK_LINE, VTK_QUAD
-VERSION = (2, 3)  # of the format: with data of fields in steps
+VERSION = (2, 3)  # version of the format, with field data in steps
 
 
 def write_shapes(path: Path, frames: Mapping[str, Any]) -> None:
@@ -71,7 +71,7 @@ def _write(group: h5py.Group, arrays: Mapping[str, Any]) -> None:
 
 
 def _deep(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2) with z = 0, or (n, 3) as they are: (n, 3)."""
+    """Points (n, 2) with z = 0, or (n, 3) unchanged: (n, 3)."""
     return np.pad(np.asarray(points, np.float64), ((0, 0), (0, 3 - points.shape[1])))
 
 

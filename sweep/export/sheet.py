@@ -1,8 +1,8 @@
 """A part of a sheet: its walls over a panel, or the block that a slicer fills.
 
 Both faces of a wall lie half its thickness from a fine net of one period (`design.surfaces`), which
-is laid over the panel and beyond, and cut to size. The sheet meets the faces that are pressed
-steeply, and is moved along them there.
+is repeated over the panel and beyond, and cut to size. The sheet meets the pressed faces steeply,
+and is moved along them there.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Ints = NDArray[np.int64]
 
-QUADS = 16  # of the net, a period
+QUADS = 16  # cells of the net in a period
 MOST_PERIODS = 2_000  # a file of 150 MB
 BEYOND = 1  # period of the net around the panel
 
 
 def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[str]]:
-    """The walls over a panel of two lengths (m), as they are printed, and what they are."""
+    """The walls over a panel of two lengths (m), as they are printed, and a description."""
     lattice = _sheet_of(case)
     if not lattice.tied_sides:
         raise ExportError(
@@ -67,8 +67,8 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
 
 
 def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list[str]]:
-    """The block over a panel of two lengths (m), or within perimeters, as it is printed, and what
-    is in it.
+    """The block over a panel of two lengths (m), or within perimeters, as it is printed, and a
+    description.
     """
     import shapely
 
@@ -138,11 +138,12 @@ def _walls(net: Net, half: Floats, sides: tuple[float, float]) -> Body:
 
 
 def _laid(net: Net, sides: tuple[float, float]) -> tuple[Ints, Ints, Ints]:
-    """Periods laid side by side, from `BEYOND` before the panel to so many behind it.
+    """Periods side by side, from `BEYOND` periods before the panel to as many behind it.
 
-    Of each of n points the node (n,) of the net and the period (n, 2) in which it is; quads (m, 4).
+    For each of n points the node (n,) of the net and the period (n, 2) in which it is; quads (m,
+    4).
     """
-    first, low = -BEYOND, -BEYOND - 1  # a corner may be in the period before
+    first, low = -BEYOND, -BEYOND - 1  # a corner may be in the previous period
     counts = [
         int(np.ceil(side / one)) + BEYOND for side, one in zip(sides, net.box.size[:2], strict=True)
     ]
@@ -170,7 +171,7 @@ def _grams(case: Case, first: float, second: float) -> float:
 
 
 def _description(case: Case, first: float, second: float) -> list[str]:
-    """What the part is, in a sentence."""
+    """A description of the part, in a sentence."""
     size = " x ".join(f"{TO_MM * side:.4g}" for side in (first, second))
     thick = f"{TO_MM * _sheet_of(case).pressed_height:.4g} mm thick"
     how = "along" if case.along else "across"

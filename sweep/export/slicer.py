@@ -1,7 +1,8 @@
-"""The settings of a slicer in a 3MF, of a solid block that the slicer fills itself.
+"""Settings of a slicer in a 3MF, for a solid block that the slicer fills itself.
 
 Crossings are laid twice: blocks of these patterns with walls of a tenth of the pitch, sliced by
-PrusaSlicer 2.5 at the pitches and directions of the lattice, were 0.1 to 6 % heavier than it.
+PrusaSlicer 2.5 at the pitches and directions of the lattice, were 0.1 to 6 % heavier than the
+lattice.
 """
 
 from __future__ import annotations
@@ -36,11 +37,13 @@ ORCA_KEYS = {
     "infill_anchor": "infill_anchor",
     "infill_anchor_max": "infill_anchor_max",
 }
-"""Keys of PrusaSlicer -> those of OrcaSlicer and Bambu Studio."""
+"""Keys of PrusaSlicer -> keys of OrcaSlicer and Bambu Studio."""
 
 
 def settings_of(lattice: Lattice) -> SlicerSettings:
-    """What to ask a slicer for so that it draws this lattice; `ExportError` with the reason."""
+    """The settings with which a slicer draws this lattice; raises `ExportError` with the reason if
+    there are none.
+    """
     from sweep.config.defaults.slicer_settings import slicer_settings, unlike
 
     settings = slicer_settings(lattice)
@@ -79,7 +82,7 @@ def prusa_keys(settings: SlicerSettings) -> dict[str, str]:
 
 
 def orca_keys(settings: SlicerSettings) -> dict[str, str]:
-    """The same of OrcaSlicer and Bambu Studio."""
+    """Keys and values of OrcaSlicer and Bambu Studio."""
     prusa = prusa_keys(settings)
     own_names = {name: own for own, name in SLICERS["orca"].items()}
     keys = {ORCA_KEYS[key]: value for key, value in prusa.items()}
@@ -89,7 +92,7 @@ def orca_keys(settings: SlicerSettings) -> dict[str, str]:
 
 
 def by_hand(settings: SlicerSettings) -> str:
-    """The main settings as a person looks for them in OrcaSlicer or Bambu Studio."""
+    """The main settings by their names in OrcaSlicer or Bambu Studio."""
     keys, lines = orca_keys(settings), settings.fill_multiline
     several = f", fill multiline {lines}" if lines > 1 else ""
     return (
@@ -102,7 +105,7 @@ def by_hand(settings: SlicerSettings) -> str:
 
 
 def prusa_reads(settings: SlicerSettings) -> bool:
-    """Whether PrusaSlicer can lay these settings: it has no walls of several lines, no TPMS-D."""
+    """Whether PrusaSlicer supports these settings: it has no walls of several lines, no TPMS-D."""
     prusa = PROGRAMS["prusa"]
     draws = prusa_keys(settings)["fill_pattern"] in (*prusa.patterns, *prusa.sheets)
     return draws and settings.fill_multiline <= prusa.lines
@@ -117,7 +120,7 @@ def slicer_files(settings: SlicerSettings, name: str, triangles: int) -> dict[st
 
 
 def _prusa_file(keys: dict[str, str], name: str, triangles: int) -> bytes:
-    """Settings of the object, and its volume, of all triangles."""
+    """Settings of the object and of its volume, which has all triangles."""
     root = Xml.Element("config")
     item = Xml.SubElement(root, "object", id=OBJECT, instances_count="1")
     for key, value in {"name": name, **keys}.items():

@@ -42,7 +42,7 @@ class Body(NamedTuple):
     def is_closed(self) -> bool:
         """True if every edge belongs to two triangles, which pass it in opposite directions.
 
-        Points that a file in single precision cannot tell apart count as one.
+        Points that a file in single precision cannot distinguish count as one.
         """
         _, place = np.unique(self.points.astype(np.float32), axis=0, return_inverse=True)
         corner = place.ravel()[self.triangles]
@@ -53,7 +53,7 @@ class Body(NamedTuple):
 
 
 def solid(layout: Layout, volume: float) -> Body:
-    """The body of a layout, whose volume must be near that of its mass (mm^3)."""
+    """The body of a layout, whose volume must be near the volume of its mass (mm^3)."""
     body = extruded(layout)
     if not abs(body.volume - volume) <= CLOSE * volume:
         raise ExportError(
@@ -78,8 +78,8 @@ def extruded(layout: Layout) -> Body:
 
 
 def within_box(body: Body, size: Sequence[float]) -> Body:
-    """The largest piece of what of a body is in a box of this size (mm) at the origin, without
-    edges below `SHORTEST`, whose ends a file in single precision may not tell apart.
+    """The largest piece of a body inside a box of this size (mm) at the origin, without edges below
+    `SHORTEST`, whose ends a file in single precision may not distinguish.
     """
     from manifold3d import Manifold, Mesh64
 

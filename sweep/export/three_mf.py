@@ -1,4 +1,4 @@
-"""3MF: a zip with the mesh as XML in mm, and what slicers read beside it.
+"""3MF: a zip with the mesh as XML in mm, and the further files that slicers read.
 
 Source of the format: 3MF Core Specification 1.3 (3mf.io).
 """
@@ -29,7 +29,7 @@ TYPES = {
 
 
 def write_3mf(path: Path, body: Body, name: str, beside: Mapping[str, bytes]) -> None:
-    """Write a body as one object. beside : name in the zip -> content, of further files."""
+    """Write a body as one object. beside : name in the zip -> content, for further files."""
     files = {
         "[Content_Types].xml": _content_types(),
         "_rels/.rels": _relations(),

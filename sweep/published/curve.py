@@ -1,4 +1,4 @@
-"""A measured curve of force over travel, and its value of a measure."""
+"""Reads a measured curve of force over travel, and evaluates a measure of it."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 HEADS = ("displacement_mm", "force_N")
 NEEDED = f"a csv file with the heads {','.join(HEADS)}, both positive in compression"
 FEWEST = 10  # rows
-SHORT_OF = 0.01  # of the stroke: a curve that ends earlier is refused
+SHORT_OF = 0.01  # share of the stroke: a curve that ends earlier is refused
 
 
 def read_curve(path: Path) -> tuple[Floats, Floats]:
@@ -42,8 +42,8 @@ def read_curve(path: Path) -> tuple[Floats, Floats]:
 def measure_of(path: Path, measure: str, row: Series) -> float:
     """A measure of a measured curve, in SI. row: of the simulated specimen in the summary.
 
-    Energy and force are those up to the simulated stroke; nominal stress and strain are for the
-    size of the specimen over all.
+    Energy and force are taken up to the simulated stroke; nominal stress and strain refer to the
+    overall size of the specimen.
     """
     travel, force = read_curve(path)
     stroke = float(row["stroke_m"])

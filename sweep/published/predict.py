@@ -15,7 +15,7 @@ from sweep.published.table import PublishedError, Row
 from sweep.ranking.comparison import Range
 from sweep.result import MODEL_VERSION, Status
 
-SAME = 0.01  # of a value: predictions that differ by less are alike, on another machine too
+SAME = 0.01  # relative: predictions that differ by less are equal, also on another machine
 DIGITS = 4
 ALLOWED = 'a column of results, or "A / B" of two; several, whose range counts, with ";" between'
 
@@ -27,7 +27,7 @@ class NotConvergedError(PublishedError):
 
 
 def cases_of(row: Row, table: Path) -> list[Case]:
-    """The cases of a row, whose config lies beside the table, is a path or is an example."""
+    """The cases of a row, whose config is a file beside the table, a path or an example."""
     beside = table.parent / row.config
     cases = load_config(beside if beside.is_file() else row.config).cases
     chosen = [case for case in cases if _is_chosen(case, row)]
@@ -48,7 +48,7 @@ def _is_chosen(case: Case, row: Row) -> bool:
 
 
 def digest(cases: Sequence[Case]) -> str:
-    """Eight hexadecimal digits that tell cases with other ids."""
+    """Eight hexadecimal digits that identify cases by their ids."""
     ids = " ".join(case.case_id for case in cases)
     return blake2b(ids.encode(), digest_size=4).hexdigest()
 
@@ -85,7 +85,7 @@ def _column(name: str, results: DataFrame, row: Row) -> "Series[float]":
 
 
 def _ratios(over: str, cases: Sequence[Case], values: np.ndarray) -> np.ndarray:
-    """The values, or the ratios of those of the last and the first value of a key."""
+    """The values, or their ratios between the last and the first value of a key."""
     if not over:
         return values
     groups: dict[str, list[float]] = {}
@@ -96,7 +96,7 @@ def _ratios(over: str, cases: Sequence[Case], values: np.ndarray) -> np.ndarray:
 
 
 def is_repeated(old: Row, new: Row) -> bool:
-    """Whether a prediction has come out again, within `SAME`."""
+    """Whether a prediction has been reproduced within `SAME`."""
     before, after = old.comparison.predicted, new.comparison.predicted
     if not isinstance(before, Range) or not isinstance(after, Range):
         return False

@@ -12,7 +12,7 @@ _PARTS = re.compile(r"((?:[\d.+() -]|[eE](?=[+-]?\d))*)(.*)")
 
 
 class Quantity(NamedTuple):
-    """A number with its scatter as text, its unit, and the value of the unit in another one."""
+    """A number with its scatter as text, its unit, and the size of the unit in another one."""
 
     number: str
     unit: str
@@ -20,7 +20,7 @@ class Quantity(NamedTuple):
 
 
 def split_quantity(text: str, units: str) -> Quantity:
-    """A measured value; units: of the column that it is a value of, "1" for a pure number."""
+    """A measured value; units: of its column, "1" for a pure number."""
     match = _PARTS.fullmatch(text.strip())
     number, unit = (match[1].strip(), match[2].strip()) if match else ("", text)
     try:

@@ -1,4 +1,4 @@
-"""The table of crushes: a csv file with a row for each number that is predicted.
+"""The table of crushes: a csv file with a row for each predicted number.
 
 A row is written in two steps: first the question and the prediction, then the measured value.
 """
@@ -27,11 +27,12 @@ class PublishedError(MisfitError):
 class Row:
     """One number of a crush: all values as text of the file.
 
-    config: a TOML file, beside the table or by path, or an example. where: key=value, only those of
-    its cases; measure: column of results, or quotient "A / B" of two, or several after ";"; over: a
-    key, of whose last and first value the ratio is taken. per: SI value of the unit in `quantity`.
-    low, high, cases, ids, model: the prediction over these cases, with a digest of their ids and
-    the version of the model. measured: as "0.12 +- 0.018"; place: the table or figure it is from.
+    config: a TOML file, beside the table or by path, or an example. where: key=value, to select
+    some of its cases; measure: column of results, or quotient "A / B" of two, or several after ";";
+    over: a key; the ratio of the values at its last and first value is taken. per: SI value of the
+    unit in `quantity`. low, high, cases, ids, model: the prediction over these cases, with a digest
+    of their ids and the version of the model. measured: as "0.12 +- 0.018"; place: the table or
+    figure that it is from.
     """
 
     name: str
@@ -71,12 +72,12 @@ def measured_range(row: Row) -> Range:
     value, low, high = number_with_range("measured", row.measured)
     if low is not None and high is not None:
         return Range(low, high)
-    assert value is not None  # a range alone has its ends
+    assert value is not None  # a range alone gives its ends
     return Range(value, value)
 
 
 def read_table(path: Path) -> list[Row]:
-    """The rows of a table; what cannot be used is refused with the file and the row."""
+    """The rows of a table; a row that cannot be used is refused with the file and the row."""
     try:
         heads, *lines = rows_of(text_of(path, NEEDED).splitlines()) or [[]]
     except MisfitError as error:
@@ -119,7 +120,7 @@ def write_table(path: Path, rows: Iterable[Row]) -> None:
 
 
 def with_row(rows: Iterable[Row], new: Row) -> list[Row]:
-    """The rows with a new one, which takes the place of a row of its name.
+    """The rows with a new one, which replaces a row of the same name.
 
     The measured value of the old row stays unless the new one has another.
     """

@@ -28,7 +28,7 @@ FINER_IF_GREATER = (
     *("lattice.nodes_per_wall", "lattice.layers"),
 )
 REFINED = (*FINER_IF_SMALLER, *FINER_IF_GREATER)
-GAIN = 0.05  # of an error: least gain of a dearer setting on the front
+GAIN = 0.05  # share of an error: least gain of a more expensive setting on the front
 EQUALS = 4  # first numbers of `_merit`; methods that agree in them should have the same limit
 _ANY_OF = ", ".join(REFINED)
 METHOD = ("solver.", "contact.model")
@@ -53,7 +53,7 @@ class Study(NamedTuple):
     """One scene.
 
     settings : a row per case, in the order of the sweep: the row of the summary, `method`, the
-        relative errors `energy`, `peak` and `path`, the greatest of those resolved, `worst`, and
+        relative errors `energy`, `peak` and `path`, the greatest of the resolved ones, `worst`, and
         `front`: True if no setting as cheap has a smaller `worst`.
     finest : row of the setting from which the references are extrapolated.
     orders : method -> measure -> key -> observed order.
@@ -86,7 +86,7 @@ def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
 
 
 def check_axes(axes: Sequence[Mapping[str, object]]) -> None:
-    """Refuse a sweep that is not an accuracy study before it runs; `axes`: of every case."""
+    """Refuse, before it runs, a sweep that is not an accuracy study; `axes`: of every case."""
     refined_keys(DataFrame(axes))
 
 
@@ -104,7 +104,9 @@ def varies(column: Series) -> bool:
 
 
 def size(key: str, value: float) -> float:
-    """Size for a value of a key: of a step, or of an element / length of its wall."""
+    """The size that belongs to a value of a key: of a step, or of an element / length of its
+    wall.
+    """
     if key in FINER_IF_SMALLER:
         return value
     return 1.0 / (value + (key == "lattice.nodes_per_wall"))
@@ -140,7 +142,9 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
 def _chosen(
     by_method: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
-    """The references of the best method, with more doubt if equal methods have other limits."""
+    """The references of the best method, with more doubt if equivalent methods have other
+    limits.
+    """
     merits = {method: _merit(*each, refined) for method, each in by_method.items()}
     best = min(merits, key=lambda method: merits[method])
     equals = [m for m in by_method if merits[m][:EQUALS] == merits[best][:EQUALS]]
@@ -199,7 +203,9 @@ def _extrapolated(series: dict[str, Series], values: dict[int, Floats], finest: 
 
 
 def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:
-    """The reference, whose doubt covers the limits of methods that should have the same one."""
+    """The reference with its doubt increased to cover the limits of methods that should share
+    it.
+    """
     gaps = [rms(rival.value - reference.value) / reference.scale - rival.doubt for rival in rivals]
     return reference._replace(doubt=max([reference.doubt, *gaps]))
 
@@ -207,11 +213,11 @@ def _doubted(reference: Reference, rivals: list[Reference]) -> Reference:
 def _merit(
     finest: Series, references: dict[str, Reference], refined: list[str]
 ) -> tuple[float, ...]:
-    """Numbers that sort methods; the least is the reference.
+    """Numbers that sort methods; the method with the least is the reference.
 
-    Preferred are constant steps, refinement in all keys, high order, the barrier, cubic elements,
-    a small tolerance and little doubt. Methods that agree in the first `EQUALS` numbers
-    should have the same limit.
+    Preferred are constant steps, refinement in all keys, high order, the barrier, cubic elements, a
+    small tolerance and little doubt. Methods that agree in the first `EQUALS` numbers should have
+    the same limit.
     """
     steps_by_error = "solver.step_error" in finest and np.isfinite(finest["solver.step_error"])
     doubts = [ref.doubt for ref in references.values()]
@@ -227,7 +233,9 @@ def _merit(
 
 
 def front(settings: DataFrame, error: str) -> Series:
-    """True for settings whose error (a column) is below that of all cheaper ones by `GAIN`."""
+    """True for settings whose error (a column) is below the errors of all cheaper ones by
+    `GAIN`.
+    """
     ordered = settings.sort_values(["cpu_s", error])[error]
     cheaper = ordered.cummin().shift(fill_value=np.inf)
     return (ordered < (1.0 - GAIN) * cheaper).reindex(settings.index)
@@ -251,14 +259,14 @@ def _values(file: str | PathLike[str], rows: DataFrame) -> dict[str, dict[int, F
 
 
 def energy(row: Series, history: DataFrame) -> float:
-    """Energy absorbed (J); of a custom structure, the energy it has at the end."""
+    """Energy absorbed (J); for a custom structure, its energy at the end."""
     if MODES[row["loading_mode"]].probed:
         return float(history[list(STORED)].iloc[-1].sum())
     return float(row["absorbed_energy_J"])
 
 
 def peak(row: Series, history: DataFrame) -> float:
-    """Greatest force (N), of a dead load also where its rows are too far apart to know it; of a
+    """Greatest force (N), also under a dead load whose rows are too far apart to resolve it; for a
     custom structure, the greatest reaction at a probe.
     """
     if not MODES[row["loading_mode"]].probed:

@@ -1,5 +1,5 @@
-"""What a search compares: the value of each design in the sorted column of a ranking, and how far
-it is from fulfilling what is required.
+"""The values that a search compares: each design in the sorted column of a ranking, and how far it
+is from fulfilling the requirements.
 """
 
 from collections.abc import Iterable
@@ -23,7 +23,7 @@ class Assessment(NamedTuple):
     """Designs by their value in a column.
 
     by_id: values by id of the designs that fulfil all requirements, the best first. missed:
-    greatest misses by id of those that do not, the nearest first (`requirements.nearest_first`).
+    greatest miss by id of the other designs, the nearest first (`requirements.nearest_first`).
     doubtful: number of further designs whose result is marked as beyond the model or as crossed,
     which have no value.
     """
@@ -35,7 +35,7 @@ class Assessment(NamedTuple):
 
     @property
     def sign(self) -> float:
-        """1 if less is better, -1 if more is."""
+        """1 if less is better, -1 if more is better."""
         return 1.0 if less_is_better(self.column) else -1.0
 
 
@@ -70,7 +70,7 @@ def _names(ranking: Ranking) -> Compared:
 
 def front(summary: DataFrame, question: Question, other: str) -> DataFrame:
     """The rows of a ranking that no row exceeds both in its column and in another one, best first
-    in that other one. Rows that are marked as doubtful are left out.
+    in the other one. Rows marked as doubtful are left out.
     """
     table = _sound(answer(summary, question._replace(top=None)).table).dropna(subset=other)
     if table.empty:
@@ -84,8 +84,8 @@ def front(summary: DataFrame, question: Question, other: str) -> DataFrame:
 def thinned(rows: DataFrame, columns: Iterable[str]) -> DataFrame:
     """A front without designs that hardly differ from a better one.
 
-    From the best design of the ranking on, the front is kept but for rows that differ from the row
-    kept last by less than `ALIKE` in each of the columns.
+    Starting from the best design of the ranking, a row is dropped if it differs from the last kept
+    row by less than `ALIKE` in each of the columns.
     """
     names, kept = list(columns), list[Any]()
     for at in reversed(rows.index):
@@ -97,7 +97,7 @@ def thinned(rows: DataFrame, columns: Iterable[str]) -> DataFrame:
 
 
 def check_searched(keys: Iterable[str]) -> None:
-    """Refuse keys of the test: designs in different scenes cannot be compared."""
+    """Refuse keys of the test, not of the design: different scenes cannot be compared."""
     chosen = [key for key in keys if key not in OF_DESIGN]
     if wrong := [key for key in chosen if key.startswith(ASSUMPTIONS)]:
         why = "belongs to the test, not to the design: each value is a scene of its own"
@@ -105,7 +105,7 @@ def check_searched(keys: Iterable[str]) -> None:
 
 
 def check_column(name: str) -> None:
-    """Refuse a column of which neither more nor less makes a design better."""
+    """Refuse a column in which neither more nor less is better."""
     if describe_column(name).better is None:
         wrong = f'"{name}" is no column of which more or less makes a design better'
         raise RankError(f"{wrong}; allowed: mass_g, peak_force_until_packed_N and the like")

@@ -1,7 +1,7 @@
-"""The budget of a ranking: which mass it limits, with which tolerance, and what is within it.
+"""The budget of a ranking: the mass that it limits, its tolerance, and the designs within it.
 
-Designs are often made for a budget, from a wall thickness that gives just this mass. Round-off
-must not exclude them.
+Designs are often made for a budget, from a wall thickness that gives just this mass. Round-off must
+not exclude them.
 """
 
 from __future__ import annotations

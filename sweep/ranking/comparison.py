@@ -1,4 +1,6 @@
-"""A measured value beside its prediction: two ranges in one unit, and whether they meet."""
+"""Compares a measured value with its prediction: two ranges in one unit, and whether they
+overlap.
+"""
 
 from __future__ import annotations
 
@@ -42,6 +44,6 @@ class Comparison:
 
 
 def inside(comparisons: list[Comparison]) -> tuple[int, int]:
-    """How many predictions meet the measured range, and of how many."""
+    """How many predictions overlap the measured range, and of how many."""
     misses = [one.off for one in comparisons if one.off is not None]
     return misses.count(0.0), len(misses)

@@ -1,7 +1,7 @@
-"""Energy and stroke of a crush up to an allowed force that no column of the summary has.
+"""Energy and stroke of a crush up to an allowed force for which the summary has no column.
 
 The number of specimens of a panel depends on the design, and so does the force of a specimen at
-which the panel bears the allowed one. The stored curves have the answer for each.
+which the panel bears the allowed force. The stored curves give the answer for each design.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ def with_allowed(
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
     question : of the ranking. The columns are needed if it has an allowed force; NaN in rows that
-    are no crush or have no curve. Of a crush that stopped, they are those so far. cache : values
-    of earlier calls, which are not read again; new values are added.
+    are no crush or have no curve. For a crush that stopped, they are the values so far. cache :
+    values of earlier calls, which are not read again; new values are added.
     """
     from sweep.store.read import read_curves
 
@@ -69,8 +69,8 @@ def with_allowed(
 def reached(curve: Mapping[str, Any], force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
-    curve : the history of the crush, at least its columns `READ`. Of several cycles, the first one
-    counts. NaN without rows.
+    curve : the history of the crush, with at least its columns `READ`. With several cycles, the
+    first one counts. NaN without rows.
     """
     travel, top, bottom, work = (np.asarray(curve[name], float) for name in READ)
     if not len(travel):

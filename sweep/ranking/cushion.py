@@ -2,16 +2,16 @@
 
 Energy-absorption diagram (Maiti, Gibson & Ashby 1984): energy per volume W(e) over the greatest
 stress so far M(e), both divided by the modulus of the solid. Its shoulder is where W / M is
-greatest: the most energy for the stress that is transmitted.
+greatest: the most energy for the transmitted stress.
 
 Cushion curve (drawn from drops in ASTM D1596): greatest deceleration G, in units of gravity g, over
 the static stress p = m g / A of a weight m that falls from a height H onto a cushion of area A and
-thickness T. Estimate from a slow crush, without rate and without losses: the weight stops at the
-strain e at which the cushion has taken all of its energy,
+thickness T. It is estimated from a slow crush, without rate effects and without losses: the weight
+stops at the strain e at which the cushion has taken all of its energy,
 
     T W(e) = p (H + e T),    G = M(e) / p.
 
-A striker of the sweep that falls has its weight too, and G is the force on it / (m g).
+A falling striker of the sweep has its weight too, and G is the force on it / (m g).
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ SAME_HEIGHT = 0.02  # drops from heights that differ by less are drawn as one
 
 
 class Crush(NamedTuple):
-    """The first loading of a crush as far as the model holds, rows in which it absorbs energy.
+    """The first loading of a crush as far as the model is valid, in rows in which it absorbs
+    energy.
 
     strain (rows,); greatest: greatest nominal stress so far (rows,) Pa; work: energy per volume
     (rows,) J/m^3; thickness: height at rest, m.
@@ -48,8 +49,8 @@ class Crush(NamedTuple):
 
 
 def crush_of(history: DataFrame, row: Mapping[Any, Any]) -> Crush:
-    """The crush with this history and this row of the summary, until a wall breaks or an element
-    is too short for the model.
+    """The crush with this history and this row of the summary, until a wall breaks or an element is
+    too short for the model.
     """
     area, height = row["outer_width_m"] * row["depth_m"], row["height_m"]
     strain = history["strain"].to_numpy()
@@ -70,9 +71,10 @@ def shoulder(crush: Crush) -> int | None:
 
 
 def absorbed_below(crush: Crush, stresses: Floats) -> Floats:
-    """Energy per volume (n,) that is absorbed until the stress exceeds each of some (n,) Pa.
+    """Energy per volume (n,) that is absorbed until the stress exceeds each of ``stresses`` (n,),
+    Pa.
 
-    NaN below the first row; all that was absorbed, a lower bound, beyond the greatest stress.
+    NaN below the first row; beyond the greatest stress all absorbed energy, which is a lower bound.
     """
     if not len(crush.work):
         return np.full(len(stresses), np.nan)
@@ -87,7 +89,7 @@ def absorbed_below(crush: Crush, stresses: Floats) -> Floats:
 def cushion_curve(crush: Crush, drop_height: float) -> tuple[Floats, Floats]:
     """Static stress (Pa) and greatest deceleration (in units of gravity) of drops, (n,) each.
 
-    drop_height: m. Strains that a lighter weight has gone through are left out.
+    drop_height: m. Strains that a lighter weight has passed are left out.
     """
     static = crush.thickness * crush.work / (drop_height + crush.strain * crush.thickness)
     before = np.append(0.0, np.maximum.accumulate(static)[:-1])

@@ -1,11 +1,11 @@
-"""The merit of a design: its usable energy, in all, per gram, and for a panel of specimens.
+"""The merit of a design: its usable energy, in total, per gram, and for a panel of specimens.
 
-Energy is counted until densification, or until the force exceeds the allowed force. A
-packed lattice absorbs energy as a solid block does, at a multiple of the force, whatever its
-infill. Where the loading sets the energy, `Mode.least` is compared instead.
+Energy is counted until densification, or until the force exceeds the allowed force. A packed
+lattice absorbs energy as a solid block does, at a multiple of the force, whatever its infill. If
+the loading sets the energy, `Mode.least` is compared instead.
 
 A panel consists of n whole specimens, as `sweep.design.panel` counts them; its mass, energy and
-force are n times those of a specimen.
+force are n times the values of a specimen.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ UNTIL_PACKED = "absorbed_energy_until_packed_J"
 AT_ALLOWED = "absorbed_energy_at_allowed_J"
 STROKE_AT_ALLOWED = "stroke_at_allowed_m"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
-SAME_AREA = 1e-6  # relative: periods of one area
+SAME_AREA = 1e-6  # relative difference of the areas of equal periods
 
 
 class Compared(NamedTuple):
@@ -102,13 +102,13 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         added |= _of_panel(finished, filled, energy, force, grams)
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
     whole = finished.assign(**added)
-    return whole.copy(), names  # a copy lies in few blocks, of which rows are taken fast
+    return whole.copy(), names  # a copy has few blocks, from which rows are selected quickly
 
 
 def _of_panel(
     finished: DataFrame, filled: Panel, energy: str, force: Series, grams: Series
 ) -> dict[str, Series]:
-    """The columns of a panel: its size, and mass, energy and force of all of its specimens."""
+    """The columns of a panel: its size, and the total mass, energy and force of its specimens."""
     count = filled.specimens
     return {
         "panel_specimens": count,
@@ -122,7 +122,9 @@ def _of_panel(
 
 def _ends(finished: DataFrame, energy: str) -> tuple[Series, ...]:
     """The least and the greatest energy (J) at maxima of the efficiency that are nearly as high as
-    the greatest, moved as little as makes the range contain the energy; none to full stroke.
+    the greatest.
+
+    The range is moved as little as needed to contain ``energy``; there is none to full stroke.
     """
     if energy not in (AT_DENSIFICATION[0], UNTIL_PACKED):
         return ()
@@ -136,23 +138,23 @@ def _ends(finished: DataFrame, energy: str) -> tuple[Series, ...]:
 
 
 def _of_crush(finished: DataFrame, counted: Series, whole: Series) -> Series:
-    """Of a crush the value until energy is counted, else that of the whole loading."""
+    """For a crush the value until energy is counted, else the value of the whole loading."""
     return counted.where(has(finished, "driven"), whole)
 
 
 def doubtful(ranked: DataFrame) -> Series:
-    """True for designs whose results are beyond the model or have walls that cross."""
+    """True for designs whose results are beyond the model or have crossing walls."""
     return ranked["beyond_model"].astype(bool) | ranked["crossed"].astype(bool)
 
 
 def through_solid(finished: DataFrame) -> Series:
-    """True for lattices compressed to less than their solid height, or to less than none."""
+    """True for lattices compressed below their solid height, or below zero height."""
     sunk = has(finished, "dead") & (finished["peak_strain"] >= 1.0)
     return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
 def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:
-    """The panel of each design, in whole numbers; of periods, as many as its area holds."""
+    """The panel of each design, in whole numbers; for periods, as many as its area holds."""
     if isinstance(panel, str) or len(panel) != 2:
         raise RankError(f'panel = {panel!r}; allowed: two lengths, such as ("100 mm", "50 mm")')
     sides = in_si(panel[0], "m"), in_si(panel[1], "m")
@@ -188,7 +190,7 @@ def unequal_periods(frame: DataFrame) -> bool:
 
 
 def check_budgets(frame: DataFrame, question: Question) -> None:
-    """Refuse a budget where the masses of periods would be compared with it."""
+    """Refuse a budget if it would be compared with the masses of periods."""
     if question.budgets and question.panel is None and is_period(frame).any():
         raise RankError(
             f'budget = "{question.budgets[0]}"; allowed with a panel, such as --panel "100 mm" '
@@ -233,7 +235,7 @@ def _counted(
 def _counted_of_panel(
     finished: DataFrame, count: Series, allowed_force: Quantity
 ) -> tuple[str, Series, str]:
-    """As `_counted` returns, up to a force of the panel, from columns of `curves`."""
+    """The values of `_counted` up to a force of the panel, from columns of `curves`."""
     limit = in_si(allowed_force, "N")
     if AT_ALLOWED not in finished:
         raise RankError(
@@ -244,7 +246,8 @@ def _counted_of_panel(
 
 
 def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
-    """Stroke (m) in which the usable energy of a crush is absorbed; elsewhere, the greatest.
+    """Stroke (m) in which the usable energy of a crush is absorbed; for other loadings, the
+    greatest.
 
     NaN in a crush up to an allowed force, unless `curves` has added it.
     """
@@ -260,8 +263,8 @@ def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
 
 
 def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) -> Series:
-    """True for crushes that absorb more than the usable energy if they are longer: they ended
-    before the allowed force was exceeded, or before densification.
+    """True for crushes that would absorb more than the usable energy if they were longer: they
+    ended before the allowed force was exceeded, or before densification.
     """
     crushed = has(finished, "driven")
     if limited:
@@ -271,7 +274,9 @@ def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) 
 
 
 def _energy_column(frame: DataFrame, force: float) -> str:
-    """The column of the energy absorbed up to an allowed force (N): of the sweep or of `curves`."""
+    """The column of the energy absorbed up to an allowed force (N), from the sweep or from
+    `curves`.
+    """
     name = absorbed_energy_column(force)
     if name in frame:
         return name

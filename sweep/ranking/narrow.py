@@ -1,4 +1,4 @@
-"""Rankings that mix patterns in narrow lattices, which favour some patterns over others."""
+"""Finds rankings that mix patterns in narrow lattices, which favour some patterns over others."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The columns of a summary that decide places, without which large sweeps are ranked.
+"""The columns of a summary that decide places, so that large sweeps are ranked without the others.
 
 A summary has some 130 columns. A ranking of 100,000 cases that copied all of them whenever it
-sorts, groups or selects rows would take most of its time and memory for that.
+sorts, groups or selects rows would spend most of its time and memory on them.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ NEEDED = frozenset(
 
 
 def needed_columns(summary: DataFrame, also: Iterable[str | None] = ()) -> DataFrame:
-    """The columns that rank the rows of a summary, and some others.
+    """The columns that a ranking of the rows of a summary needs, and some others.
 
-    Those for every allowed force, and the errors and ranges of all that are needed, belong to them.
+    They include the columns for every allowed force, and errors and ranges of all needed columns.
     """
     missing = next((name for name in COLUMNS if name in NEEDED and name not in summary), None)
     if missing:
@@ -54,7 +54,7 @@ def needed_columns(summary: DataFrame, also: Iterable[str | None] = ()) -> DataF
 
 
 def _about(name: str) -> str:
-    """The column whose error, correction or range a column has; else its own name."""
+    """The column whose error, correction or range a column contains; else its own name."""
     for pattern, group in ((ERROR, 1), (CORRECTION, 1), (ENDS, 2)):
         if match := pattern.fullmatch(name):
             return _about(match[group])
@@ -62,7 +62,7 @@ def _about(name: str) -> str:
 
 
 def widened(rows: DataFrame, summary: DataFrame, first: Collection[str] = ()) -> DataFrame:
-    """Rows of `needed_columns` with all columns of the summary, which come before those added."""
+    """Rows of `needed_columns` with all columns of the summary, which precede the added ones."""
     others = [name for name in summary if name not in rows]
     more = summary.loc[rows.index, others]
     parts = [part.reset_index(drop=True) for part in (rows, more)]  # a row may be there twice

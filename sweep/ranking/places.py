@@ -1,4 +1,4 @@
-"""The places of sorted designs, which errors may make them share, and the Pareto front."""
+"""The places of sorted designs, which designs may share because of errors, and the Pareto front."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def passed_over(rows: DataFrame, by: str) -> Series:
 
 
 def reach(rows: DataFrame, by: str) -> tuple[Series, Series]:
-    """How far the range of each value goes below and above it; 0 without a range."""
+    """How far the range of each value extends below and above it; 0 without a range."""
     low, high = (rows.get(name, rows[by]) for name in end_columns(by))
     return (rows[by] - low).clip(lower=0.0), (high - rows[by]).clip(lower=0.0)
 
@@ -54,10 +54,10 @@ def shared_places(
     """Places of sorted values, the best first.
 
     A value shares a place if it differs from the first value of the place by no more than their
-    corrections differ. An error that is common to both thus does not count. A missing correction
-    is 0. A value also shares it if its range, up to `above`, meets that of the first value, which
-    goes down to `below`. Otherwise the value starts a new place, whose number is 1 + the number of
-    values before it.
+    corrections differ, so that an error that both have in common does not count. A missing
+    correction is 0. A value also shares the place if its range, up to `above`, overlaps the range
+    of the first value, down to `below`. Otherwise the value starts a new place, whose number is 1 +
+    the number of values before it.
     """
     shifts = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
     down, up = (np.zeros(len(values)) if one is None else one for one in (below, above))

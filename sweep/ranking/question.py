@@ -12,11 +12,11 @@ Quantity = float | str
 
 
 class RankError(ValueError):
-    """A ranking that cannot be made; the text is one sentence with the allowed values."""
+    """A ranking that is not possible; the text is one sentence with the allowed values."""
 
 
 class Question(NamedTuple):
-    """The arguments of `rank` after its source, which has them explained; numbers are in SI."""
+    """The arguments of `rank` after its source, explained there; numbers are in SI."""
 
     budget: Quantity | Sequence[Quantity] | None = None
     panel: Sequence[Quantity] | None = None

@@ -48,7 +48,7 @@ USUAL = (
     *("peak_force_until_packed_N", "peak_strain", "peak_deceleration_filtered_m_per_s2"),
 )
 """The columns by which rankings are sorted most: a refusal names these instead of all."""
-NEAREST = 3  # names that a refusal proposes
+NEAREST = 3  # most names that a refusal suggests
 LEADING = [
     "budget_g",
     "scene",
@@ -108,7 +108,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         the column `absorbed_energy_at_..N_J`, and knows no force of a panel; a file has the curves.
     require : limits that a design must meet to be ranked: `max_force`, `max_deceleration`
         (filtered), `max_mass`, `min_absorbed`, `max_stroke`.
-    per : "specimen" or "panel": what `allowed_force` and `require` are of.
+    per : "specimen" or "panel": to which `allowed_force` and `require` apply.
 
     A bare number is refused; `ranked` takes numbers too, in SI.
 
@@ -120,19 +120,19 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     place : equal values share a place, and so do values whose order the estimated errors may
         reverse (`shared_places`). Designs that are `beyond_model` or `crossed` come after all
         others.
-    tied : with error bars, or where an energy stands for a range: True if the place is shared.
+    tied : with error bars, or where an energy has a range: True if the place is shared.
     ranked_error : with error bars: the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
     passed_over : number of designs that have a better value but come later, as they are doubtful.
     pareto : True if no design of the scene is lighter and absorbs as much, and none absorbs more
-        and is as light, of those to be trusted that meet all requirements; where `Mode.least`
+        and is as light, among trusted designs that meet all requirements; where `Mode.least`
         is compared, the same with that column.
     ranked_by : the sorting column.
-    counted_mass_g : where designs have a slicer: mass as extruded, for others that of the walls.
+    counted_mass_g : where designs have a slicer: mass as extruded, for others mass of the walls.
     panel_specimens, panel_width_m, panel_depth_m : number of specimens of a panel, in
         parts if they are periods, and the true lengths of that panel.
-    panel_mass_g, panel_energy_J, panel_force_N : of these together.
+    panel_mass_g, panel_energy_J, panel_force_N : of these specimens together.
     passed_on_N, counted_stroke_m : greatest force while the usable energy is absorbed, and the
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
@@ -238,7 +238,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
 
 
 def _lightest(rows: DataFrame, mass: str) -> DataFrame:
-    """The row of the lightest design, of equal ones the first by its id."""
+    """The row of the lightest design, the first by its id among equals."""
     some = rows[~(rows[mass] > rows[mass].min())]
     return some.sort_values([mass, "case_id"]).iloc[:1]
 
@@ -267,14 +267,15 @@ def _order(rows: DataFrame, by: str | None, usual: str) -> str:
 
 
 def _least(rows: DataFrame) -> str | None:
-    """The column that is compared instead of energy in the rows of one scene, if there are any."""
+    """The column that is compared instead of energy in the rows of one scene, if there is one."""
     return None if rows.empty else compared(rows)
 
 
 def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:
-    """Rows of one scene with its label and their Pareto flag; the front is of trusted designs.
+    """Rows of one scene with its label and their Pareto flag; the front consists of trusted
+    designs.
 
-    Periods of a wide panel, whose sizes mean nothing, are compared by mass and energy per area.
+    Periods of a wide panel, whose sizes have no meaning, are compared by mass and energy per area.
     """
     sound = rows[~doubtful(rows)]
     mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]

@@ -1,4 +1,4 @@
-"""`Ranking`, what `rank.ranked` returns: the table, and data that are not in the table."""
+"""The answer of `rank.ranked`, a `Ranking`: the table, and data that are not in the table."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class Ranking:
 
     table : a row for each design that has a place, best first; `rank` describes its columns.
     unfinished : a row for each case that stopped and could have had a place in the table, for each
-        scene and budget; its columns are those of the table but for what a place has, and `PLACES`
-        of `sweep.ranking.unfinished`.
+        scene and budget; it has the columns of the table except those that describe a place, and
+        `PLACES` of `sweep.ranking.unfinished`.
     mass, energy, per_gram : names of the compared columns: mass (g) and energy (J) of the panel, or
         of the specimen if there is no panel, and energy per gram (J/g).
     until : up to which point energy is counted, in words.
     limited : True if energy is counted up to an allowed force.
-    by : name of the column that sorts crushed designs; without crushes, those of the first scene.
-    cases, failed : number of cases, and of those that stopped before their loading was completed.
+    by : name of the column that sorts crushed designs; without crushes, designs of the first scene.
+    cases, failed : number of cases, and of cases that stopped before the end of their loading.
     unloaded : number of cases that stopped after their loading.
     unranked : number of loaded cases without a value in the sorting column of their scene.
     without_bar : number of cases with that value but without its error bar, if others have one.
@@ -42,9 +42,9 @@ class Ranking:
     lightest_g : the least mass (g) of each scene. lightest : the row of that design.
     lost : number of cases of each scene in which no case completed its loading.
     narrow : patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
-    per : what the allowed force and the requirements are of, "specimen" or "panel".
+    per : to which the allowed force and the requirements apply, "specimen" or "panel".
     required : the limit (SI) of each requirement.
-    outcomes : how the designs of each scene meet them, within each budget; empty without any.
+    outcomes : how the designs of each scene meet them, within each budget; empty if none are given.
     """
 
     table: DataFrame
@@ -92,7 +92,8 @@ class Ranking:
 
     @property
     def scenes(self) -> list[str]:
-        """The scenes in their order, or that of the lightest design first if all are too heavy.
+        """The scenes in their order, or starting with the lightest design if all designs are too
+        heavy.
 
         The same design may weigh more by round-off in another scene: the first one then counts.
         """
@@ -101,10 +102,10 @@ class Ranking:
         return sorted(self.lightest_g, key=lambda scene: round(self.lightest_g[scene], 9))
 
     def instead(self, scene: str) -> tuple[str, DataFrame] | None:
-        """What comes nearest to the question in a scene: a word for it, and its row.
+        """The design of a scene that comes nearest to the question: a word for it, and its row.
 
-        The design nearest to the requirements within the first budget that has one; or the lightest
-        design, if all are heavier than the budgets; else None.
+        It is the design nearest to the requirements within the first budget that has one; or the
+        lightest design, if all are heavier than the budgets; else None.
         """
         near = [one.nearest for one in self.outcomes.get(scene, ()) if len(one.nearest)]
         if near:

@@ -1,4 +1,4 @@
-"""The requirements on a part, each in one row: what it limits, of which loadings, in which words.
+"""The requirements on a part, one in each row: the quantity, the loadings, and the words for it.
 
 Rankings, sentences, options of the command line and the page take them from here; `Require` in
 `config/tables.py` has the keys of a config. No heavy imports, as every command reads this.
@@ -10,13 +10,13 @@ from sweep.modes import asked_of
 
 
 class Measure(NamedTuple):
-    """What a requirement limits.
+    """The quantity that a requirement limits.
 
     unit: in SI. shown: the unit that people read. kind: of quantity, in the help of an option.
-    shared: whether specimens of a panel add up. asked_of: kinds of loading in which the design, not
-    the loading, sets the value. least: the limit is a least value; else it is a greatest one.
-    noun: the value in words. none: why nothing fulfils it. unknown: why a value is unknown.
-    example: a limit. about: what the option means, before the example.
+    shared: whether the values of the specimens of a panel add up. asked_of: kinds of loading in
+    which the design, not the loading, sets the value. least: the limit is a least value; else it is
+    a greatest one. noun: the value in words. none: why nothing fulfils it. unknown: why a value is
+    unknown. example: a limit. about: the meaning of the option, before the example.
     """
 
     unit: str
@@ -38,11 +38,11 @@ class Measure(NamedTuple):
 
     @property
     def far(self) -> str:
-        """In words, a value beyond the limit."""
+        """A value beyond the limit, in words."""
         return "too little" if self.least else "too much"
 
     def share_missed(self, value: Any, limit: float) -> Any:
-        """By what share of its limit a value misses it; below zero if it does not."""
+        """By what share of its limit a value misses it; negative if it does not."""
         return 1.0 - value / limit if self.least else value / limit - 1.0
 
 

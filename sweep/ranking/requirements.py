@@ -1,14 +1,14 @@
 """Requirements on a part: limits on its results, by which designs are excluded from a ranking.
 
-A requirement is of a specimen or of the panel. The force of a panel is that of its specimens
-together, since all are pressed alike; stroke and deceleration are the same for both. No curve of a
-force that stays below F absorbs an energy W in a stroke shorter than W / F, that of a rectangle.
+A requirement applies to a specimen or to the panel. The force of a panel is the sum over its
+specimens, since all are pressed alike; stroke and deceleration are the same for both. No curve with
+a force below F absorbs an energy W in a stroke shorter than W / F, the stroke of a rectangle.
 
-A loading that sets a quantity is not asked for it: the force and the energy under a dead load, and
-the energy of a striker, are not those of the design.
+A requirement does not apply to a loading that sets its quantity: the force and the energy under a
+dead load, and the energy of a striker, are no properties of the design.
 
-The nearest design to requirements that none fulfils is the one whose worst miss is the smallest: a
-value v misses a greatest value L by v / L - 1, and a least value L by 1 - v / L.
+If no design fulfils the requirements, the nearest one has the smallest worst miss: a value v misses
+a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
 from __future__ import annotations
@@ -49,18 +49,18 @@ class Outcome:
 
     mode: of loading. budget_g: NaN without a budget.
     designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
-        of those that fulfil them and are marked as beyond the model or as crossed.
-    failed: number of designs that fail each requirement. unknown: number of those among them that
-        have no value of it. open: number of those that fail only `min_absorbed` and may fulfil it
-        in a longer crush, as theirs ended before the energy was counted to its end.
+        of designs that fulfil them and are marked as beyond the model or as crossed.
+    failed: number of designs that fail each requirement. unknown: number of these designs that
+        have no value for it. open: number of designs that fail only `min_absorbed` and may fulfil
+        it in a longer crush, as they were crushed too little for all energy to be counted.
     best: the value nearest to fulfilling each requirement.
-    left_out: requirements that this kind of loading is not asked for.
-    nearest: where no design fulfils all, but for doubtful ones: the row of the nearest one that
-        does not, a doubtful one only if there is no other; no row if nothing is known. missed: what
-        it misses, with its values. misses: by what share of the limit.
-    lightest: the row of the lightest design to be trusted that fulfils all, of any mass; or no row.
+    left_out: requirements that do not apply to this kind of loading.
+    nearest: if no trusted design fulfils all: the row of the nearest one that does not, a doubtful
+        one only if there is no other; no row if nothing is known. missed: the requirements that it
+        misses, with its values. misses: by what share of the limit.
+    lightest: the row of the lightest trusted design that fulfils all, of any mass; or no row.
     energy, force, stroke: energy that must be absorbed, the force that is allowed meanwhile, and
-        the least stroke in which it does that; NaN if one of both is not given.
+        the least stroke in which that is possible; NaN if one of the first two is not given.
     height: of the highest lattice.
     """
 
@@ -95,7 +95,7 @@ def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
 
 
 def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
-    """Refuse a requirement that none of these kinds of loading is asked for."""
+    """Refuse a requirement that applies to none of these kinds of loading."""
     kinds = set(modes)
     for name in required:
         asked_of = MEASURES[name].asked_of
@@ -105,7 +105,7 @@ def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
 
 
 def check(rows: DataFrame, required: Mapping[str, float]) -> None:
-    """Refuse requirements that no row can be asked for."""
+    """Refuse requirements that apply to no row."""
     if rows.empty:
         return
     check_modes(required, rows["loading_mode"].unique())
@@ -116,7 +116,7 @@ def check(rows: DataFrame, required: Mapping[str, float]) -> None:
 
 
 class Judged(NamedTuple):
-    """The rows of one scene with what each of them has of the requirements, and meets.
+    """The rows of one scene with their values for the requirements, and whether they meet them.
 
     mass: name of the column that budgets limit. limits: the limits (SI) of the requirements that
     apply to this kind of loading; left_out: the other requirements. measures (rows, limits):
@@ -132,7 +132,7 @@ class Judged(NamedTuple):
     fulfil: Series
 
     def within(self, budget_g: float) -> Judged:
-        """The same of the rows within a budget."""
+        """The same for the rows within a budget."""
         kept = within_budget(self.rows[self.mass], budget_g)
         parts = {
             name: getattr(self, name)[kept] for name in ("rows", "measures", "shares", "fulfil")
@@ -199,8 +199,8 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
 def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
     """The value (SI) of each row for each requirement, per specimen or per panel.
 
-    The energy of a crush is the counted one, and its force the greatest until then; an impact or a
-    dead load counts as a whole. The deceleration is filtered.
+    For a crush, energy and force count while the usable energy is absorbed; an impact or a dead
+    load counts as a whole. The deceleration is filtered.
     """
     crushed = has(rows, "driven")
     together = rows.get("panel_specimens", 1.0)
@@ -224,8 +224,8 @@ def misses(
 ) -> DataFrame:
     """By what share of its limit each row misses each requirement, (rows, required).
 
-    0 where the requirement is met, but for round-off, or it does not apply to this loading;
-    NaN where the value is unknown. measures : from `measured`.
+    0 if the requirement is met, up to round-off, or does not apply to this loading; NaN if the
+    value is unknown. measures : from `measured`.
     """
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
@@ -236,10 +236,10 @@ def misses(
 
 
 def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
-    """The greatest miss of each row by its index, that of the nearest design first.
+    """The greatest miss of each row by its index, starting with the nearest design.
 
-    Designs to be trusted come before others; of equal misses the lightest is the first. Infinite
-    where a value is unknown. mass : name of the column that budgets limit. shares : of `misses`.
+    Trusted designs come before others; the lightest comes first among equal misses. Infinite if a
+    value is unknown. mass : name of the column that budgets limit. shares : from `misses`.
     """
     worst = shares.assign(none=0.0).max(axis=1, skipna=False).fillna(np.inf)
     order = rows.assign(worst=worst, doubtful=doubtful(rows))
@@ -247,7 +247,7 @@ def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
 
 
 def _best(values: Series, sound: Series, least: bool) -> Best:
-    """The best value of the designs to be trusted, else of all; NaN if none has one."""
+    """The best value of the trusted designs, else of all; NaN if none has one."""
     trusted = values[sound].dropna()
     candidates = values if trusted.empty else trusted
     return Best(float(candidates.max() if least else candidates.min()), trusted.empty)
@@ -256,8 +256,8 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
 def _open(part: Judged, energy: float, force: float) -> int:
     """Number of designs that fail `min_absorbed` alone, with an energy that is a lower bound.
 
-    No longer crush of a design absorbs the energy (J) that is required if the allowed force (N)
-    over all of its height, or over the greatest stroke, would not.
+    A longer crush cannot absorb the required energy (J) if the allowed force (N) over the whole
+    height, or over the greatest stroke, would not.
     """
     if "min_absorbed" not in part.limits:
         return 0
@@ -269,7 +269,7 @@ def _open(part: Judged, energy: float, force: float) -> int:
 
 
 def _nearest(part: Judged) -> tuple[DataFrame, dict[str, float]]:
-    """The row of the nearest design, and its misses; no row if nothing is known or asked."""
+    """The row of the nearest design, and its misses; no row if nothing is known or required."""
     worst = nearest_first(part.rows, part.mass, part.shares)
     index = worst[np.isfinite(worst) & (worst > 0.0)].index[:1]
     shares = {name: float(part.shares.loc[i, name]) for i in index for name in part.limits}
@@ -281,7 +281,8 @@ def _rectangle(
 ) -> tuple[float, float]:
     """The energy (J) that must be absorbed and the force (N) that is allowed meanwhile.
 
-    The energy is that of the striker relative to the base; in a crush, the least that is asked for.
+    The energy is the energy of the striker relative to the base; in a crush, the least that is
+    required.
     """
     mode, force = mode_of(rows), required.get("max_force", np.nan)
     if mode.driven:
@@ -293,9 +294,9 @@ def _rectangle(
 
 
 def relative_energy(rows: DataFrame) -> Series:
-    """Energy of the striker relative to the base, which the lattice must absorb, J; 0 to stop both.
+    """Energy (J) of the striker relative to the base, which the lattice must absorb.
 
-    Of a base that moves freely, m M / (m + M) v^2 / 2; the rest stays in the common motion.
+    For a base that moves freely, m M / (m + M) v^2 / 2; the rest stays in the common motion.
     """
     ratio = (rows["striker_mass_g"] / rows["target_mass_g"]).fillna(0.0)
     return rows["impact_energy_J"] / (1.0 + ratio)

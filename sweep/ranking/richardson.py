@@ -16,9 +16,9 @@ ALIKE = 0.5  # least cosine between two consecutive changes of values that conve
 class Limit(NamedTuple):
     """Result of an extrapolation.
 
-    correction (k,): limit - finest value. order: the observed one; NaN if none is observed.
-    doubt: uncertainty of the limit, rms: that of the correction, or without an order the greater
-    of the last two changes.
+    correction (k,): limit - finest value. order: the observed one; NaN if none is observed. doubt:
+    uncertainty of the limit, rms: of the correction, or without an order the greater of the last
+    two changes.
     """
 
     correction: Floats

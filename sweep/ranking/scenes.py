@@ -1,4 +1,4 @@
-"""Loading scenes: which cases are compared, and what their loading is called."""
+"""Loading scenes: which cases are compared, and the names of their loadings."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ ASSUMPTIONS = (
 )
 """Grid keys of the test and not of the design: every value of them makes a scene of its own."""
 OF_DESIGN = ("loading.direction",)
-"""Keys of the loading that belong to the design all the same: how a panel is laid."""
+"""Keys of the loading that belong to the design nevertheless: how a panel is laid."""
 
 
 def by_scene(frame: DataFrame) -> list[DataFrame]:
@@ -55,7 +55,9 @@ def scene_keys(frame: DataFrame) -> list[str]:
 
 
 def _standing(row: Series) -> list[str]:
-    """What presses the lattice of a row and what carries it, in words."""
+    """The striker or platen that presses the lattice of a row and the base that carries it, in
+    words.
+    """
     platen, striker, base = row["platen"], row["striker"], row["base"]
     plain = striker == "flat" and base == "flat"
     if plain:

@@ -1,8 +1,8 @@
-"""How far the values of the best designs move with the uncertain numbers, and whether their order
-changes.
+"""Spread of the best designs with the uncertain numbers: how far their values move, and whether
+their order changes.
 
 At a corner one uncertain number is at an end of its range, for all designs at once. A design whose
-material has no range of that number keeps its value.
+material has no range for this number keeps its value.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range
 FINE = "fine mesh"  # the corner with more elements
-MISSED = "missed "  # with a requirement, the column that says whether it is missed
+MISSED = "missed "  # prefix of a requirement: the column that says whether it is missed
 TABLE = [
     *("budget_g", "scene", "place", "case_id", "ranked_by", "value"),
     *("lowest", "lowest_at", "highest", "highest_at"),
@@ -39,13 +39,13 @@ Corners = Mapping[str, Sequence[tuple[str, str]]]
 
 
 class Spread(NamedTuple):
-    """The best designs of one scene and budget, with what becomes of them.
+    """The best designs of one scene and budget, with their values at the corners.
 
-    rows (k, ...): their rows of the ranking, best first. column: what is ranked.
-    at_corners (k, n): values by name of the corner, the first of which is `AS_GIVEN`; NaN where it
-    failed. places (k, n): among these designs. failed: number of missing values. masses (k, n): g,
-    as budgets count them. missed: place of a design, corner, and what is not kept there: "budget",
-    or a requirement.
+    rows (k, ...): their rows of the ranking, best first. column: the ranked column. at_corners (k,
+    n): values by name of the corner, the first of which is `AS_GIVEN`; NaN where it failed. places
+    (k, n): among these designs. failed: number of missing values. masses (k, n): g, as budgets
+    count them. missed: place of a design, corner, and the limit exceeded there: "budget", or a
+    requirement.
     """
 
     rows: DataFrame
@@ -58,7 +58,7 @@ class Spread(NamedTuple):
 
     @property
     def sign(self) -> float:
-        """1 if more of the column is better, -1 if less is."""
+        """1 if more of the column is better, -1 if less is better."""
         return -1.0 if less_is_better(self.column) else 1.0
 
     @property
@@ -79,7 +79,7 @@ class Spread(NamedTuple):
         return worst.where(others.notna().all(axis=1))
 
     def first(self, corner: str) -> int:
-        """The row that is the best at a corner."""
+        """The row that is best at a corner."""
         return int(np.nanargmin(self.places[corner].to_numpy()))
 
 
@@ -95,7 +95,7 @@ def spreads(
 ) -> list[Spread]:
     """The spread of each scene and budget of a ranking.
 
-    summary: rows of the corners. question: that of the ranking.
+    summary: rows of the corners. question: of the ranking.
     """
     finished = loaded(summary)
     compared, names = merits(finished, question)
@@ -159,7 +159,7 @@ def _spread(rows: DataFrame, corners: Corners, compared: DataFrame, mass: str) -
 
 
 def _not_kept(row: Series, mass: str, budget: float) -> list[str]:
-    """The limits that a row does not keep; budget: g, NaN without one."""
+    """The limits that a row exceeds; budget: g, NaN without one."""
     kept = [key.removeprefix(MISSED) for key in row.index if key.startswith(MISSED) and row[key]]
     return (["budget"] if row[mass] > greatest_mass(budget) else []) + kept
 

@@ -1,17 +1,18 @@
-"""Cases that stopped: which of them are ranked all the same, and which place others could have had.
+"""Cases that stopped: which of them are ranked nevertheless, and which place others could have had.
 
-A case that completed its loading (column `loaded`) is ranked by what the loading determines. Of any
-other, the final value of the sorted column lies between two ends, of which one may be infinite:
+A case that completed its loading (column `loaded`) is ranked by values that the loading determines.
+For any other case, the final value of the sorted column lies between two ends, one of which may be
+infinite:
 
 - energies, forces and strains only rise as a loading goes on: not below the value so far;
-- energy up to an allowed force F: at most the energy so far + F x the stroke that is left, and just
+- energy up to an allowed force F: at most the energy so far + F x the remaining stroke, and just
   the energy so far if F was exceeded;
-- a mass does not change; all other columns may become anything, and so may all of an impact that
+- a mass does not change; all other columns may take any value, as may all columns of an impact that
   its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
-the place that it has at least; doubtful designs stand behind all others. A requirement that it
-already misses, or its mass, excludes it.
+the place that it has at least; doubtful designs follow all others. A requirement that it already
+misses, or its mass, excludes it.
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ RISING = re.compile(
 """Beginnings of columns whose values only rise as a loading goes on."""
 FIXED = re.compile(r"(.+_)?mass_g$|relative_density$")
 PLACES = ["best_place", "least_place"]
-"""Columns of `could_place`: the best place that a case could have had, and the one it has at least;
-the latter is NaN where nothing is certain.
+"""Columns of `could_place`: the best place that a case could have had, and the place it has at
+least, NaN if nothing is certain.
 """
 FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
 """The first columns of `could_place`."""
@@ -61,17 +62,17 @@ class Ends(NamedTuple):
 
 
 def loaded(summary: DataFrame) -> DataFrame:
-    """The rows whose loading was completed: those that are ranked."""
+    """The rows whose loading was completed, which are ranked."""
     return summary[summary["loaded"] == 1]
 
 
 def ended_early(rows: DataFrame, by: str) -> Series:
-    """True for cases that stopped before they had a value to sort by that can be relied on."""
+    """True for cases that stopped before they had a reliable value to sort by."""
     return interrupted(rows) | (unloaded(rows) & rows[by].isna())
 
 
 def interrupted(rows: DataFrame) -> Series:
-    """True for cases whose loading was not completed, but for those that lost their lattice."""
+    """True for cases whose loading was not completed, except those that lost their lattice."""
     return (rows["loaded"] != 1) & (rows["status"] != Status.SLIPPED)
 
 
@@ -145,8 +146,8 @@ def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
 
 
 def _further(rows: DataFrame, by: str, names: Compared, question: Question) -> Series:
-    """What the rest of a crush adds at most to the energy up to an allowed force, in units of `by`:
-    nothing once the force was exceeded; infinite if it is no crush.
+    """Upper bound of the energy that the rest of a crush adds up to an allowed force, in units of
+    `by`: 0 once the force was exceeded; infinite if it is no crush.
     """
     count = rows.get("panel_specimens", Series(1.0, rows.index))
     force = in_si(question.allowed_force or 0.0, "N")
@@ -160,12 +161,14 @@ def _further(rows: DataFrame, by: str, names: Compared, question: Question) -> S
 
 
 def stroke_left(rows: DataFrame) -> Series:
-    """Stroke (m) of a crush that is left at the strain that was reached."""
+    """Remaining stroke (m) of a crush at the strain that was reached."""
     return (rows["stroke_m"] - rows["peak_strain"] * rows["height_m"]).clip(lower=0.0)
 
 
 def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
-    """1 + the number of ranked rows that are better; a doubtful one is so only than its like."""
+    """1 + the number of ranked rows that are better; a doubtful row counts only for doubtful
+    ones.
+    """
     sign = -1.0 if less_is_better(by) else 1.0
     own, their = (sign * np.asarray(values, float) for values in (value, placed[by]))
     yours = doubtful(placed).to_numpy()
@@ -185,10 +188,10 @@ def _judged(
     question: Question,
     required: Mapping[str, float],
 ) -> tuple[Series, Series]:
-    """Which cases miss a requirement already, and which of them can miss none any more.
+    """Which cases already miss a requirement, and which can no longer miss any.
 
-    What is limited from above only rises. An energy that must be absorbed is out of reach only if
-    nothing is added to it.
+    Values that are limited from above only rise. A required energy is out of reach only if nothing
+    is added to it.
     """
     missed = Series(False, rows.index)
     if rows.empty:

@@ -19,7 +19,7 @@ Variables = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
 """Dimensions, values and attributes of each variable."""
 
 CASE, ROW = "case_id", "row"
-OF_CURVES = "history_"  # before the name of a curve that a column of the summary has too
+OF_CURVES = "history_"  # prefix of a curve whose name a column of the summary also has
 NEEDED = 'to_xarray needs xarray: pip install "crumple[xarray]"'
 
 
@@ -69,5 +69,5 @@ def _curves(
 
 
 def _about(column: Column) -> dict[str, str]:
-    """Attributes as the conventions for climate and forecast data (CF) name them."""
+    """Attributes named by the conventions for climate and forecast data (CF)."""
     return {"units": column.units, "long_name": column.description}

@@ -9,7 +9,7 @@ from sweep.numbers import in_unit
 
 
 def outlines(frames: Mapping[str, Any]) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """Outlines (v, 2) below and above, x and y in mm, y above the platen in whose place they are.
+    """Outlines (v, 2) below and above, x and y in mm, y above the platen that they replace.
 
     Both ribs have outlines of the same length. Empty if platens are flat.
     """

@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MAX_SCENES = 12  # in one figure
+MAX_SCENES = 12  # most scenes in one figure
 MAX_WINNERS = 6
-MAX_DRAWN = 40  # bars with a drawing in one figure
+MAX_DRAWN = 40  # most bars with a drawing in one figure
 Named = Iterator[tuple[str, "Figure"]]
 
 
@@ -78,7 +78,7 @@ def ranking_figures(file: str, summary: DataFrame, question: Question) -> Named:
 
 
 def _shown_and_all(summary: DataFrame, question: Question) -> tuple[Ranking, Ranking]:
-    """The ranking that is asked for, and the same of all designs of any mass."""
+    """The requested ranking, and the same ranking of all designs of any mass."""
     shown = answer(summary, question)
     unlimited = question.budget and [inf]  # a budget, so that designs are sorted by J, not J/g
     every = answer(summary, question._replace(budget=unlimited, top=None))
@@ -182,7 +182,7 @@ def _shapes(file: str, designs: DataFrame) -> dict[str, Any]:
 
 
 def _frames(file: str, row: Series) -> Mapping[str, Any]:
-    """The shapes of a case, of a panel without end a piece."""
+    """The shapes of a case; for an endless panel, of a piece."""
     return piece(read_frames(file, row["case_id"]), row)
 
 

@@ -36,7 +36,7 @@ SHARPNESS = 110  # dots per inch in a notebook
 
 
 class AsAsked(Enum):
-    """The default of an argument: what the config asks."""
+    """The default of an argument: the value in the config."""
 
     AS_ASKED = "as the config asks"
 
@@ -54,7 +54,7 @@ class Picture:
         self.figure = figure
 
     def save(self, path: str | Path) -> Path:
-        """Write the picture; the ending of the name says how (.png, .pdf, .svg)."""
+        """Write the picture; the ending of the name sets the format (.png, .pdf, .svg)."""
         self.figure.savefig(path, bbox_inches="tight")
         return Path(path)
 
@@ -104,7 +104,7 @@ class Results:
 
     @property
     def question(self) -> Question:
-        """What the config asks, which `rank` and `plot` answer."""
+        """The question of the config, which `rank` and `plot` answer."""
         return self._question
 
     def rank(  # noqa: PLR0913  every argument is a part of one question
@@ -117,10 +117,10 @@ class Results:
         require: Mapping[str, Quantity | None] | AsAsked | None = AS_ASKED,
         per: str | AsAsked = AS_ASKED,
     ) -> DataFrame:
-        """The best designs, by the question of the config but for what is given here.
+        """The best designs, by the question of the config as changed by the arguments.
 
-        The arguments, and the table, are those of `crumple.rank`; None takes away what the config
-        asks. Numbers need their units, such as budget="25 g".
+        Arguments and table are the same as for `crumple.rank`; None drops the value of the config.
+        Numbers need their units, such as budget="25 g".
         """
         every = Question(budget, panel, by, top, allowed_force, require, per)  # type: ignore[arg-type]
         given = {name: v for name, v in every._asdict().items() if v is not AS_ASKED}

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 SIZE = 56  # pixels of the longer side
-MOST = 2000  # lines of a drawing; a denser one is left out
+MOST = 2000  # most lines of a drawing; a denser one is left out
 STRAIGHT = 0.02  # sine of the angle between two elements of one line
 
 
 def thumbnail(frames: Mapping[str, Any]) -> str:
-    """The walls at rest as one path of an SVG; of a print that stands upright, its plan. Empty
-    without shapes, or where no element lies in the plan.
+    """The walls at rest as one path of an SVG; for a print that stands upright, its plan. Empty
+    without shapes, or if no element lies in the plan.
     """
     if "position_m" not in frames or not len(frames["position_m"]):
         return ""
@@ -74,7 +74,7 @@ def _is_inside(points: np.ndarray, edges: np.ndarray, node: int, own: list[int])
 def _follow(
     edges: np.ndarray, ends: dict[int, list[int]], inside: set[int], left: set[int], node: int
 ) -> int:
-    """The end of a line, from one of its nodes on, over elements that are left."""
+    """The end of a line, starting from one of its nodes, over elements that are left."""
     while node in inside and (further := [k for k in ends[node] if k in left]):
         left.discard(further[0])
         node = int(edges[further[0]].sum()) - node

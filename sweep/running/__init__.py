@@ -1,11 +1,13 @@
-"""A sweep from its cases to its results file.
+"""Runs the cases of a sweep and writes their results file.
 
-`sweep` runs what is missing: `batches` groups cases, `threads` runs them here, `dask_graph` on the
-workers of a `cluster` (these two are the only home of dask), `alone` suspect ones in a process of
-their own. `warming` loads the kernels, `on_worker` is what a worker does, if it has the
-`fingerprint` of the run. `journal` writes down which cases run at the moment, `writer_thread` keeps
-results, with the attributes of `provenance`. `progress` reports how far a sweep is, `estimate` how
-long it will take, `relaxation_warning` which cases are too short or too long for their material,
-`period_note` which are one period of a panel. `run` is the same for a user in Python. `beside` has
-runs that accompany a sweep, `searching` the search for the best design.
+`sweep` runs the missing cases: `batches` groups them, `threads` runs them in this process,
+`processes` in others, `dask_graph` on the workers of a `cluster` (these two are the only home of
+dask), and `alone` runs suspect ones in a process of their own; `place` chooses between these.
+`warming` loads the kernels, `memory` limits the memory of a case, `on_worker` is the code of a
+worker, if it has the `fingerprint` of the run. `journal` records which cases run at the moment,
+`writer_thread` stores results, with the attributes of `provenance`. `progress` reports how far a
+sweep is, `estimate` how long it will take, `relaxation_warning` which cases are too short or too
+long for their material, `period_note` which are one period of a panel; `applicable` refuses
+requirements that fit no case. `run` does the same for a user of Python. `beside` has runs that
+accompany a sweep, `searching` the search for the best design.
 """

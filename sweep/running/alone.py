@@ -1,7 +1,9 @@
-"""A case whose failure is its own: an exception is a row, and so is the death of its process.
+"""Runs cases one at a time in a child process, so that a failure is confined to its case and
+becomes a row: an exception as well as the death of the process.
 
-A process of cases runs `answer`; function, cases and results pass through a pipe. It gets the
-paths of this process when it has started: a module there may have a name of Python's own.
+A child process runs `answer`; the function, cases and results pass through a pipe. It receives the
+module paths of this process only once it has started: a module there may have a name of Python's
+own.
 """
 
 import os
@@ -40,11 +42,11 @@ Simulate = Callable[[Case, np.ndarray], Result]
 
 
 class _StoppedError(Exception):
-    """The run ends."""
+    """The run has been stopped."""
 
 
 def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
-    """Result of a case; an exception is one too."""
+    """Result of a case; an exception becomes a result too."""
     try:
         return simulate(case, control)
     except MemoryError:
@@ -59,7 +61,7 @@ def run_alone(
 ) -> list[Result]:
     """Results of cases, one after the other, in a process of their own; fewer after a stop.
 
-    simulate: a function of a module, by its name.
+    simulate: a function at the top of a module, which is found by its name.
     """
     with Child() as child:
         results = [child.run(simulate, case, is_stopped) for case in batch]
@@ -67,8 +69,8 @@ def run_alone(
 
 
 class Child(AbstractContextManager["Child"]):
-    """A process of cases, one at a time; it begins with the first of them, and again after it has
-    died or had to be killed.
+    """A process that runs cases one at a time. It starts with the first case, and again after it
+    has died or had to be killed.
     """
 
     def __init__(self) -> None:
@@ -120,7 +122,7 @@ class Child(AbstractContextManager["Child"]):
             self._process = _started([sys.executable, "-P", "-c", program], there.fileno())
 
     def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
-        """What comes within some time."""
+        """The next message from the process; raises `TimeoutError` after some seconds."""
         due = time.monotonic() + seconds
         while not self._channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
             if is_stopped():
@@ -131,7 +133,7 @@ class Child(AbstractContextManager["Child"]):
 
 
 def _started(words: list[str], end: int) -> "subprocess.Popen[bytes]":
-    """A process that has one end of a pipe, in a session of its own, which no Ctrl-C reaches."""
+    """A process with one end of a pipe, in a session of its own, which Ctrl-C does not reach."""
     if sys.platform == "win32":
         os.set_handle_inheritable(end, True)
         about = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [end]})
@@ -153,14 +155,14 @@ def answer(end: int, parent: int) -> None:
 
 
 def _end_with(parent: int) -> None:
-    """End this process when the one that asks has died."""
+    """End this process when its parent has died."""
     while _runs(parent):
         time.sleep(MOMENT)
     os._exit(1)
 
 
 def _runs(parent: int) -> bool:
-    if sys.platform == "win32":  # where what starts this process may be a launcher
+    if sys.platform == "win32":  # there a launcher may have started this process
         from psutil import pid_exists
 
         return pid_exists(parent)

@@ -1,4 +1,4 @@
-"""Which requirements cases can be asked for; others are refused before a case runs."""
+"""Refuses requirements that cannot apply to the cases of a sweep, before a case runs."""
 
 from collections.abc import Callable, Iterable, Sequence
 
@@ -9,7 +9,7 @@ from sweep.ranking.requirements import check_modes
 
 
 def check_required(required: Iterable[str], cases: Sequence[Case]) -> None:
-    """Refuse a requirement of which none of these cases has a value."""
+    """Refuse a requirement for which none of these cases has a value."""
     names = list(required)
     check_modes(names, {case.loading.mode for case in cases})
     for name, (needed, has) in MEASURED.items():
@@ -28,4 +28,6 @@ MEASURED: dict[str, tuple[str, Callable[[Case], bool]]] = {
     "max_base_pressure": ("a flat base below walls across it, whose sides are free", _has_patch),
     "max_target_acceleration": ("loading.target_mass", lambda case: case.loading.base_moves),
 }
-"""Requirements of which some cases have no value: what they need, and whether a case has it."""
+"""Requirements for which some cases have no value: the condition in words, and whether a case meets
+it.
+"""

@@ -19,7 +19,7 @@ MEMORY = 0.5  # weight of earlier batches in the pace; so the time of compilatio
 
 
 def cost(case: Case) -> float:
-    """Relative work of a case, steps x elements^1.5: good enough to sort and to weigh cases.
+    """Relative work of a case, steps x elements^1.5, accurate enough to sort and to weight cases.
 
     A quad of a plate counts as `QUAD` elements.
     """
@@ -32,7 +32,7 @@ def cost(case: Case) -> float:
 
 
 class Plan:
-    """Waiting cases, the longest first, so that no worker has a long one left at the end.
+    """Waiting cases, the longest first, so that no worker is left with a long one at the end.
 
     The first batch is the shortest case alone: it gives an early result and a first measure of the
     pace. Cases of equal length are sorted by lattice, which is then built once. A batch holds about
@@ -62,7 +62,7 @@ class Plan:
             return batch
 
     def put_back(self, batch: Sequence[Case]) -> None:
-        """Take back a batch that has not run."""
+        """Return a batch that has not run to the plan."""
         with self._lock:
             self._waiting.extendleft(reversed(batch))
             self.left += sum(map(cost, batch))
@@ -81,7 +81,7 @@ class Plan:
             self._done = MEMORY * self._done + sum(map(cost, batch))
 
     def _first(self) -> Case:
-        """The first waiting case, which keeps its place."""
+        """The first waiting case, which stays in its place."""
         first = self._waiting[0]
         if not isinstance(first, Case):
             first = self._waiting[0] = self._cases[first]

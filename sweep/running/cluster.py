@@ -34,19 +34,19 @@ a `Cluster`; "processes" or open `Processes` of this machine; None for threads o
 
 
 class ClusterError(Exception):
-    """A cluster that fails a run, which keeps what is finished; the text is one line."""
+    """A cluster that fails during a run, which keeps its finished cases; the text is one line."""
 
     exit_status = 1
 
 
 class SchedulerError(ClusterError):
-    """What is given is no scheduler that can be used."""
+    """The given scheduler cannot be used."""
 
     exit_status = 2
 
 
 class Cluster(NamedTuple):
-    """A connected scheduler, and for how many seconds a run waits for a worker."""
+    """A connected scheduler, and the number of seconds for which a run waits for a worker."""
 
     client: "Client"
     address: str
@@ -55,7 +55,7 @@ class Cluster(NamedTuple):
 
 @contextmanager
 def open_cluster(where: Scheduler, wait: float = WAIT) -> Iterator[Cluster | None]:
-    """The cluster of a run, and a line that names it; None for no scheduler.
+    """The cluster of a run, and a line that names it; None if there is no scheduler.
 
     An open cluster, and a `Client` of the user, stay open.
     """
@@ -92,7 +92,7 @@ def _client(where: Scheduler, stack: ExitStack) -> "Client":
 
 
 def address_of(where: str) -> str:
-    """The address of a scheduler: itself, or as its scheduler file has it."""
+    """The address of a scheduler: the text itself, or the address in its scheduler file."""
     if "://" in where:
         return where
     if not Path(where).is_file():

@@ -4,10 +4,10 @@ With one task per case, Dask would need more time to build the graph than the ca
 Therefore a task is a batch of about one second of work, and the number of tasks in flight is
 limited.
 
-Each task is for one worker, so that Dask runs it on no other one: a batch whose worker dies comes
-back to the run, whatever the scheduler does with tasks of others, and takes no second worker with
-it. A worker gets batches when it has shown that it has the source of the run, and when the kernels
-of its host are compiled.
+Each task is bound to one worker, so that Dask runs it on no other: a batch whose worker dies comes
+back to the run, whatever the scheduler does with other tasks, and kills no second worker. A worker
+gets batches once it has proved that it has the source of the run, and the kernels of its host are
+compiled.
 """
 
 import asyncio
@@ -34,16 +34,16 @@ from sweep.running.warming import load, time_to_compile
 if TYPE_CHECKING:
     from distributed import Future
 
-AHEAD = 3  # batches of a thread of a worker: one that runs, others so that it need not wait
+AHEAD = 3  # batches per thread of a worker: one that runs, others so that it need not wait
 MOMENT = 0.2  # seconds between two checks for a stop
 LOOK = 1.0  # seconds between two looks at the workers
-LOSSES = 5  # workers that may be lost to one case
+LOSSES = 5  # number of workers that one case may kill
 LOST = f"each of {LOSSES} workers that ran it died; try a smaller model"
 KEPT = "what is finished is kept, and the same command runs the rest"
 
 
 class Work(NamedTuple):
-    """What workers do with cases, and the kernels that they need for it."""
+    """The function that workers apply to cases, and the kernels that it needs."""
 
     simulate: Simulate
     kernels: list[str]
@@ -61,7 +61,7 @@ NONE = Suspects([])
 
 @dataclass(eq=False)
 class Worker:
-    """A worker as the run sees it. ready: it may have batches; refused: it may have none."""
+    """The state of a worker in the run. ready: it may have batches; refused: it may have none."""
 
     address: str
     name: str
@@ -73,7 +73,9 @@ class Worker:
 
 
 class Task(NamedTuple):
-    """A task in flight: its worker, what becomes of its value, and the cases in it."""
+    """A task in flight: its worker, the function that turns its value into results, and its
+    cases.
+    """
 
     worker: Worker
     take: Callable[[Any], list[Result]]
@@ -122,7 +124,7 @@ class _Run:
         self.refusal = ""  # the last one
 
     def results(self) -> Iterator[list[Result]]:
-        """Results of each batch when it finishes, until all have finished or a stop."""
+        """Results of each batch when it finishes, until all have finished or the run is stopped."""
         look = 0.0
         while self._is_left() and not self.stop.flag:
             if time.monotonic() > look:
@@ -134,7 +136,7 @@ class _Run:
             yield self._land(*self.finished.get())
 
     def cancel(self, futures: "list[Future]") -> None:
-        """Forget tasks, here and in the scheduler."""
+        """Drop tasks, here and in the scheduler."""
         for future in futures:
             self.tasks.pop(future).worker.tasks.discard(future)
         if futures and self.client.status == "running":
@@ -145,7 +147,7 @@ class _Run:
         return bool(waiting) or any(task.suspects.cases for task in self.tasks.values())
 
     def _look(self) -> list[Result]:
-        """Learn which workers have come and gone; return rows of cases that are given up."""
+        """Find out which workers have come and gone; return rows of cases that are given up."""
         present = self._present()
         gone = [self.workers.pop(address) for address in self.workers.keys() - present.keys()]
         rows = [row for worker in gone for row in self._lose(worker)]
@@ -160,9 +162,10 @@ class _Run:
         return rows
 
     def _present(self) -> dict[str, tuple[str, str, int]]:
-        """Workers that run, not paused as their memory is full: address -> name, host, threads.
+        """Workers that run, unless paused because their memory is full: address -> name, host,
+        threads.
 
-        `Client.scheduler_info` would not do: now and then it returns an older state, without them.
+        `Client.scheduler_info` would not do: it sometimes returns an older state, without them.
         """
 
         def present(dask_scheduler: Any) -> dict[str, tuple[str, str, int]]:
@@ -180,7 +183,7 @@ class _Run:
         raise self._lost_scheduler()
 
     def _watch(self) -> None:
-        """Say when no worker is left and when there are workers again; give up after a while."""
+        """Report when no worker is left and when there are workers again; give up after a while."""
         usable = [worker for worker in self.workers.values() if not worker.refused]
         self.plan.workers = max(sum(worker.threads for worker in usable), 1)
         address, limit = self.cluster.address, with_unit(self.cluster.wait, "s")
@@ -203,7 +206,7 @@ class _Run:
         suspects: Suspects,
         *call: Any,
     ) -> None:
-        """Have one worker, and no other, call a function with arguments."""
+        """Let one worker, and no other, call a function with arguments."""
         future = self.client.submit(
             checked, fingerprint(), *call, workers=[worker.address], pure=False
         )
@@ -214,7 +217,7 @@ class _Run:
         )
 
     def _fetch(self, future: "Future") -> None:
-        """Bring a value here: a thread waits, and for long if a worker dies with the value."""
+        """Fetch a value: a thread waits, for a long time if a worker dies with the value."""
         try:
             self.finished.put((future, future.result()))
         except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001  `_land` sorts them
@@ -225,7 +228,9 @@ class _Run:
         self._submit(worker, take, NONE, inspect_kernels, self.work.kernels)
 
     def _inspected(self, worker: Worker, kernels: Kernels) -> list[Result]:
-        """A worker gets batches, compiles the kernels, or waits for another one of its host."""
+        """Give a worker batches, let it compile the kernels, or let it wait for another one of its
+        host.
+        """
         place = worker.host if kernels.lasting else worker.address
         if not kernels.cold:
             worker.ready = True
@@ -238,7 +243,7 @@ class _Run:
         return []
 
     def _compiled(self, compiler: Worker, _: None = None) -> list[Result]:
-        """Inspect the workers of a host again, when one of them has compiled or is lost."""
+        """Inspect the workers of a host again after one of them has compiled or is lost."""
         self.compiling = {at: worker for at, worker in self.compiling.items() if worker != compiler}
         for worker in self.workers.values():
             waits = not (worker.ready or worker.refused or worker.tasks)
@@ -247,7 +252,7 @@ class _Run:
         return []
 
     def _fill(self, worker: Worker) -> None:
-        """Give a worker what keeps it busy."""
+        """Submit enough batches to keep a worker busy."""
         while worker.ready and not self.stop.flag:
             free = len(worker.tasks) < worker.threads
             ahead = self.plan.is_quick() and len(worker.tasks) < AHEAD * worker.threads
@@ -267,11 +272,11 @@ class _Run:
         return results
 
     def _land(self, future: "Future", value: Any) -> list[Result]:
-        """Results of a task that has ended, with a value or an exception."""
+        """Results of a finished task, with a value or an exception."""
         from distributed import CancelledError, KilledWorker
 
         task = self.tasks.pop(future, None)
-        if task is None:  # of a worker that is lost
+        if task is None:  # of a lost worker
             return []
         task.worker.tasks.discard(future)
         if isinstance(value, CancelledError | asyncio.CancelledError):
@@ -288,7 +293,7 @@ class _Run:
         return rows
 
     def _refuse(self, worker: Worker, error: Exception) -> None:
-        """Give a worker nothing more, as it is another one than the run needs."""
+        """Give no further batches to a worker that is not the one that the run needs."""
         if worker.refused:
             return
         worker.ready, worker.refused = False, True
@@ -299,14 +304,16 @@ class _Run:
         self._compiled(worker)
 
     def _lose(self, worker: Worker) -> list[Result]:
-        """Take back what a worker had that is gone."""
+        """Take back the batches of a lost worker."""
         lost = [self.tasks[future].suspects for future in worker.tasks]
         self.cancel([*worker.tasks])
         self._compiled(worker)
         return [row for suspects in lost for row in self._suspect(suspects)]
 
     def _suspect(self, suspects: Suspects) -> list[Result]:
-        """Run cases whose worker is lost again, in halves; a row for one that loses too many."""
+        """Run cases whose worker was lost again, in halves; a case that loses too many becomes a
+        row.
+        """
         cases, losses = suspects.cases, suspects.losses + 1
         half = len(cases) // 2
         if half:

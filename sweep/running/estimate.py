@@ -1,13 +1,12 @@
 """Estimates the cost of a sweep before it starts, from a few of its cases.
 
 The time of a case is assumed to be proportional to `batches.cost`, with a factor that is measured
-for each kind of loading and mesh. It depends on what a design does, such as how often walls touch:
-where cases are many or short, each kind is divided by family, wall thickness and load into groups
-with a factor of their own. A long case is stopped: its later steps are taken to be as slow as those
-in the second half of its time. Walls that are pressed along the cells take `FOLDING`, since steps
-are ten times slower after they collapse.
-Other programs share the cores as they do while the pilots run. The estimate may still be wrong by a
-factor of two.
+for each kind of loading and mesh. The factor depends on the behaviour of a design, such as how
+often walls touch: if cases are many or short, each kind is divided by family, wall thickness and
+load into groups with factors of their own. A long case is stopped: its later steps are assumed to
+be as slow as in the second half of its time. Walls that are pressed along the cells count `FOLDING`
+times, since steps are ten times slower after they collapse. Other programs are assumed to use the
+cores as they do while the pilots run. The estimate may still be wrong by a factor of two.
 """
 
 import time
@@ -42,23 +41,24 @@ from sweep.running.threads import Stop, run_on_threads
 from sweep.running.warming import real_simulate
 from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
 
-BYTES = 4  # of a stored number, in single precision
+BYTES = 4  # per stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
 SPENT = 8.0  # s of processor time for the groups of all kinds
 LONGEST = 10.0  # s of processor time for a pilot; a longer one is stopped and extrapolated
-GROUPS = 9  # of one kind
+GROUPS = 9  # most groups of one kind
 SHARE = 3  # least number of cases in a group
 FOLDING = (
     (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.45, 0.5, 1.0),
     (0.0, 0.013, 0.026, 0.064, 0.17, 0.33, 0.6, 0.87, 1.0, 2.3),
 )
-"""Strain, and the time that crushes along the cells take until then, as a share of that to 50 %.
+"""Strain, and the time that crushes along the cells take until then, as a share of the time to 50
+%.
 
 The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as between 45 and 50 %.
 """
-UNFOLDING = 0.25  # of the time that loading takes
+UNFOLDING = 0.25  # share of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
-LOAD = Path("/proc/loadavg")  # of Linux
+LOAD = Path("/proc/loadavg")  # in Linux
 HALF = 50.0  # % of the time of a core that is busy
 MOMENT = 0.1  # seconds between two looks at it
 
@@ -69,8 +69,8 @@ class Estimate:
 
     The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
     that did not converge. The time is NaN if a pilot has no measured time. `stopped`: pilots whose
-    time is extrapolated from their first steps. `others`: threads of other programs that ran at the
-    same time, in the mean.
+    time is extrapolated from their first steps. `others`: mean number of threads of other programs
+    that ran at the same time.
     """
 
     cpu: float
@@ -82,7 +82,7 @@ class Estimate:
     others: float = 0.0
 
     def wall(self, workers: int, cores: int) -> float:
-        """Time (s) on so many workers, which share the cores with others."""
+        """Time (s) on ``workers``, which share the cores with other programs."""
         return self.cpu / workers * max((workers + self.others) / cores, 1.0)
 
 
@@ -133,8 +133,8 @@ def dry_run(
 
 
 def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
-    """Run one case of each kind of loading and mesh, then one of each of its groups if they are
-    short; scale their costs to all of their group.
+    """Run one case of each kind of loading and mesh and, if these are short, one of each of its
+    groups; scale their costs to their groups.
     """
     kinds: dict[tuple[str | int, ...], list[Case]] = {}
     for case in cases:
@@ -176,7 +176,9 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
 
 
 def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
-    """The function `simulate` in about `LONGEST`; it notes the processor time (s) of a case."""
+    """The function `simulate`, limited to about `LONGEST`; it records the processor time (s) of a
+    case.
+    """
     from dask.system import cpu_count
     from psutil import getloadavg
 
@@ -200,7 +202,9 @@ def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
 
 
 def _left(case: Case, middle: int, done: int) -> float:
-    """How much longer a case takes than it took for `done` steps, `middle` in half of that time."""
+    """How many times as long a whole case takes as its first `done` steps did, `middle` of them in
+    half of that time.
+    """
     count, loading = count_of(case.loading, case.solver), case.loading
     if _folds(case) and isinstance(loading, Crush) and case.solver.load_steps:
         strain = loading.strain * min(max(done, 1) / case.solver.load_steps, 1.0)
@@ -216,19 +220,19 @@ def _folds(case: Case) -> bool:
 
 
 def _limited(pilot: Case, limit: float) -> Case:
-    """The case with another time limit (s), which is no part of its id."""
+    """The case with another time limit (s), which does not enter its id."""
     solver = pilot.solver.model_copy(update={"time_limit": limit})
     return pilot.model_copy(update={"solver": solver})
 
 
 @contextmanager
 def _other_threads() -> Iterator[list[int]]:
-    """The numbers of threads, beside one of this process, that run on this machine now and then."""
+    """Numbers of threads of other programs that run on this machine, sampled now and then."""
     counts, ended = [_running() - 1], Event()
 
     def count() -> None:
         while not ended.wait(MOMENT):
-            counts.append(max(_running() - 2, 0))  # without this thread and that of the pilot
+            counts.append(max(_running() - 2, 0))  # without this thread and the thread of the pilot
 
     thread = Thread(target=count, daemon=True)
     thread.start()
@@ -240,8 +244,8 @@ def _other_threads() -> Iterator[list[int]]:
 
 
 def _running() -> int:
-    """Threads of the machine that run or could run, this one included; elsewhere than on Linux, at
-    most as many as it has cores.
+    """Threads of the machine that run or could run, including this one; on other systems than
+    Linux, at most as many as it has cores.
     """
     if LOAD.exists():
         return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
@@ -277,9 +281,9 @@ def _middle(ordered: Sequence[Case]) -> Case:
 def _groups(
     pilot: Case, alike: list[Case], spent: float, seconds: float
 ) -> list[tuple[Case, list[Case]]]:
-    """Groups of cases of one kind, each with the case that stands for it.
+    """Groups of cases of one kind, each with the case that represents it.
 
-    One group, for which `pilot` stands, unless others may run in the time `spent` (s).
+    One group, represented by `pilot`, unless others may run in the time `spent` (s).
     """
     affordable = 1.0 if isnan(seconds) else spent / max(seconds, 1e-3)
     count = int(min(GROUPS, affordable, len(alike) / SHARE))
@@ -292,7 +296,9 @@ def _groups(
 
 
 def _design(case: Case) -> tuple[str, float, float, float]:
-    """What decides how a case of its kind behaves: family, wall thickness, load, cost."""
+    """The values that determine how a case of its kind behaves: family, wall thickness, load,
+    cost.
+    """
     load = 0.0
     match case.loading:
         case DeadLoad(force=size) | Impact(energy=size) | Crush(stroke=size):

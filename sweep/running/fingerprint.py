@@ -1,4 +1,6 @@
-"""What two processes must have in common for the same numbers: source, versions, compiler."""
+"""Fingerprint of a process, equal in processes that compute the same numbers: source, versions,
+compiler.
+"""
 
 import hashlib
 import platform
@@ -19,7 +21,7 @@ Fingerprint = Mapping[str, str]
 
 @cache
 def fingerprint() -> Fingerprint:
-    """Of this process: name -> hash or version."""
+    """The fingerprint of this process: name -> hash or version."""
     python = ".".join(platform.python_version_tuple()[:2])
     common = {"source": source_hash(*SOURCES), "model version": str(MODEL_VERSION)}
     common |= {"Python": python, "compiler": choice.compiler()}
@@ -37,6 +39,6 @@ def source_hash(*folders: Path) -> str:
 
 
 def differences(theirs: Fingerprint, ours: Fingerprint) -> str:
-    """What differs, in words; "" if nothing does."""
+    """The differences in words; "" if there are none."""
     names = [name for name in ours if theirs.get(name) != ours[name]]
     return ", ".join(f"{name} {theirs.get(name, NONE)} (this run: {ours[name]})" for name in names)

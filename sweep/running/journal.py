@@ -1,4 +1,4 @@
-"""Which cases run at the moment, written down: a process that dies has left its suspects."""
+"""A journal of the cases that run at the moment, which names the suspects if the process dies."""
 
 import os
 from contextlib import suppress
@@ -15,15 +15,15 @@ from sweep.store.lock import HOW
 from sweep.store.read import ID
 
 BEGUN, ENDED = "+", "-"
-LARGEST = 1 << 28  # bytes that are read
+LARGEST = 1 << 28  # most bytes that are read
 
 
 class Journal:
-    """A file beside the results file while a run writes to it; it goes when the run ends, unless
+    """A file beside the results file while a run writes to it, deleted when the run ends, unless
     suspects still wait.
 
-    suspects: ids of the cases that were running when the last run died, if it did. A journal that
-    cannot be written, as the disk is full, costs its purpose, and never a result.
+    suspects: ids of the cases that were running when the last run died, if it did. If a journal
+    cannot be written, as the disk is full, suspects remain unknown, but no result is lost.
     """
 
     def __init__(self, out: str | os.PathLike[str]) -> None:
@@ -47,11 +47,11 @@ class Journal:
             self._path.unlink(missing_ok=True)
 
     def end(self, case_id: str) -> None:
-        """Note that a suspect has ended, or is none."""
+        """Record that a suspect has ended, or is none."""
         self._write(ENDED, case_id)
 
     def watched(self, simulate: Simulate) -> Simulate:
-        """The function `simulate`, whose cases are written down while they run."""
+        """The function `simulate`, with an entry in the journal while a case runs."""
 
         def run(case: Case, control: np.ndarray) -> Result:
             self._write(BEGUN, case.case_id)
@@ -63,7 +63,7 @@ class Journal:
         return run
 
     def _write(self, mark: str, case_id: str) -> None:
-        """A line reaches the file before the case runs, and survives the death of the process."""
+        """Write a line to the file at once, so that it survives the death of the process."""
         with self._lock, suppress(OSError):
             os.write(self._file, f"{mark}{case_id}\n".encode())
 

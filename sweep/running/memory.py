@@ -1,8 +1,8 @@
-"""The memory that cases may have: as much as is free.
+"""Limits the memory of a process to the free memory of the machine.
 
-A case that needs more gets a `MemoryError`, which is its row. Without a limit, Linux would promise
-it the memory, and kill a process when it is used: this one, or another one of the machine. Other
-systems have no such limit: Windows promises only what it has, macOS swaps.
+A case that needs more gets a `MemoryError`, which is recorded in its row. Without a limit, Linux
+would promise it the memory, and kill a process when it is used: this one, or another one of the
+machine. Other systems need no such limit: Windows promises only what it has, macOS swaps.
 """
 
 import sys
@@ -11,13 +11,13 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 PROC, GROUPS = Path("/proc"), Path("/sys/fs/cgroup")
-GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of the second and the first version
+GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of versions 2 and 1 of control groups
 USED, KB = 0.95, 1024  # the share of a control group that is data; the unit of /proc
 
 
 @contextmanager
 def limited_memory() -> Iterator[None]:
-    """Limit the data of this process to what it has and what is free."""
+    """Limit the data of this process to its present size plus the free memory."""
     if sys.platform == "linux":
         from resource import RLIM_INFINITY, RLIMIT_DATA, getrlimit, setrlimit
 
@@ -41,7 +41,7 @@ def most_data() -> int:
 
 
 def _kilobytes(file: str, name: str) -> int:
-    """A number of a file of /proc, in kB."""
+    """A number from a file of /proc, in kB."""
     lines = (PROC / file).read_text("utf-8").splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
 

@@ -1,4 +1,4 @@
-"""What a worker of a cluster runs: nothing unless it computes the same numbers as the run."""
+"""Functions that run on a worker of a cluster, if it computes the same numbers as the run."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ class OtherSourceError(Exception):
 
 class Kernels(NamedTuple):
     """The kernels of a worker: those that it would have to compile, and whether other processes of
-    its host find them then.
+    its host can then use them.
     """
 
     cold: list[str]
@@ -21,14 +21,14 @@ class Kernels(NamedTuple):
 
 
 def checked(expected: Fingerprint, task: Callable[..., Any], *arguments: Any) -> Any:
-    """What a task returns, if this process has the fingerprint of the run."""
+    """The result of a task, if this process has the fingerprint of the run."""
     if wrong := differences(fingerprint(), expected):
         raise OtherSourceError(wrong)
     return task(*arguments)
 
 
 def inspect_kernels(names: Sequence[str]) -> Kernels:
-    """The state of the named kernels here."""
+    """The state of the named kernels in this process."""
     from kernels.compile.cache import is_lasting
 
     return Kernels(cold_kernels(names), is_lasting())

@@ -1,4 +1,6 @@
-"""Says of which cases one period stands for a wide panel, and whether it keeps its width."""
+"""Notes on cases in which one period represents a wide panel: whether the period keeps its
+width.
+"""
 
 from collections.abc import Sequence
 
@@ -9,7 +11,7 @@ FREE = "platens without friction hold nothing: the mean lateral force is zero"
 
 
 def sentences_on_periods(cases: Sequence[Case]) -> list[str]:
-    """A sentence about cases whose period is fixed, and one about those where it is free."""
+    """A sentence about cases whose period is fixed, and one about cases whose period is free."""
     tied = [case.widens for case in cases if case.lattice.tied_sides]
     free = sum(tied)
     return [

@@ -1,4 +1,6 @@
-"""Where the cases of a run go: threads or processes of this machine, or a Dask cluster."""
+"""Chooses where the cases of a run are computed: threads or processes of this machine, or a Dask
+cluster.
+"""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,11 +15,11 @@ Place: TypeAlias = Cluster | Processes | None
 
 
 def chosen_place(workers: int | None, where: Scheduler) -> tuple[int, Scheduler]:
-    """How many cases run at a time on this machine, and where, if none or only one is given.
+    """How many cases run at a time on this machine, and where, if at most one of the two is given.
 
-    Where nothing is given, the scheduler of Dask's configuration counts, which is usually that of
-    DASK_SCHEDULER_ADDRESS. Without it all cores are used: threads as far as they pay, beyond that
-    processes.
+    If neither is given, the scheduler of Dask's configuration counts, usually set by
+    DASK_SCHEDULER_ADDRESS. Without it all cores are used: by threads as far as more of them pay,
+    beyond that by processes.
     """
     import dask
     from dask.system import cpu_count
@@ -31,9 +33,9 @@ def chosen_place(workers: int | None, where: Scheduler) -> tuple[int, Scheduler]
 
 @contextmanager
 def open_place(where: Scheduler, wait: float = WAIT) -> Iterator[Place]:
-    """Where cases run; what is open already, and a `Client` of the user, stays open.
+    """The place where cases run; an open cluster, and a `Client` of the user, stay open.
 
-    wait: as of `Cluster`.
+    wait: as in `Cluster`.
     """
     if isinstance(where, Processes):
         yield where

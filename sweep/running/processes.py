@@ -1,4 +1,4 @@
-"""Cases in processes of this machine, where more threads would wait for one another."""
+"""Runs cases in processes of this machine, where more threads would wait for one another."""
 
 from contextlib import AbstractContextManager
 from functools import partial
@@ -13,7 +13,7 @@ PROCESSES = "processes"  # in place of a scheduler
 
 
 class Processes(AbstractContextManager["Processes"]):
-    """As many processes as threads call at the same time; they end with the block."""
+    """As many processes as threads call it at the same time; they end with the block."""
 
     def __init__(self) -> None:
         self._free: list[Child] = []
@@ -23,7 +23,7 @@ class Processes(AbstractContextManager["Processes"]):
             child.end()
 
     def runs(self, simulate: Simulate) -> Simulate:
-        """The function `simulate`, each of whose cases has a process for itself while it runs."""
+        """The function `simulate`, with a process for each case while it runs."""
         return partial(self._run, simulate)
 
     def _run(self, simulate: Simulate, case: Case, control: np.ndarray) -> Result:

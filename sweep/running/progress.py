@@ -21,8 +21,8 @@ from sweep.running.batches import cost
 PERIOD = 5.0  # seconds between plain lines
 NOTEBOOK_PERIOD = 0.5
 RECENT = 60.0  # last seconds, from which the pace is measured
-FIRM = 4.0  # seconds of measurement needed for the time left, since the first cases are short
-SENTENCES = 5  # different failures that are reported while the sweep runs
+FIRM = 4.0  # seconds of measurement before the time left is shown, since the first cases are short
+SENTENCES = 5  # most different failures that are reported while the sweep runs
 
 
 def announce(line: str) -> None:
@@ -48,10 +48,10 @@ class NotebookLine:
 class Progress:
     """Counts cases as they finish.
 
-    waiting: number of waiting cases. work: their weight in the time left, in all; `weight` is that
-    of one case. done: number of cases of the sweep that were finished before. part: these cases are
-    a part of a search, which reports the end of each part itself: lines appear only if a part takes
-    long.
+    waiting: number of waiting cases. work: their total weight in the time left; `weight` is the
+    weight of one case. done: number of cases of the sweep that were finished before. part: these
+    cases are a part of a search, which reports the end of each part itself: lines appear only if a
+    part takes long.
     """
 
     def __init__(
@@ -138,7 +138,7 @@ class Progress:
         return [pace, f"{timedelta(seconds=seconds)} left"]
 
     def _update(self, line: str) -> None:
-        """Show the state of the sweep: in a notebook in place of the last one."""
+        """Show the state of the sweep; in a notebook it replaces the previous state."""
         if self._notebook:
             self._notebook.show(line)
         else:

@@ -49,7 +49,7 @@ def config_text(config: Config) -> str:
 
 
 def _searched(axes: Mapping[str, Interval | Choice]) -> dict[str, Any]:
-    """What a search may choose: both ends, or a list."""
+    """The values that a search may choose: both ends, or a list."""
     return {
         key: {"from": axis.low, "to": axis.high}
         if isinstance(axis, Interval)
@@ -62,7 +62,7 @@ def _searched(axes: Mapping[str, Interval | Choice]) -> dict[str, Any]:
 def git_revision() -> str:
     """Commit of the source tree, with "-dirty" if files differ from it; "unknown" if installed.
 
-    It is asked for once, as later changes are not those of the modules that are loaded.
+    It is read only once, as later changes do not affect the modules that are loaded.
     """
     root = Path(__file__).parents[2]
     if not (root / ".git").exists():  # installed; a parent folder may be another repository

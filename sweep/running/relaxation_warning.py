@@ -8,7 +8,7 @@ FAR = 100.0  # factor from a time of relaxation beyond which its branch loses ne
 
 
 def sentences_on_lossless(cases: Sequence[Case]) -> list[str]:
-    """A sentence about the cases that are too short for their times of relaxation, and another one
+    """A sentence about the cases that are too short for their relaxation times, and another one
     about those that are too long; none if all are fine.
     """
     lasting = [

@@ -1,5 +1,5 @@
-"""Runs a config from Python and returns its results; runs the best of them again at the ends of
-ranges.
+"""Runs a config from Python and returns its results; repeats its best designs at the ends of the
+ranges of uncertain numbers.
 """
 
 import os
@@ -42,10 +42,10 @@ def run(
     config : a dict of tables, the path of a TOML file, the name of an example, or a `Config`. out :
     the results file, by default results/NAME.h5. workers: threads. scheduler: in place of threads,
     "processes" of this machine, as many as workers; or a `distributed.Client` or one of Dask's
-    clusters, the address or the file of a scheduler, or "slurm". By default that of
+    clusters, the address or the file of a scheduler, or "slurm". By default the scheduler of
     DASK_SCHEDULER_ADDRESS, if it is set; else one thread per core, or beyond 8 cores one process
-    per core. error_bars: also run each design on a coarser mesh and with longer
-    steps, for the columns `error_...`. Progress is shown, in a notebook as one line.
+    per core. error_bars: also run each design on a coarser mesh and with longer steps, for the
+    columns `error_...`. Progress is shown, in a notebook as one line.
     """
     config = config if isinstance(config, Config) else load_config(config)
     check_question(config)
@@ -76,7 +76,7 @@ def spread(
 ) -> DataFrame:
     """Run the best designs again with each uncertain number at both ends of its range.
 
-    results : of `run` or `optimize`, with what is asked of them, or a results file. top : number of
+    results : from `run` or `optimize`, with their question, or a results file. top : number of
     designs of each ranking. The cases are kept beside the results, in NAME.spread.h5. Returns the
     table of `sweep.ranking.spread.spread_table`, a row per design.
     """
@@ -97,7 +97,7 @@ def spreads_of(
     how: How,
 ) -> list[Spread]:
     """Run the corners of the best designs of a question, and return their spreads: none if no
-    number is uncertain. cases: as of `corners_of`. summary: of `out`.
+    number is uncertain. cases: see `corners_of`. summary: of the results in `out`.
     """
     ranking = answer(with_allowed(out, summary, question), question)
     corners = corners_of(cases, ranking.table["case_id"], out)
@@ -111,8 +111,8 @@ def spreads_of(
 
 
 def check_question(config: Config) -> None:
-    """Refuse what no case of a config can be asked for, before cases run: a requirement, or a panel
-    that is smaller than half a specimen.
+    """Refuse, before cases run, a requirement that applies to no case of a config, or a panel
+    smaller than half a specimen.
     """
     if config.rank.panel:
         check_panel(config.rank.panel, config.cases)

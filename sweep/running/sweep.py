@@ -1,4 +1,4 @@
-"""Runs a sweep into its results file: skip finished cases, run the others, fold."""
+"""Runs a sweep into its results file: skips finished cases, runs the others, folds the results."""
 
 import os
 import signal
@@ -39,12 +39,12 @@ from sweep.store.read import (
 )
 from sweep.store.write import WriteError, Writer
 
-CROWDED = (NO_MEMORY, DIED)  # messages of cases that run again, with no others beside them
+CROWDED = (NO_MEMORY, DIED)  # messages of cases that run again, one at a time
 SUSPECTED = "ran when the last run died: now first, each in a process of its own"
 
 
 class Interrupted(KeyboardInterrupt):
-    """A sweep that was stopped; the text says what is kept and how to continue."""
+    """A sweep that was stopped; the text says which results are kept and how to continue."""
 
 
 def run_sweep(  # noqa: PLR0913  what, where, how
@@ -56,12 +56,12 @@ def run_sweep(  # noqa: PLR0913  what, where, how
     simulate: Simulate | None = None,
     part: bool = False,
 ) -> int:
-    """Run the cases that `out` does not hold; return how many cases of the sweep are not converged.
+    """Run the cases that `out` does not contain; return how many cases of the sweep are not
+    converged.
 
-    scheduler: as of `open_place`; `workers` are threads of this process, which have a process each
-    with `Processes`.
-    rerun: cases that run again; an old row stays until the new one is sealed. Ctrl-C (or SIGTERM)
-    keeps finished cases and raises `Interrupted`. part: as of `Progress`.
+    scheduler: as in `open_place`; `workers` are threads of this process, each with a child process
+    in `Processes`. rerun: cases that run again; an old row stays until the new one is sealed.
+    Ctrl-C (or SIGTERM) keeps finished cases and raises `Interrupted`. part: as in `Progress`.
     """
     config = sweep_of(sweep)
     config = replace(config, name=config.name or Path(out).stem)
@@ -126,7 +126,9 @@ def run_sweep(  # noqa: PLR0913  what, where, how
 
 
 def _work(simulate: Simulate | None, cases: Sequence[Case], place: Place) -> Work:
-    """What runs the cases; the kernels that they need are loaded only where they run."""
+    """The function that runs the cases; the kernels that they need are loaded only where they
+    run.
+    """
     if simulate:
         return Work(simulate, [])
     if isinstance(place, Cluster):
@@ -141,14 +143,16 @@ def _run_alone(simulate: Simulate, cases: Iterable[Case], sink: Sink, stop: Stop
 
 
 def _sort_out(again: list[Case], sink: Sink, results: list[Result]) -> None:
-    """Pass on results, but not of cases that may have had too little memory beside others."""
+    """Pass on results, except of cases that may have lacked memory beside others, which go to
+    ``again``.
+    """
     again += [result.case for result in results if result.message in CROWDED]
     if ended := [result for result in results if result.message not in CROWDED]:
         sink(ended)
 
 
 def _ending(suspects: Iterable[Case], journal: Journal, sink: Sink) -> Sink:
-    """A sink that also notes in the journal which suspects have ended."""
+    """A sink that also records in the journal which suspects have ended."""
     ids = {case.case_id for case in suspects}
 
     def keep(results: list[Result]) -> None:

@@ -1,4 +1,4 @@
-"""Cases on threads of this process; a batch of them is also what a worker of a cluster runs."""
+"""Runs cases on threads of this process; a worker of a cluster runs its batches in the same way."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -13,13 +13,13 @@ from sweep.result import Result, Status
 from sweep.running.alone import MOMENT, Simulate, attempt
 from sweep.running.batches import Plan
 
-MOST_THREADS = 8  # Python's lock is held 2 ms of a short case
+MOST_THREADS = 8  # a short case holds Python's lock for 2 ms
 
 Sink = Callable[[list[Result]], None]
 
 
 def usual_workers() -> int:
-    """Threads of a run: one for each core that this process may use, as far as more pay."""
+    """Threads of a run: one for each core that this process may use, as far as more of them pay."""
     from dask.system import cpu_count
 
     return min(cpu_count(), MOST_THREADS)
@@ -63,7 +63,9 @@ def run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> No
     one_at_a_time = Lock()
 
     def work() -> None:
-        """Batches, each taken when the last has ended: with the newest estimate of the pace."""
+        """Batches, each taken after the last has ended, so that it uses the newest estimate of the
+        pace.
+        """
         while not stop.flag and (batch := plan.take()):
             results, seconds = run_batch(simulate, batch, stop)
             plan.learn(batch, seconds)
@@ -73,7 +75,7 @@ def run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> No
     with ThreadPoolExecutor(plan.workers) as pool:
         try:
             running = {pool.submit(work) for _ in range(plan.workers)}
-            while running:  # Windows hears no Ctrl-C while the main thread waits without a limit
+            while running:  # Windows delivers no Ctrl-C while the main thread waits without a limit
                 ended, running = wait(running, MOMENT, FIRST_COMPLETED)
                 for thread in ended:
                     thread.result()

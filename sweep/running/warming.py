@@ -1,4 +1,4 @@
-"""The kernels that cases need: loaded or compiled, here or on a worker of a cluster."""
+"""Loads or compiles the kernels that cases need, here or on a worker of a cluster."""
 
 from collections.abc import Iterable
 
@@ -11,7 +11,7 @@ OF = {
     "arcs": "arc lengths",
     "plates": "walls as shells",
 }
-"""What kernels are of, in words."""
+"""The walls or the method for which kernels are compiled, in words."""
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else the user's cache folder, is not a writable folder"
 
 
@@ -48,14 +48,14 @@ def time_to_compile() -> str:
 
 
 def cold_kernels(kernels: Iterable[str]) -> list[str]:
-    """Those of the named kernels (keys of `SMALLEST`) that may have to be compiled."""
+    """The named kernels (keys of `SMALLEST`) that may have to be compiled."""
     from kernels.compile.cache import is_cold
 
     return [name for name in kernels if is_cold(name)]
 
 
 def load(kernels: Iterable[str]) -> None:
-    """Load or compile the named kernels, and note that they are kept."""
+    """Load or compile the named kernels, and record that they are cached."""
     from kernels.compile.cache import warmed_up
     from sweep.simulation.simulate import warm_up
 

@@ -1,4 +1,4 @@
-"""The thread that writes results while other threads compute, and when it writes them."""
+"""The thread that writes results while other threads compute, and its schedule."""
 
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
@@ -40,8 +40,8 @@ def writer_thread() -> Iterator[ThreadPoolExecutor]:
 def result_sink(writer: Writer, plan: Plan, progress: Progress) -> Iterator[Sink]:
     """A sink that seals results and then reports them as progress; the first ones at once.
 
-    Later results wait until they took enough time to compute, since a part takes about 80 ms to
-    write. The last results are folded into the results file without a part.
+    Later results wait until they have taken enough time to compute, since a part takes about 80 ms
+    to write. The last results are folded into the results file without a part.
     """
     unsealed: list[Result] = []
     seals: list[Future[None]] = []

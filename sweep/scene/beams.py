@@ -6,8 +6,8 @@ P = 12 Y' I / (S l0^2) and p = P / (2 (1 + P)),
     k_11 = k_22 = (4 + P) Y' I / (l0 (1 + P)),   k_12 = (2 - P) Y' I / (l0 (1 + P)),
 
 and the slopes of its axis against the chord, which make the arc longer, are b_i = a_i - p (a_1 +
-a_2). The axial force does no work on shear (Haringx): the strain is that along the normal of the
-section, which is turned from the axis by g = p (a_1 + a_2),
+a_2). The axial force does no work on shear (Haringx): the strain is measured along the normal of
+the section, which is turned from the axis by g = p (a_1 + a_2),
 
     e = l / l0 - 1 + (2 b_1^2 - b_1 b_2 + 2 b_2^2) / 30 - g^2 / 2.
 
@@ -15,7 +15,7 @@ A wall whose layers have unequal thicknesses (`Network.gyration`, i) has the mea
 thickness t, the mean second moment I = i^2 t^3 / 12, and fibres i times as far from its centre
 line; its joints are stiffer in bending by i^2.
 
-A solid joint is an element of a stiffness of its own (`joints`), which yields along its chord as a
+A solid joint is an element with a stiffness of its own (`joints`); along its chord it yields like a
 wall of another area.
 """
 
@@ -47,7 +47,9 @@ class Beams(NamedTuple):
 
 
 def bends(case: Case) -> bool:
-    """False if walls have no bending stiffness: chains of axial springs with free hinges."""
+    """Whether walls have bending stiffness; without it they are chains of axial springs with free
+    hinges.
+    """
     return case.material.bend != "none"
 
 
@@ -60,7 +62,7 @@ def plane_factors(material: Material) -> tuple[float, float]:
 
 
 def contraction(material: Material) -> float:
-    """Nu' of bending: contraction across a fibre over its strain."""
+    """The contraction nu' of bending: contraction across a fibre over its strain."""
     nu = material.poisson
     return nu if material.plane == "stress" else nu / (1.0 - nu)
 

@@ -35,7 +35,7 @@ def build_bend(mesh: Mesh, beams: Beams, case: Case) -> bend.Bend:
 def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Floats]:
     """``spread`` (2, m), ``volume`` (m,) and ``shear`` (m,) of `kernels.terms.bend.Bend`.
 
-    The moments of Timoshenko's element are those of its curvature, less their part in shear:
+    The moments of Timoshenko's element are the moments of its curvature less their part in shear:
     k_s = 3 P / (1 + P)^2 Y' I / l0. Solid joints bend linearly, and so do the stubs between them.
     """
     l0, by = mesh.rest_length, 1.0 / (1.0 + beams.shear)
@@ -48,7 +48,7 @@ def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Flo
 
 
 def build_fold(mesh: Mesh, rigidity: Floats, case: Case) -> fold.Fold:
-    """Fold barrier between neighbouring elements of every node; K: halves of both in series."""
+    """Fold barrier between neighbouring elements of every node; K: half elements in series."""
     nodes, opened, ends = (a[: None if bends(case) else 0] for a in mesh.openings)
     limit = np.minimum(fold.LIMIT, 0.5 * opened)
     one, two = (2.0 * rigidity / mesh.rest_length)[ends].T

@@ -1,4 +1,4 @@
-"""The data of contact: of walls, by force or by position, and of nodes with platens."""
+"""The data of contact: between walls, by force or by position, and of nodes with platens."""
 
 import numpy as np
 
@@ -11,14 +11,14 @@ from sweep.scene.coordinates import BASE, BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
 from sweep.scene.profiles import NO_PROFILES, gripped
 
-PAIRS = 200  # of a node on average, in the widest list of neighbours at rest
+PAIRS = 200  # average number per node in the widest list of neighbours at rest
 
 
 def _most_move(mesh: Mesh, edges: Ints, reach: float) -> float:
-    """The longest move in m that a list of neighbours covers: it limits the memory of the list.
+    """The longest move in m that a list of neighbours covers, which limits the memory of the list.
 
-    Such a list has `PAIRS` segments about each node, if they lie evenly in a square that is half as
-    wide as the structure is wide and high together.
+    Such a list has `PAIRS` segments about each node, if they are spread evenly in a square whose
+    side is half the sum of the width and the height of the structure.
     """
     if edges.shape[0] == 0:
         return np.inf
@@ -28,7 +28,7 @@ def _most_move(mesh: Mesh, edges: Ints, reach: float) -> float:
 
 
 def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """The value of `contact_near_joints.special_pairs` for a scene without contact of walls."""
+    """The result of `contact_near_joints.special_pairs` for a scene without contact of walls."""
     start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
     return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
 
@@ -76,8 +76,8 @@ def contact_of(
 def _loose(numbering: Numbering, case: Case) -> Ints:
     """Nodes that can touch a platen.
 
-    All nodes for loose platens. For bonded ones the nodes outside of the bonded rows, if the case
-    has contact of walls.
+    These are all nodes for loose platens. For bonded ones they are the nodes outside the bonded
+    rows, if the case has contact of walls.
     """
     bonded = gripped(case.loading) in (*BONDED, BASE)
     loose = np.full(numbering.n_nodes, bonded and case.contact.model != "none")
@@ -89,7 +89,7 @@ def _loose(numbering: Numbering, case: Case) -> Ints:
 def projection_of(
     mesh: Mesh, numbering: Numbering, layout: analysis.Layout, masses: Floats, case: Case
 ) -> position_based.Projection:
-    """Contact by position: free coordinates with mass give way in proportion to 1 / mass."""
+    """Contact by position: free coordinates with mass move apart in proportion to 1 / mass."""
     own = (layout.leader == np.arange(numbering.size)) & (masses > 0.0)
     ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
     return position_based.Projection(contact_of(mesh, numbering, 0.0, case, by_force=False), ease)

@@ -68,7 +68,7 @@ class Numbering(BetweenPlatens):
         """Place of each coordinate in the block of its point, (size,): x, y, rotation.
 
         Both platens share a block, in which the upper one is the first; the width of a period and a
-        platen that moves freely are never unknowns together.
+        freely moving platen are never unknowns at the same time.
         """
         along = np.tile([0, 1], self.n_nodes)
         platens = np.append(np.zeros(self._others - 2, np.int64), [1, 0])
@@ -76,7 +76,7 @@ class Numbering(BetweenPlatens):
 
 
 def supports(numbering: Numbering, platen: str | None, base_moves: bool = False) -> Indices:
-    """Coordinates that never move: those of clamped rows, and the lower platen.
+    """Coordinates that never move: those in clamped rows, and the lower platen.
 
     base_moves: the lower platen moves in y, and so does the row that is clamped to it.
     """
@@ -101,8 +101,8 @@ def leaders(
 ) -> Indices:
     """The coordinate that each one follows, (size,).
 
-    Itself, or that of the upper platen if it is among ``tied``, of the lower one if it is among
-    those ``below``, or -1 if it is among ``supports``.
+    It is the upper platen for coordinates in ``tied``, the lower one for those in ``below``, -1 for
+    those in ``supports``, and else the coordinate itself.
     """
     leader = np.arange(numbering.size)
     leader[tied], leader[below] = numbering.high, numbering.low

@@ -1,7 +1,7 @@
 """The arrays of a custom structure: walls, supports, loads, prescribed moves, springs, floor.
 
-All prescribed moves follow one coordinate, the driver. It goes from 0 to the largest of them as
-the load factor goes from 0 to 1; every other move is a constant ratio of it.
+All prescribed moves follow one coordinate, the driver. It goes from 0 to the largest prescribed
+move as the load factor goes from 0 to 1; every other move is proportional to it.
 """
 
 from collections.abc import Iterable
@@ -33,8 +33,8 @@ from sweep.scene.terms import (
     walls_of,
 )
 
-SUDDEN = 5e-3  # of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
-FAR = 1e3  # times the size of a structure: height of the ceiling that contact requires
+SUDDEN = 5e-3  # share of t^2 / size; a slender column buckles after it shortens by 0.8 t^2 / L
+FAR = 1e3  # height of the ceiling that contact requires / size of a structure
 DIRECTIONS = ("x", "y", "rotation")
 
 
@@ -42,15 +42,15 @@ DIRECTIONS = ("x", "y", "rotation")
 class Ground(Numbering):
     """Numbering with a floor, a ceiling out of reach, and the driver as the last coordinate.
 
-    pinned: number of walls' ends at pins. Each has a rotation and a point of its own, after those
-    of the nodes and of the platens.
+    pinned: number of wall ends at pins. Each has a rotation and a point of its own, numbered after
+    the nodes and the platens.
     """
 
     pinned: int
 
     @property
     def free_ends(self) -> Ints:
-        """Coordinates of the rotations of walls' ends at pins, (pinned,)."""
+        """Coordinates of the rotations of wall ends at pins, (pinned,)."""
         return 3 * self.n_nodes + np.arange(self.pinned)
 
     @property
@@ -81,7 +81,7 @@ class Ground(Numbering):
         return self.low + 2
 
     def coordinate(self, node: int, direction: str) -> int:
-        """Coordinate of a node of the file."""
+        """Coordinate of a node, numbered as in the structure file, in a direction."""
         return (2 * node, 2 * node + 1, 2 * self.n_nodes + node)[DIRECTIONS.index(direction)]
 
 
@@ -137,7 +137,7 @@ def build_structure(case: Case) -> Scene:
 
 
 def _arms(network: Network, structure: Structure, case: Case) -> Arms:
-    """The ends of the walls; a wall is a beam up to a support or a pin."""
+    """The ends of the walls; a wall is a beam where it ends at a support or a pin."""
     if case.solver.joints == "points":
         return point_joints(len(network.walls))
     supported = [node for node, _ in structure.restraints] + [
@@ -156,7 +156,7 @@ def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats
 def _leaders(structure: Structure, numbering: Ground) -> Ints:
     """The coordinate that each one follows: itself, the driver, or -1.
 
-    -1: held, or the rotation of a pin, which is not used.
+    -1: held, or the unused rotation of a pin.
     """
     leader = np.arange(numbering.size)
     leader[[numbering.low, numbering.ceiling]] = -1

@@ -1,9 +1,9 @@
 """One period of a lattice that repeats: its mesh, and images of its nodes.
 
-Elements belong to the walls of the period. A node at the end of one may be the image of another
-node, which it follows at a distance of some periods; further images carry copies of walls, which
-the walls of the period may touch. An image has no mass, and contact counts the nodes of the period
-only, so that each pair counts once.
+Elements belong to the walls of the period. A node at the end of a wall may be the image of another
+node, which it follows at a distance of whole periods; further images carry copies of walls, which
+the walls of the period may touch. Images have no mass, and contact counts only the nodes of the
+period, so that each pair counts once.
 """
 
 from collections.abc import Callable, Iterable
@@ -35,8 +35,8 @@ Shift = Callable[[Floats], Floats]
 class Repeated(Numbering):
     """Numbering of a period with images of nodes.
 
-    origin (n,): the node of the period that each node is or copies; shift (n, 2): by how many
-    periods it is moved.
+    origin (n,): the node itself, or the node of the period that it copies; shift (n, 2): by how
+    many periods it is moved.
     """
 
     origin: Ints
@@ -44,7 +44,9 @@ class Repeated(Numbering):
 
     @property
     def rotation(self) -> Ints:
-        """Coordinates of the rotations, (n_nodes,); an image has that of its original."""
+        """Coordinates of the rotations, (n_nodes,); an image shares the rotation of its
+        original.
+        """
         return 2 * self.n_nodes + self.origin
 
     @property
@@ -108,7 +110,7 @@ def draw(case: Case, lattice: Cells, imperfection: Shift, platen: str | None) ->
 
 
 def _arms(network: Endless, case: Case, rows: Iterable[Ints]) -> Arms:
-    """The ends of all walls: those of a copy are those of the wall that it copies."""
+    """The ends of all walls; a copy of a wall has the same ends as the original."""
     if case.solver.joints == "points":
         return point_joints(len(network.walls))
     own = network.origin[network.walls[: network.own]]
@@ -118,11 +120,11 @@ def _arms(network: Endless, case: Case, rows: Iterable[Ints]) -> Arms:
 
 
 def images_of(numbering: Repeated, leader: Ints, sizes: tuple[int, int], free: Floats) -> Ints:
-    """The constraints of images: position = that of the original + shift x period.
+    """The constraints of images: position = position of the original + shift x period.
 
     (k, 4) as in `kernels.linear.condensed.periodic_images`, for coordinates that are neither held
-    nor tied. sizes: coordinates of the width and the height of the period; free (2,): 0 where that
-    does not change, else 1.
+    nor tied. sizes: coordinates of the width and the height of the period; free (2,): 0 for a size
+    that does not change, else 1.
     """
     nodes = np.flatnonzero(~numbering.own)
     rows = []
@@ -140,7 +142,7 @@ def parts_of(
 ) -> tuple[Parts, float]:
     """The data of a period without loads, and a typical force, N.
 
-    leader (n,): the coordinate that each one follows; images (k, 4): of `images_of`.
+    leader (n,): the coordinate that each one follows; images (k, 4): from `images_of`.
     """
     mesh, whole, network = period.mesh, period.whole, period.network
     beams = build_beams(mesh, period.arms, case)
@@ -182,7 +184,9 @@ def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
 
 
 def _seen(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
-    """Contact of the nodes of the period: images have length 0, so that each pair counts once."""
+    """Contact of the nodes of the period: images have contact length 0, so that each pair counts
+    once.
+    """
     own, special = numbering.own, numbering.own[touch.special_node]
     return touch._replace(
         tributary=np.where(own, touch.tributary, 0.0),

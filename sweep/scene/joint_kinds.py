@@ -1,9 +1,8 @@
 """The compliance C of solid joints, by the openings between their arms: kinds, tables, look-up.
 
-`joints.py` has the definition of C. `joints.csv` has its values for each kind of joint at several
-angles; between them C is interpolated. C is a mean over the states in which a lattice of such
-joints deforms, and the same for all arms, except at joints with an axis. The columns NM, NV and
-NV_nu are not used.
+`joints.py` defines C. `joints.csv` has its values for each kind of joint at several angles; between
+them C is interpolated. C is a mean over the states in which a lattice of such joints deforms, and
+the same for all arms, except at joints with an axis. The columns NM, NV and NV_nu are not used.
 """
 
 from collections.abc import Callable, Iterator
@@ -18,13 +17,13 @@ from numpy.typing import NDArray
 from sweep.design.drawing import Floats
 from sweep.design.drawing import Indices as Ints
 
-NEAR = 6.0  # degrees: difference of an opening from that of a known joint
+NEAR = 6.0  # degrees: largest difference of an opening from a known joint
 DIGITS = 6  # decimals of a degree, beyond which openings are equal
 COLUMNS = ("MM", "MV", "VV", "NN", "VV_nu", "NN_nu")
-MV_NU = -1.2  # slope of MV in nu' at all joints: the one of a beam's shear, with the sign changed
+MV_NU = -1.2  # slope of MV in nu' at all joints: as in the shear of a beam, with the sign changed
 LENGTHS = np.linspace(0.6, 3.0, 241)  # x, length of an element over t: the first stable one
 CONTRACTIONS = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # nu' for which it is stable
-FLAT = 179.0  # degrees: two arms with a wider opening between them have no corner
+FLAT = 179.0  # degrees: two arms with a wider opening between them form no corner
 LEAST = 0.1  # eigenvalue of F in V, M / t: F of a beam of that length has 0.5 to 1
 
 
@@ -41,7 +40,7 @@ KINDS: dict[str, Callable[[float], tuple[float, ...]]] = {  # openings by the fi
     "5": lambda g: (g, _halves(g), _halves(g), g, 180.0 - g),
     "6": lambda g: (g, _halves(g), _halves(g), g, _halves(g), _halves(g)),
 }
-AXIS = {"Y": 2, "T": 1}  # which arm, in order, is the axis of the other two
+AXIS = {"Y": 2, "T": 1}  # number of the arm that is the axis of the other two
 
 
 class Joint(NamedTuple):
@@ -54,17 +53,17 @@ class Joint(NamedTuple):
 
 
 def find_joint(opened: Floats, in_row: NDArray[np.bool_]) -> Joint | None:
-    """The joint of some openings; None where it is not known.
+    """The joint with some openings; None if it is not known.
 
     opened (k,): openings round the joint, degrees; opening i follows arm i. in_row (k,): arms that
-    are part of a glued row. A lattice has few different joints: each is sought once.
+    are part of a glued row. A lattice has few different joints: each is looked up once.
     """
     return _joint(tuple(opened.round(DIGITS).tolist()), tuple(in_row.tolist()))
 
 
 @lru_cache(maxsize=1024)
 def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
-    """As `find_joint`, whose arguments it has as tuples."""
+    """`find_joint` with its arguments as tuples."""
     opened, in_row = np.array(around), np.array(glued)
     if in_row.any() and np.count_nonzero(~in_row) == 1:
         for openings, matrix in on_glued_rows().items():
@@ -92,24 +91,25 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
 
 
 def _kept(compliance: Floats, length: Floats) -> Joint:
-    """A joint that several callers share: its arrays cannot be changed."""
+    """A joint that several callers share: its arrays are read-only."""
     compliance.flags.writeable = length.flags.writeable = False
     return Joint(compliance, length)
 
 
 def unequal(joint: Joint, opened: Floats, thickness: Floats) -> Joint:
-    """The joint of arms of unequal thickness (k,) with the same openings (k,), from that of equals.
+    """The joint of arms of unequal thickness (k,), from the ``joint`` of equal arms with the same
+    openings (k,).
 
-    Beside a thicker arm, an arm yields up to their corner as beside its equal, and the corner is
-    farther out, by d in the mean of both sides: F is that of equals for V and M - V d, and C that
-    less a beam from the centre,
+    Beside a thicker arm, an arm yields up to their corner as beside an equal one, and the corner is
+    farther out, by d in the mean of both sides: F is unchanged in V and M - V d, and C is F less a
+    beam from the centre,
 
         MM - 12 d,  MV - MM d + 6 d^2,  VV - (2.4 + 2 MV) d + MM d^2 - 4 d^3,  x + d,
 
-    with MV at nu' = 0, as its slope is that of the beam.
+    with MV at nu' = 0, as its slope is the slope of the beam.
 
     Axial forces pass straight through and spread into about half of d: NN - d / 2. Beside a thinner
-    arm, C is less, in the ratio of the thicknesses: without the other arm it is 0.
+    arm, C is multiplied by the ratio of the thicknesses: without the other arm it is 0.
     """
     if np.all(thickness == thickness[0]):
         return joint
@@ -128,7 +128,7 @@ def unequal(joint: Joint, opened: Floats, thickness: Floats) -> Joint:
 
 
 def _has(kind: str, angle: float) -> bool:
-    """Whether the table has joints of a kind at an angle, or on both sides of it."""
+    """Whether the table has joints of a kind at an angle, or at angles on both sides of it."""
     angles = table()[kind, "side" if kind in AXIS else "all"][0]
     return bool(angles[0] <= angle <= angles[-1])
 
@@ -154,7 +154,7 @@ def flexibility(compliance: Floats, x: Floats, nu: float) -> Floats:
 
 
 def _turned(opened: Floats) -> Iterator[tuple[Floats, Ints]]:
-    """The openings, begun at each of them, in both ways round, and the arm before each."""
+    """The openings, starting with each of them, in both directions, and the arm before each."""
     n = len(opened)
     for first in range(n):
         yield opened[(first + np.arange(n)) % n], (first + np.arange(n)) % n
@@ -162,7 +162,7 @@ def _turned(opened: Floats) -> Iterator[tuple[Floats, Ints]]:
 
 
 def _off(opened: Floats, openings: tuple[float, ...]) -> float:
-    """Greatest difference of two sets of openings, degrees."""
+    """Largest difference between two sets of openings, degrees."""
     if len(openings) != len(opened):
         return np.inf
     return float(np.max(np.abs(opened - openings)))
@@ -193,6 +193,6 @@ def on_glued_rows() -> dict[tuple[float, ...], Floats]:
 
 
 def _rows(name: str) -> list[dict[str, str]]:
-    """The rows of a table beside this file, without its comments."""
+    """The rows of a table in the folder of this file, without its comments."""
     lines = (Path(__file__).parent / name).read_text("utf-8").splitlines()
     return list(DictReader(line for line in lines if line[0] != "#"))

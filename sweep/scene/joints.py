@@ -1,21 +1,21 @@
-"""Solid joints: how the ends of walls yield beyond beams that meet at a point.
+"""Solid joints: compliance of the ends of walls beyond beams that meet at a point.
 
-The complementary energy of a solid joint of arms of thickness t is that of Timoshenko's beams that
-reach its centre, plus r . C r / (2 Y' depth) for each arm, with r = (N, V, M / t) at the centre:
-along the arm, to its left, turning left (tests/studies/continuum/arms.py finds C from solids). An
-arm therefore ends in one short element, from the centre to x t, whose flexibility in r is the sum
-of C and that of a beam:
+The complementary energy of a solid joint of arms of thickness t is the energy of Timoshenko beams
+that reach its centre, plus r . C r / (2 Y' depth) for each arm, with r = (N, V, M / t) at the
+centre: along the arm, to its left, turning left (tests/studies/continuum/arms.py finds C from
+solids). An arm therefore ends in one short element, from the centre to x t, whose flexibility in r
+is the sum of C and the flexibility of a beam:
 
     F = C + [[x, 0, 0], [0, 2.4 (1 + nu') x + 4 x^3, -6 x^2], [0, -6 x^2, 12 x]]
 
 For arms of unequal thickness see `joint_kinds.unequal`. In short walls the sum of both C and the
 beam holds until the joints meet (tests/studies/continuum/pixels.py). Joints that would take more
-than `MOST` of the wall are those of a wall so much thinner that they just fit: x t, MM and NN are
-multiplied by the ratio of the thicknesses, MV by its square and VV by its cube. That is no result
-of elasticity, but F stays positive definite, and nothing jumps.
+than `MOST` of a wall are replaced by the joints of a wall so much thinner that they just fit: x t,
+MM and NN are multiplied by the ratio of the thicknesses, MV by its square and VV by its cube. This
+is no result of elasticity, but F stays positive definite, and nothing jumps.
 
 nu' is nu in plane stress and nu / (1 - nu) in plane strain. Between its joints the wall is a beam
-with shear. Shear and C belong together, as C is an excess over sheared beams: a wall with an end
+with shear. Shear and C belong together, as C is an excess over beams with shear: a wall with an end
 whose C is not known has neither, and its joints are points.
 """
 
@@ -31,9 +31,9 @@ from sweep.design.network import Network
 from sweep.scene.coordinates import BONDED
 from sweep.scene.joint_kinds import find_joint, flexibility, unequal
 
-STRAIGHT = 15.0  # degrees: two arms that meet at less are one bent wall
-MOST = 0.95  # of the length of a wall, that its joints can take
-POWERS = np.array([1.0, 2.0, 3.0, 1.0])  # of a thickness in MM, MV, VV, NN of C
+STRAIGHT = 15.0  # degrees: two arms that meet at a smaller angle are one bent wall
+MOST = 0.95  # largest share of the length of a wall that its joints can take
+POWERS = np.array([1.0, 2.0, 3.0, 1.0])  # powers of a thickness in MM, MV, VV, NN of C
 
 
 class Arms(NamedTuple):
@@ -54,9 +54,10 @@ def point_joints(walls: int) -> Arms:
 
 
 def solid_joints(network: Network, platen: str | None) -> Arms:
-    """The ends of the walls of a lattice. Loose platens hold no row, and others both; without a
-    platen, or on a base alone, the lower row is held. Walls reach the perimeters of a slicer as
-    beams.
+    """The ends of the walls of a lattice.
+
+    Loose platens hold no row, and other platens both rows; without a platen, or on a base alone,
+    the lower row is held. Walls meet the perimeters of a slicer as beams.
     """
     rows = [] if platen == "contact" else [network.bottom]
     if platen in BONDED:
@@ -68,7 +69,7 @@ def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints)
     """The ends of the first walls of a network, with the number of the joint of each end.
 
     joints (w, 2). rows: joints of each row that is glued to a platen; a wall with both ends in the
-    same one is part of it. plain: joints that walls reach as beams.
+    same row is part of it. plain: joints that walls reach as beams.
     """
     count = len(joints)
     start, end = network.points[network.walls[:count]].swapaxes(0, 1)
@@ -121,7 +122,7 @@ def _by_joint(joint: Ints, bearing: Floats) -> Iterator[Ints]:
 def joint_elements(side: Ints, x: Floats, compliance: Floats, nu: float) -> tuple[Floats, Floats]:
     """The elements of solid joints: x (j,) and C (j, 4, 3). side (j,): the end 0 or 1 at the joint.
 
-    Return stiffness along the chord, over Y' depth (j,), and k_11, k_12, k_22 of
+    Returns the stiffness along the chord, over Y' depth (j,), and k_11, k_12, k_22 of
     `kernels.terms.bend` over Y' depth t^2, (3, j).
     """
     balance = np.empty((len(side), 2, 2))

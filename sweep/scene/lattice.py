@@ -30,14 +30,16 @@ from sweep.scene.terms import (
 
 
 def initial_velocity(numbering: Numbering, leader: Ints, loading: Loading) -> Floats:
-    """Initial velocity of each coordinate, m/s: that of the striker and the row glued to it."""
+    """Initial velocity of each coordinate, m/s: the speed of the striker for it and the row glued
+    to it.
+    """
     return np.where(leader == numbering.high, -striker_of(loading).speed, 0.0)
 
 
 def load_of(numbering: Numbering, case: Case) -> Floats:
     """Dead load of each coordinate, N: on the upper platen, or in equal parts on the top nodes.
 
-    A striker has its weight; that of the lattice is left out.
+    The weight of a striker is included, the weight of the lattice is not.
     """
     load = np.zeros(numbering.size)
     load[numbering.high] = -striker_of(case.loading).weight
@@ -95,14 +97,14 @@ def build_scene(case: Case) -> Scene:
 
 
 def follow_platens(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
-    """Coordinates that follow the upper and the lower platen; those of a held row follow none."""
+    """Coordinates that follow the upper and the lower platen; a held row follows neither."""
     above = numbering.top if platen in BONDED else NONE
     below = numbering.bottom if platen in (*BONDED, BASE) and base_moves else NONE
     return 2 * above + 1, 2 * below + 1
 
 
 def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:
-    """Nodes that may press on a flat base, by x at rest: of a held row, and loose ones."""
+    """Nodes that may press on a flat base, by x at rest: nodes of a held row, and loose ones."""
     if touch.low_away > 0.0:
         return NONE
     row = NONE if platen == "contact" else numbering.bottom

@@ -18,7 +18,7 @@ from sweep.scene.terms import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
-WHOLE = 1e-6  # of a step: tolerance in the number of steps of a stage
+WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
     "bdf2": integrators.BDF2,
@@ -32,7 +32,7 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 
 class Phase(NamedTuple):
-    """A stage, its name in messages, what it is to the measures, and its cycle."""
+    """A stage, its name in messages, its role in the measurements, and its cycle."""
 
     name: str
     stage: march.Stage
@@ -43,7 +43,7 @@ class Phase(NamedTuple):
 class CycleRows(NamedTuple):
     """Rows of a history at which a cycle begins, its loading ends, its unloading begins and ends.
 
-    Rows that the run has not reached count too. Without unloading the last three are one.
+    Rows that the run has not reached count too. Without unloading the last three are the same.
     """
 
     begun: int
@@ -72,9 +72,9 @@ def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
 
 
 def _controlled(phase: Phase, solver: Solver) -> march.Stage:
-    """The stage of a phase with its integrator, and with the error that is allowed in a step.
+    """The stage of a phase with its integrator, and with the error allowed in a step.
 
-    Nothing moves in a pause, by which an error could be judged.
+    A pause has no accuracy, as nothing moves by which an error could be judged.
     """
     stage = phase.stage._replace(scheme=SCHEMES[solver.integrator])
     match solver:
@@ -100,7 +100,7 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
 
 
 def _course(case: Case, scene: Scene | PlateScene) -> tuple[float, float]:
-    """Where what is driven starts, and how far it goes, m."""
+    """Start and travel of the driven coordinate, m."""
     match case.loading:
         case OfFile():
             return 0.0, scene.travel
@@ -110,7 +110,7 @@ def _course(case: Case, scene: Scene | PlateScene) -> tuple[float, float]:
 
 
 def _stage(ramp: Ramp, pace: float, dynamic: bool, start: float, way: float) -> march.Stage:
-    """The stage of a ramp, in equal steps, at most as long as ``pace`` (s); start, way: m."""
+    """The stage of a ramp, in equal steps of at most ``pace`` (s); start, way: m."""
     steps, duration = ramp.steps, pace
     if ramp.time is not None:
         steps = steps or max(ceil(ramp.time / pace - WHOLE), 1)
@@ -123,12 +123,12 @@ def _stage(ramp: Ramp, pace: float, dynamic: bool, start: float, way: float) -> 
 def _time_of_fall(case: Case, scene: Scene | PlateScene) -> float:
     """The time in which the load of a case would move its free masses by the height, s."""
     assert isinstance(case.loading, DeadLoad)
-    mass = float(scene.terms.coordinates.mass.sum()) / 2.0  # that of a node counts along x and y
+    mass = float(scene.terms.coordinates.mass.sum()) / 2.0  # nodes have it in x and in y
     return sqrt(2.0 * mass * case.height / case.loading.force)
 
 
 def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:
-    """The phases of all cycles; from the second on, their names say the cycle."""
+    """The phases of all cycles; from the second cycle on, their names include its number."""
     return [
         phase._replace(name=phase.name + (f" in cycle {n}" if n > 1 else ""), cycle=n)
         for n in range(1, cycles + 1)

@@ -1,6 +1,6 @@
 """The uniaxial law of a material: nominal stress over nominal strain, a C1 piecewise cubic.
 
-Tension: the record, interpolated shape-preserving (pchip); below 1 % a straight line from the
+Tension: the record, with shape-preserving interpolation (pchip); below 1 % a straight line from the
 origin, since the toe of a record shows slack and slip in the grips. Compression: the material's own
 branch if its record has one, else `0.7 lower + 0.3 upper` with the tension curve P, nominal strain
 e < 0 and stretch s = 1 + e:
@@ -29,12 +29,12 @@ from sweep.scene.relaxation import relaxation_of
 
 Floats = NDArray[np.float64]
 
-SECTION_FIBRES = 5  # of three, the moment has a dip of 2 to 4 % where walls fold
-FIBRE = np.sqrt(3.0 / 20.0)  # of a thickness: place of the outer of three Gauss points
-OUTER = 5.0 / 18.0  # weight of these
+SECTION_FIBRES = 5  # with three, the moment has a dip of 2 to 4 % where walls fold
+FIBRE = np.sqrt(3.0 / 20.0)  # place of the outer of three Gauss points, as a share of the thickness
+OUTER = 5.0 / 18.0  # weight of this point
 RADIAL = 0.5  # strain at which c of `kernels.terms.section` is found
-LINEAR = 5.0 / 3.0  # least c, that of a linear curve
-MIDDLE = 1e-9  # of half a thickness: nearer points are in the middle
+LINEAR = 5.0 / 3.0  # least c, for a linear curve
+MIDDLE = 1e-9  # share of half a thickness: nearer points are in the middle
 LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
 COMPRESSION = -np.array(
     [
@@ -82,8 +82,8 @@ def stress_law(material: Material) -> StressLaw:
 
 
 def section_law(material: Material) -> StressLaw:
-    """The law of the fibres of a bent section: that of stretching, or the curve where stretching is
-    linear.
+    """The law of the fibres of a bent section: the law of stretching, or the curve where stretching
+    is linear.
     """
     if material.stretch == "linear" and material.curve_strain:
         return _record_law(material)
@@ -91,7 +91,7 @@ def section_law(material: Material) -> StressLaw:
 
 
 def monotonic_law(material: Material) -> StressLaw:
-    """The law of the first loading: that of `stress_law`, or the straight lines of a plastic."""
+    """The law of the first loading: `stress_law`, or the straight lines of a plastic."""
     if material.yield_stress is None or material.hardening is None:
         return stress_law(material)
     modulus, hardening = material.modulus, material.hardening
@@ -130,14 +130,14 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
 
 
 def _bound(curve: StressLaw, modulus: float) -> float:
-    """The c of `kernels.terms.section`: from the mean stress of a curve at +-`RADIAL`, Pa."""
+    """The c of `kernels.terms.section`, from the mean stress of a curve at +-`RADIAL`, Pa."""
     stress = float(np.mean(np.abs(curve.at(np.array([-RADIAL, RADIAL])))))
     return float(max((modulus / stress) ** 2 - RADIAL**-2, LINEAR))
 
 
 def _fibres(count: int) -> tuple[Floats, Floats]:
-    """Places and weights of ``count`` Gauss points but the middle one, in those of the outer two of
-    three.
+    """Places and weights of ``count`` Gauss points except the middle one, relative to the outer two
+    of three.
     """
     place, weight = np.polynomial.legendre.leggauss(count)
     outer = np.abs(place) > MIDDLE
@@ -168,7 +168,7 @@ def _fibre(
 
 
 def _softening(curve: ElasticCurve | FibreCurve, material: Material, factor: float) -> Softening:
-    """A curve that softens on reuse; factor: of all stresses."""
+    """A curve that softens on reloading; factor: of all stresses."""
     r, m, beta = material.softening_r, material.softening_m, material.softening_beta
     if r is None or m is None or beta is None:
         return Softening(curve, 0.0, 0.0, 0.0)
@@ -196,7 +196,7 @@ def _spline(knots: Floats, values: Floats, slopes: Floats) -> StressLaw:
 def with_compression(
     curve_strain: tuple[float, ...], curve_stress: tuple[float, ...], cauchy: float
 ) -> tuple[Floats, Floats]:
-    """Strains and stresses of a curve with another compression, by its tension: the share
+    """Strains and stresses of a curve with another compression, derived from its tension: the share
     ``cauchy`` of `upper`, and the rest of `lower`.
     """
     pulled = np.array(curve_strain) >= 0.0

@@ -21,9 +21,9 @@ class Mesh:
     """Walls split into equal elements, between short ones for solid joints at their ends.
 
     The first nodes are the joints of the network. points (n, 2): nodes at rest, m. edges (m, 2):
-    nodes of an element, in the direction of its wall. wall (m,): wall of an element. joint (m,):
-    2 w or 2 w + 1 for the solid joint at either end of a wall w, else -1. thickness (m,) of an
-    element, m. n_joints: number of joints. gyration (m,): as of `Network`.
+    nodes of an element, in the direction of its wall. wall (m,): wall of an element. joint (m,): 2
+    w or 2 w + 1 for the solid joint at either end of a wall w, else -1. thickness (m,) of an
+    element, m. n_joints: number of joints. gyration (m,): as in `Network`, of each element.
     """
 
     points: Floats
@@ -41,13 +41,13 @@ class Mesh:
 
     @cached_property
     def inner(self) -> Ints:
-        """Nodes inside walls: (h, 3), the element before, the node, the element after."""
+        """Nodes inside walls, (h, 3): the previous element, the node, the next element."""
         at_end = np.flatnonzero(self.wall[1:] == self.wall[:-1])
         return np.column_stack([at_end, self.edges[at_end, 1], at_end + 1])
 
     @cached_property
     def stubs(self) -> NDArray[np.bool_]:
-        """Elements that are all that solid joints leave of a wall, and too short for a beam, (m,).
+        """True for elements too short for a beam: the rest of a wall between solid joints, (m,).
 
         Their fibres would be bent far beyond a radius of half the thickness.
         """
@@ -107,8 +107,7 @@ class Mesh:
 def build_mesh(lattice: WallLattice, solid: bool, platen: str | None) -> tuple[Mesh, Arms]:
     """The mesh of a lattice between platens, and the ends of its walls.
 
-    solid: joints are solid; else they are points. It is cached, since consecutive cases often share
-    it.
+    solid: joints are solid, not points. The mesh is cached, since consecutive cases often share it.
     """
     network, shift = build_network(lattice.geometry), lattice.imperfection * lattice.wall_thickness
     arms = solid_joints(network, platen) if solid else point_joints(len(network.walls))
@@ -119,9 +118,9 @@ def build_mesh(lattice: WallLattice, solid: bool, platen: str | None) -> tuple[M
 def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     """Number of equal elements of each wall, (w,): `pieces`, or fewer between solid joints.
 
-    There, and in a drawing, none is shorter than `SHORTEST` thicknesses, below which a wall is no
-    beam; in what a slicer prints, than a thickness, as the infill cuts the perimeters into pieces
-    of any length.
+    Between solid joints, and in a drawing, no element is shorter than `SHORTEST` thicknesses, below
+    which a wall is no beam; in a sliced lattice none is shorter than a thickness, as the infill
+    cuts the perimeters into pieces of any length.
     """
     start, end = network.points[network.walls].swapaxes(0, 1)
     free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
@@ -139,8 +138,8 @@ def split_walls(
     """Split every wall into equal elements and shift all points sideways.
 
     pieces: number of equal elements, one for all walls or (w,). imperfection (m): amplitude of the
-    stress-free shift in x, a `bow`. joint_length (w, 2): of the elements
-    for solid joints, m; 0: none.
+    stress-free shift in x, a `bow`. joint_length (w, 2): length of the elements for solid joints,
+    m; 0: none.
     """
     walls = len(network.walls)
     if joint_length is None:

@@ -50,7 +50,7 @@ def imperfection(lattice: Cells, y: Floats) -> Floats:
 def _leaders(numbering: Repeated, anchor: int, case: Case) -> Ints:
     """The coordinate that each one follows: itself, or -1 if held.
 
-    anchor: the node that is held, to prevent rigid motions.
+    anchor: the node that is held to prevent rigid motions.
     """
     leader = np.arange(numbering.size)
     leader[[2 * anchor, 2 * anchor + 1]] = -1

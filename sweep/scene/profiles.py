@@ -12,7 +12,7 @@ from sweep.design.profile import Profile
 from sweep.scene.coordinates import BASE, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
 
-TOUCHING = 1e-12  # m, to which a profile is moved up to the lattice
+TOUCHING = 1e-12  # m: a profile is moved up to the lattice within this distance
 NO_PROFILES = Profiles(
     np.zeros(1, np.int64), np.empty((0, 2)), np.empty(0), np.empty(0), np.empty(0, np.int64),
     np.empty((0, 4)), np.empty(0, np.int64), np.empty((0, 2), np.int64), np.empty((0, 2)),
@@ -21,15 +21,15 @@ NO_PROFILES = Profiles(
 
 
 def gripped(loading: Loading) -> str:
-    """Which rows are held: `loading.platen`, or `BASE` of a lattice that is glued to its base."""
+    """Which rows are held: `loading.platen`, or `BASE` for a lattice that is glued to its base."""
     return BASE if loading.is_shaped and loading.platen == "glued" else loading.platen
 
 
 def anchor(mesh: Mesh, numbering: Numbering, case: Case) -> Ints:
-    """The x of a node in the middle of the lower row, of a loose lattice in statics.
+    """The x of a node in the middle of the lower row of a loose lattice in statics.
 
-    A striker that is not flat pushes sideways from the first step on, friction lags by one, and
-    without inertia the lattice would slide from under it.
+    A striker that is not flat pushes sideways from the first step on, friction lags by one step,
+    and without inertia the lattice would slide away under it.
     """
     struck = isinstance(case.loading, Struck) and case.loading.striker != "flat"
     if not (struck and case.loading.quasi_static and case.loading.platen == "contact"):
@@ -55,13 +55,15 @@ def with_profiles(
 
 
 def _shapes(loading: Struck, network: Network, key: str) -> tuple[Profile, ...]:
-    """The profiles of the "striker" or the "base" (``key``), where they are beside a lattice."""
+    """The profiles of the "striker" or the "base" (``key``), if it is not flat."""
     (left, bottom), (right, top) = network.points.min(axis=0), network.points.max(axis=0)
     return loading.profiles(key, float(left), float(right - left), float(top - bottom))
 
 
 def outlines(case: Case, network: Network) -> dict[str, Floats]:
-    """Outlines of what is not flat, as in `Result.frames`; those of both ribs end to end."""
+    """Outlines of strikers and bases that are not flat, as in `Result.frames`; two ribs are put end
+    to end.
+    """
     if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
         return {}
     drawn = {key: _shapes(case.loading, network, key) for key in ("striker", "base")}
@@ -75,7 +77,7 @@ def outlines(case: Case, network: Network) -> dict[str, Floats]:
 def profiles_of(
     shapes: list[Profile], carrier: Ints, mesh: Mesh, touch: contact.Contact
 ) -> Profiles:
-    """The data of profiles. carrier (k,): coordinate of the platen in whose place each one is."""
+    """The data of profiles. carrier (k,): coordinate of the platen that each one replaces."""
     radius = np.array([shape.radius for shape in shapes])
     rounded = list(zip(shapes, radius, strict=True))
     return Profiles(
@@ -109,7 +111,9 @@ def _weight(shape: Profile, mesh: Mesh) -> Floats:
 
 
 def standing(x: Floats, touch: contact.Contact) -> Floats:
-    """Coordinates at rest ``x`` with flat platens, with each profile where it touches a wall."""
+    """Coordinates at rest from ``x`` with flat platens, with each profile moved until it touches a
+    wall.
+    """
     for k, carrier in enumerate(touch.profiles.carrier):
         if k == 0 or carrier != touch.profiles.carrier[k - 1]:
             towards = -1.0 if carrier == touch.high else 1.0

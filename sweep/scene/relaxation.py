@@ -1,18 +1,19 @@
 """The relaxation of a material as branches: shares of the instantaneous stress, and their times.
 
 With a measured loss the modulus falls as a power of time, E(t) = E(t_0) (t_0 / t)^beta, so that
-slow and fast cycles lose the same. As a sum over times tau_i, evenly spaced in ln tau by d,
+slow and fast cycles lose the same share. As a sum over times tau_i, evenly spaced in ln tau by d,
 
     t^-beta = 1 / Gamma(beta) integral tau^-beta exp(-t / tau) d ln tau
             ~ sum of d tau_i^-beta / Gamma(beta) exp(-t / tau_i) + rest
 
-where the rest stands for all slower branches. A strip that is stretched evenly and released evenly
-until its stress is zero loses, with k = 2^(1 / (1 - beta)) and the time t = k / (k - 1) of that,
+where the rest stands for all slower branches. A strip is stretched evenly in a unit of time and
+released evenly until its stress is zero, at the time t = k / (k - 1) with k = 2^(1 / (1 - beta)).
+It loses
 
     loss = 2 - t^(2 - beta) + 2 (t - 1)^(2 - beta)
 
-of the work: 2.8 beta where it is small, 2.4 beta near 0.4. (Linear viscoelasticity; the spectrum of
-a power law: J. D. Ferry, Viscoelastic Properties of Polymers, 1980.)
+of the work: 2.8 beta where the loss is small, 2.4 beta near 0.4. (Linear viscoelasticity; the
+spectrum of a power law: J. D. Ferry, Viscoelastic Properties of Polymers, 1980.)
 """
 
 from functools import lru_cache
@@ -30,7 +31,7 @@ MOST_BETA = 0.5
 
 class Relaxation(NamedTuple):
     """shares (n,) of the instantaneous stress, times (n,) in s. instant: instantaneous modulus over
-    that at the reference time.
+    the modulus at the reference time.
     """
 
     shares: Floats
@@ -63,7 +64,7 @@ def lost_share(beta: float) -> float:
 
 @lru_cache(maxsize=64)
 def exponent(loss: float) -> float:
-    """The exponent of a power law that loses ``loss``."""
+    """The exponent of a power law with the share ``loss`` of lost work."""
     from scipy.optimize import brentq
 
     return float(brentq(lambda beta: lost_share(beta) - loss, 0.0, MOST_BETA, xtol=1e-14))

@@ -60,7 +60,7 @@ def build_tied(case: Case) -> Scene:
 
 
 def _numbering(period: Period) -> BesideEachOther:
-    """The numbering of a period; its rows have the images of their nodes too."""
+    """The numbering of a period; its rows include the images of their nodes."""
     network = period.network
     bottom, top = (
         row_nodes(network, period.whole, np.flatnonzero(np.isin(network.origin, joints)))
@@ -70,7 +70,7 @@ def _numbering(period: Period) -> BesideEachOther:
 
 
 def _leaders(numbering: BesideEachOther, case: Case) -> Ints:
-    """The coordinate that each one follows."""
+    """The coordinate that each coordinate follows."""
     platen, base_moves = case.loading.platen or "none", target_of(case.loading) is not None
     fixed = np.concatenate([supports(numbering, platen, base_moves), numbering.unused])
     if not case.widens:

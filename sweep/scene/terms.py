@@ -32,7 +32,7 @@ from sweep.scene.coordinates import BetweenPlatens, Numbering
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
-STATIC_SLIP = 0.2  # of the wall thickness, in all steps of a loading together
+STATIC_SLIP = 0.2  # share of the wall thickness, in all steps of a loading together
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
@@ -41,10 +41,9 @@ class Scene:
     """A case as arrays.
 
     x_rest (n,): coordinates at rest, m and rad. bottom, top, base, standing, probes: as in
-    `rows.Output`.
-    force_scale: a typical force, N. velocity (n,): at the start, m/s and rad/s. travel: of the
-    driven coordinate of a custom structure, m. around (k, 2): elements of the copies round a
-    period. solid_joint_share: of the walls that are between solid joints.
+    `rows.Output`. force_scale: a typical force, N. velocity (n,): at the start, m/s and rad/s.
+    travel: of the driven coordinate of a custom structure, m. around (k, 2): elements of the copies
+    round a period. solid_joint_share: share of the walls that are between solid joints.
     """
 
     mesh: Mesh
@@ -68,7 +67,7 @@ class Scene:
         return float(np.ptp(self.mesh.points))
 
     def largest_force(self, stage: march.Stage) -> float:
-        """Force (N) with whose round-off the residual of a step is computed."""
+        """Force (N) whose round-off enters the residual of a step."""
         terms, coordinates, size = self.terms, self.terms.coordinates, np.ptp(self.mesh.points)
         force = terms.law.modulus * terms.stretch.area.max() * size / terms.stretch.l0.min()
         if stage.dynamic:
@@ -82,7 +81,7 @@ class Scene:
         return at_rest(self.terms, self.x_rest)
 
     def strained(self) -> float:
-        """Energy of springs that are not drawn at their rest length, J."""
+        """Energy, J, of springs that are drawn at another length than their rest length."""
         return float(spring.evaluate(self.x_rest, self.terms.spring, np.zeros_like(self.x_rest)))
 
 
@@ -90,8 +89,8 @@ class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
     walls: topology. beams: constants of the elements. layout: constraints and structure of the
-    linear system. mass (n,) in kg and
-    load (n,) in N or N m of each coordinate. The others are terms of the energy.
+    linear system. mass (n,) in kg and load (n,) in N or N m of each coordinate. The others are
+    terms of the energy.
     """
 
     walls: elements.Walls
@@ -159,7 +158,7 @@ def roles(layout: analysis.Layout | LayoutOfPlates) -> Ints:
 
 
 def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
-    """1 for a moving coordinate with mass, its own or that of a coordinate tied with it; else 0.
+    """1 for a moving coordinate with mass, its own or of a coordinate tied with it; else 0.
 
     (n,); 0 for coordinates that follow the driven one.
     """
@@ -172,7 +171,7 @@ def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
 
 
 def contact_stiffness(case: Case) -> float:
-    """C Y' depth of the barrier, N/m."""
+    """Stiffness c Y' depth of the barrier, N/m."""
     in_stretch, _ = plane_factors(case.material)
     modulus = in_stretch * case.material.modulus
     return modulus * case.lattice.depth * case.contact.stiffness
@@ -212,12 +211,12 @@ def solved_by(
 
 
 def driven_by(loading: Loading, numbering: BetweenPlatens) -> int:
-    """The coordinate whose motion a loading prescribes; -1 if it prescribes none."""
+    """The coordinate whose motion a loading prescribes; -1 if there is none."""
     return numbering.high if isinstance(loading, Crush) else -1
 
 
 class Striker(NamedTuple):
-    """Mass (kg), speed (m/s) and weight (N) of what hits the lattice; weight 0 without gravity."""
+    """Mass (kg), speed (m/s) and weight (N) of the striker; the weight is 0 without gravity."""
 
     mass: float = 0.0
     speed: float = 0.0
@@ -232,7 +231,7 @@ def striker_of(loading: Loading) -> Striker:
 
 
 def target_of(loading: Loading) -> float | None:
-    """Mass of a base that moves freely, kg; None of one that is fixed."""
+    """Mass of a base that moves freely, kg; None for a fixed base."""
     return loading.target_mass if isinstance(loading, Impact) else None
 
 

@@ -1,7 +1,8 @@
-"""A case in, a result out.
+"""Simulates a case and returns its result.
 
-`simulate` runs the march, `time_limit` ends one that takes too long, and `failures` has the
-sentences of cases that do not finish. `summary` measures a crush, with `packing`, `iso_13314`,
-`striker`, `deceleration`, `cycles` and `until`. `shape_checks` and `plate_shapes` measure stored
-shapes, `custom_history` follows the probes of a custom structure.
+`simulate` runs the march, `time_limit` ends one that takes too long, `retries` repeats a case that
+stops, and `failures` has the messages of cases that do not finish. `summary` measures a crush, with
+`between_rows`, `densification`, `iso_13314`, `base`, `striker`, `deceleration`, `cycles`, `until`
+and `solid`; `time_resolution` estimates the errors of time steps. `shape_checks` and `plate_shapes`
+measure stored shapes, `custom_history` records the probes of a custom structure.
 """

@@ -1,4 +1,4 @@
-"""What the base feels: pressure on a patch, impulse, and its own motion where it moves freely."""
+"""Load on the base: pressure on a patch, impulse, and the motion of a base that moves freely."""
 
 from collections.abc import Mapping
 from math import nan
@@ -16,7 +16,9 @@ OF_A_HIT = ("base_impulse_Ns", "target_speed_m_per_s", "peak_target_acceleration
 
 
 def patch_width(case: Case) -> float:
-    """Width (m) of the patch of the base that is pressed most; at most that of the lattice."""
+    """Width (m) of the patch of the base on which pressure is measured; at most the width of the
+    lattice.
+    """
     loading = case.loading
     return nan if isinstance(loading, OfFile) else min(loading.base_patch, case.footprint[0])
 
@@ -34,8 +36,8 @@ def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
 
 
 def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:
-    """Impulse on the base until the rebound of the striker; speed of the target then, and its
-    greatest acceleration, force / mass, NaN if the base is fixed.
+    """Impulse on the base until the rebound of the striker; speed of the target at that time, and
+    its greatest acceleration, force / mass; NaN if the base is fixed.
     """
     force, row = history["reaction_bottom_N"], rebound(loading, history).row
     impulse = np.sum(force[1 : row + 1] * np.diff(history["time_s"][: row + 1]))

@@ -5,7 +5,7 @@ Forces are linear between two rows, d apart in displacement; the work is their i
     F(s) = F0 + s (F1 - F0),    W(s) = W0 + s (W1 - W0) - s (1 - s) (F1 - F0) d / 2
 
 for s from 0 to 1, with W1 - W0 = (F0 + F1) d / 2. The greatest efficiency and the stroke up to an
-allowed force hardly ever lie at a row.
+allowed force rarely lie at a row.
 """
 
 from collections.abc import Mapping
@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-POINTS = 1024  # evenly over the strain, besides the rows
+POINTS = 1024  # points, evenly spaced in strain, besides the rows
 CURVE = ("strain", "top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")
 
 
 def between_rows(loading: Mapping[str, Floats]) -> dict[str, Floats]:
     """The columns `CURVE` of a loading, whose strain rises, at its rows and evenly between them.
 
-    They are returned as they are where there is a single row, (rows,); else (points,).
+    A single row is returned unchanged, (rows,); else (points,).
     """
     columns = {name: loading[name] for name in CURVE}
     strain = columns["strain"]

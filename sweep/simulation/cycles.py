@@ -1,4 +1,4 @@
-"""What a crush absorbs, loses and transmits in each of its cycles."""
+"""Energy absorbed and lost, and force transmitted, in each cycle of a crush."""
 
 from math import nan
 
@@ -8,9 +8,10 @@ from sweep.scene.mesh import Floats
 
 
 def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> dict[str, float]:
-    """The columns of `cycle_columns`, and the second cycle's absorbed energy over the first's.
+    """The columns of `cycle_columns`, and the absorbed energy of the second cycle over the first.
 
-    work (rows,) J done on the lattice so far, force (rows,) N borne. NaN: the run ended before.
+    work (rows,): done on the lattice so far, J; force (rows,): on the lattice, N. NaN: the run
+    ended before.
     """
     if len(cycles) == 1:
         return {"second_cycle_share": nan}

@@ -1,7 +1,7 @@
-"""Deceleration of a striker as a test shows it: filtered by the class of its channel.
+"""Deceleration of a striker as a drop test reports it: filtered by a channel frequency class.
 
 SAE J211-1 and ISO 6487: channel frequency class CFC passes frequencies up to CFC in Hz. The filter
-is a Butterworth of two poles with a corner at 2.0775 CFC (Hz), run forwards and backwards so that
+is a two-pole Butterworth with a corner at 2.0775 CFC (Hz), run forwards and backwards so that
 nothing is delayed: 3 dB are lost at 5/3 CFC. Samples must not be farther apart than 1 / (10 CFC).
 """
 
@@ -11,9 +11,9 @@ import numpy as np
 
 from sweep.scene.mesh import Floats
 
-CORNER = 2.0775  # of the class, Hz
+CORNER = 2.0775  # corner over the class, Hz
 SAMPLES = 10.0  # least samples per second / class
-RINGING = 5.0  # times 1 / corner, after which the filter has forgotten
+RINGING = 5.0  # times 1 / corner after which the filter has settled
 ROUND_OFF = 1e-9
 
 
@@ -35,7 +35,8 @@ def filtered_peak(time: Floats, velocity: Floats, filter_class: int) -> float:
 def filtered(signal: Floats, step: float, filter_class: int) -> Floats:
     """A signal (n,), sampled every ``step`` (s), behind a filter of a class.
 
-    Before it the signal is 0, as nothing touches the striker, and after it has its last value.
+    Before its start the signal is 0, as nothing touches the striker; after its end it keeps its
+    last value.
     """
     from scipy.signal import butter, sosfiltfilt
 

@@ -5,25 +5,26 @@ over the greatest stress M so far (Miltz & Gruenbaum 1981). Where it is greatest
 absorbed most for the force that it transmits: the onset of densification (Avalle, Belingardi &
 Montanini 2001; Li, Magkiriadis & Harrigan 2006).
 
-The place of a maximum is not continuous in the curve. A lattice whose rows fold one after another
-has several maxima of nearly the same height, and the least change of a force moves the place from
-one to another (`packed_row`). `weights` are those of a mean over all strains of nearly the greatest
-efficiency, which replaces that place,
+The place of a maximum does not depend continuously on the curve. A lattice whose rows fold one
+after another has several maxima of nearly the same height, and the least change of a force moves
+the place from one to another (`packed_row`). A weighted mean over all strains of nearly the
+greatest efficiency (`weights`) replaces that place,
 
     X = integral w x de / integral w de,    w(e) = max(0, eta(e) - (1 - BAND) max eta),
 
 for x = energy, greatest force so far and strain. As BAND tends to 0, X tends to the value at the
-maximum. For any BAND above 0 it is continuous in the curve: eta changes by at most 2 e d / M for a
-change of the stress by d, and rises with a slope of at most 1, so that the integral of w is never
-below (BAND max eta)^2 / 2. Where two maxima exchange their ranks, X passes from one to the other.
+maximum. For any BAND above 0 it depends continuously on the curve: eta changes by at most 2 e d / M
+for a change of the stress by d, and rises with a slope of at most 1, so that the integral of w is
+never below (BAND max eta)^2 / 2. Where two maxima exchange their ranks, X passes from one to the
+other.
 """
 
 import numpy as np
 
 from sweep.scene.mesh import Floats
 
-BAND = 0.2  # of the greatest efficiency: strains within it count
-ALIKE = 0.02  # of the greatest efficiency: maxima within it may exchange their ranks
+BAND = 0.2  # share of the greatest efficiency within which strains count
+ALIKE = 0.02  # share of the greatest efficiency within which maxima may exchange their ranks
 
 
 def efficiency(stress: Floats, work_density: Floats) -> Floats:
@@ -43,7 +44,7 @@ def packed_row(gained: Floats) -> int | None:
 
 
 def near_maxima(gained: Floats, within: float = ALIKE) -> list[int]:
-    """Rows of the maxima of nearly the greatest efficiency (rows,), but for the first and the last
+    """Rows of the maxima of nearly the greatest efficiency (rows,), except the first and the last
     row; of equal neighbours the last one counts.
     """
     inner, before, after = gained[1:-1], gained[:-2], gained[2:]

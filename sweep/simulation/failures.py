@@ -1,8 +1,7 @@
-"""The status of a case that does not finish, and its sentence: what happened, and what to try.
+"""The status and the message of a case that does not finish: what happened, and what to try.
 
-A converged case whose material breaks has a sentence too. Cases that end without a simulation, as
-their memory or their worker is lost, have theirs in `running.alone` and `running.dask_graph`, which
-alone see that.
+A converged case whose material breaks has a message too. Cases that end without a simulation, as
+their memory or their worker is lost, get theirs from `running.alone` and `running.dask_graph`.
 """
 
 from collections.abc import Mapping
@@ -29,7 +28,7 @@ SAFER = {
     (True, False): 'try smaller steps or solver.integrator "backward_euler"',
     (True, True): "try smaller steps",
 }
-"""By whether walls are shells, which have no damping, and whether the integrator is that one."""
+"""By whether walls are shells, without damping, and whether the integrator is backward Euler."""
 FINER = "try more solver.load_steps"
 SOUNDER = "try a smaller solver.tolerance, and check for values of the wrong order of magnitude"
 ADVICE = {
@@ -117,14 +116,16 @@ def missed(where: str) -> Failure:
 
 
 def slipped_off() -> Failure:
-    """The striker of a crush misses the lattice, or that slips away from it or between ribs."""
+    """The striker of a crush misses the lattice, or the lattice slips away from it or between
+    ribs.
+    """
     why = "the striker has lost the lattice: it misses it or slips off, or ribs let it through"
     advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
     return Status.SLIPPED, f"{why}; {advice}"
 
 
 def still_pushed_back(where: str) -> Failure:
-    """The striker of a case that has finished still gains speed upwards."""
+    """The striker of a case that has finished is still accelerated upwards."""
     why = "the lattice still pushes the striker back"
     return Status.STOPPED, f"{why} {where}; try a longer loading.duration"
 
@@ -136,14 +137,14 @@ def energy_unresolved(case: Case, share: float) -> Failure:
 
 
 def momentum_unresolved(case: Case, share: float) -> Failure:
-    """The support has not borne the momentum of an impact, as rows are too far apart."""
+    """The support has not taken the momentum of an impact, as rows are too far apart."""
     what = "the steps are too long for the contact: the impulse on the support differs from the"
     return Status.UNRESOLVED, f"{what} momentum of the impact by {percent(share)} %; {_finer(case)}"
 
 
 def faster_than_sound(case: Case) -> str:
-    """Why an impact fails whose striker is faster than c = (modulus / density)^(1/2); empty if it
-    is slower. Its wave front strains walls of linear law by v / c.
+    """Why an impact fails if its striker is faster than c = (modulus / density)^(1/2); empty if it
+    is slower. The wave front strains walls with a linear law by v / c.
     """
     if not isinstance(case.loading, Impact):
         return ""

@@ -1,11 +1,11 @@
 """The figures of ISO 13314, compression test for porous and cellular metals, from one crush.
 
 Nominal stress over nominal strain, both positive. The plateau stress is the mean from 20 to 30 % or
-from 20 to 40 % strain; the plateau ends where the stress is 1.3 times the latter. The energy per
-volume W is the area below the curve up to 50 % strain or to the plateau end e, its efficiency
-W / (M e), with M the greatest stress up to there. The quasi-elastic gradient is the slope of the
-first rise, here the secant between 20 and 70 % of the plateau stress, the stresses between which
-the standard unloads and reloads for its elastic gradient.
+from 20 to 40 % strain; the plateau ends where the stress is 1.3 times the latter mean. The energy
+per volume W is the area below the curve up to 50 % strain or to the plateau end e, its efficiency W
+/ (M e), with M the greatest stress up to e. The quasi-elastic gradient is the slope of the first
+rise, here the secant between 20 and 70 % of the plateau stress, the stresses between which the
+standard unloads and reloads for its elastic gradient.
 
 Where the crush does not reach a strain or a stress, the figure is NaN.
 """
@@ -17,9 +17,9 @@ import numpy as np
 from sweep.scene.mesh import Floats
 
 SHORT, LONG = (0.2, 0.3), (0.2, 0.4)  # strains of the two means
-PLATEAU_END = 1.3  # times the plateau stress
+PLATEAU_END = 1.3  # ratio to the plateau stress
 FIXED = 0.5  # strain up to which energies are compared
-RISE = (0.2, 0.7)  # of the plateau stress
+RISE = (0.2, 0.7)  # shares of the plateau stress
 ROUND_OFF = 1e-9
 
 
@@ -68,7 +68,7 @@ def gradient(strain: Floats, stress: Floats, plateau: float) -> float:
 
 
 def absorbed(strain: Floats, stress: Floats, density: Floats, end: float) -> tuple[float, float]:
-    """Work per volume (J/m^3) up to a strain, and its share of greatest stress x strain."""
+    """Work per volume (J/m^3) up to a strain, and its ratio to greatest stress x strain."""
     if not strain[-1] >= end - ROUND_OFF:
         return nan, nan
     work, last = (float(np.interp(end, strain, column)) for column in (density, stress))

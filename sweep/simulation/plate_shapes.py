@@ -1,8 +1,8 @@
 """Stored shapes of plates: positions of the whole lattice, strains of its quads, crossings.
 
-The strains are those at the middles of the quads. The directors are not stored: bending is measured
-with the normals of the wall at the corners, the means of those of its quads there, which leaves out
-the turns by transverse shear.
+Strains are evaluated at the middles of the quads. The directors are not stored: bending is measured
+with the normals of the wall at the corners, each the mean over the quads of the wall there, which
+leaves out the turns by transverse shear.
 """
 
 import numpy as np
@@ -52,8 +52,8 @@ def plate_strains(x: Floats, scene: Scene) -> tuple[Floats, Floats, Floats]:
 
 
 def _in_axes(m: Floats, metric: Floats) -> Floats:
-    """Tensors (f, m, 3) of 11, 22, 12 in axes that are orthonormal where the ``metric`` (1, m, 3)
-    is that of s and z, as in `kernels.plates.element.axes`.
+    """Tensors (f, m, 3) of 11, 22, 12 in orthonormal axes, where ``metric`` (1, m, 3) is the metric
+    of s and z, as in `kernels.plates.element.axes`.
     """
     one, two, both = np.moveaxis(metric, -1, 0)
     c = np.sqrt(one / (one * two - both**2))
@@ -63,7 +63,7 @@ def _in_axes(m: Floats, metric: Floats) -> Floats:
 
 
 def principal(c: Floats) -> tuple[Floats, Floats]:
-    """Least and greatest nominal strain (f, m) of squares of stretches c (f, m, 3): 11, 22, 12."""
+    """Least and greatest nominal strain (f, m) from squared stretches c (f, m, 3): 11, 22, 12."""
     mean, across = 0.5 * (c[..., 0] + c[..., 1]), 0.5 * (c[..., 0] - c[..., 1])
     radius = np.hypot(across, c[..., 2])
     low, high = (np.sqrt(np.maximum(mean + sign * radius, 0.0)) - 1.0 for sign in (-1.0, 1.0))
@@ -106,10 +106,11 @@ def _normals(position: Floats, mesh: ShellMesh) -> Floats:
 
 
 def surface_crossings(position: Floats, mesh: ShellMesh) -> int:
-    """Greatest number of edges that pass through triangles in a shape, position (f, N, 3) in m of
-    the whole of a mesh; images beyond mirror planes, or a period away, are part of it.
+    """Greatest number of edges that pass through triangles in a shape; position (f, N, 3) in m of
+    the whole mesh, including images beyond mirror planes or a period away.
 
-    Independent of the solver, but for the triangles. What touches within round-off counts too.
+    The check is independent of the solver, apart from its triangles. Contact within round-off
+    counts too.
     """
     triangles = unfolded(mesh).triangles
     if mesh.shift.any():

@@ -1,10 +1,11 @@
 """A case that stops is simulated again with other steps, then with another imperfection.
 
-The advice of a failure is tried before it is given. Steps and integrator of an impact are at first
-the usual ones, then quarters of these steps; where that would be too many, for a shorter duration,
-by whose end the striker has to be back. Another imperfection would not resolve it. Other motions by
-an integrator of second order are also tried by backward Euler. What converges first has the numbers
-of the row; its column `retry` says what was changed. The id stays that of the case asked for.
+The advice of a failure is tried before it is given. An impact is retried with the usual integrator
+and steps, then with quarters of these steps and, where these would be too many, for a shorter
+duration, by whose end the striker has to be back. Another imperfection would not resolve it. Other
+motions by an integrator of second order are also tried by backward Euler. The row has the numbers
+of the first retry that converges; its column `retry` says what was changed. The id remains the id
+of the requested case.
 """
 
 import time
@@ -26,18 +27,18 @@ from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import EXPIRED, simulate
 from sweep.simulation.time_resolution import resolving_step
 
-SHORTER = 4  # times as many steps
-TIMES = 4  # retries of an impact, each with a quarter of the time step before
-FIRST = 0.25  # of the time limit, for a motion in steps that are much longer than usual
+SHORTER = 4  # ratio of the numbers of steps
+TIMES = 4  # retries of an impact, each with a quarter of the previous time step
+FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
 STEADY = "backward_euler"  # creates no energy, whatever its steps
-BOWED, BOW = 1.5, 0.01  # times the imperfection; in place of none, in wall thicknesses
+BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
 
 def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
-    """The result of ``case``, or of the retry that came farthest; pure as `simulate` is.
+    """The result of ``case``, or of the retry that reached farthest; as pure as `simulate`.
 
-    All together may take `solver.time_limit`. stop: as of `simulate`.
+    All attempts together may take `solver.time_limit`. stop: as in `simulate`.
     """
     stop = np.zeros(2, np.int64) if stop is None else stop
     due, coarse = time.monotonic() + case.solver.time_limit, _is_coarse(case)
@@ -62,7 +63,7 @@ def _is_coarse(case: Case) -> bool:
     """Whether a motion that may be retried has steps far longer than usual.
 
     The solver takes hundreds of shares of each of them: the usual steps of an impact, and backward
-    Euler under a dead load, are sooner at the end.
+    Euler under a dead load, finish sooner.
     """
     if not (isinstance(case.solver, InTime) and case.solver.retry):
         return False
@@ -85,7 +86,7 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
 
 
 def _reach(result: Result) -> tuple[bool, bool]:
-    """How far a run came: to its end, and to the end of a loading that counts."""
+    """How far a run came: whether it ended, and whether its loading was completed."""
     ended = result.status in (Status.CONVERGED, Status.SLIPPED)
     return ended, result.summary["loaded"] == 1
 
@@ -93,7 +94,7 @@ def _reach(result: Result) -> tuple[bool, bool]:
 def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> Result:
     """The best result under the id of ``case``, with the processor time of all attempts (s).
 
-    Its message says what was tried without success, in place of advice to try that.
+    Its message says what was tried without success, instead of advising it.
     """
     message = best.message
     if tried and best.status is not Status.CONVERGED:
@@ -107,7 +108,7 @@ def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> R
 
 
 def _changes(result: Result) -> Iterator[tuple[str, Case]]:
-    """What is tried in turn: the changed keys with their values, and the case with them."""
+    """Retries in order: the changed keys with their values, and the changed case."""
     case = result.case
     for table, key, words, value in _values(result):
         change: dict[str, Any] = {key: value}
@@ -116,7 +117,7 @@ def _changes(result: Result) -> Iterator[tuple[str, Case]]:
         others: dict[str, Any] = {}
         if isinstance(case.loading, Impact):
             change["integrator"] = None  # the usual one
-            if MAX_STEPS * float(value) < case.loading.duration:  # most of it after the contact
+            if MAX_STEPS * float(value) < case.loading.duration:  # most is after contact
                 others["loading"] = {"duration": MAX_STEPS * float(value)}
         try:
             changed = case.changed(**{table: change}, **others)

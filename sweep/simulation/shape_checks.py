@@ -4,7 +4,7 @@ The model holds as long as no element is shorter than 0.7 of its rest length, `S
 keep their thickness, whereas a wall of incompressible TPU is 1.4 times as thick at that strain;
 neither bending nor contact takes this into account. The law in compression is derived from tension,
 with an error of 30 % or more. Solid finite elements confirm the model within 7 % up to the strain
-that they reached, with the shortest element at 0.85 of its rest length.
+they reached, with the shortest element at 0.85 of its rest length.
 """
 
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]
 
-SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface of a wall over that of `terms.bend`
+SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface over the fibre of `terms.bend`
 SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
@@ -38,7 +38,7 @@ def strains_of(x: Floats, terms: PlanarScene) -> tuple[Floats, Floats]:
 
 
 def element_strains(deformation: Deformations, stretch: Stretch) -> Floats:
-    """Nominal strain of every element in every stored shape, (f, m), that of its arc."""
+    """Nominal strain of every element, along its arc, in every stored shape, (f, m)."""
     length, one, two = deformation
     same, mixed = stretch.arc
     return np.asarray(length / stretch.l0 - 1.0 + same * (one**2 + two**2) + mixed * one * two)
@@ -63,7 +63,7 @@ def surface_strains(deformation: Deformations, strains: Floats, bend: Bend) -> F
 def moment_of(values: Floats, limit: float, stored: Floats) -> float:
     """Time (s) at which ``values`` (f,) first exceed a limit, interpolated; NaN if they never do.
 
-    stored (f,): times of the shapes that they are of.
+    stored (f,): times of the shapes to which the values belong.
     """
     beyond = np.flatnonzero(values > limit)
     if len(beyond) == 0:
@@ -75,7 +75,7 @@ def moment_of(values: Floats, limit: float, stored: Floats) -> float:
 def deformations(x: Floats, walls: Walls) -> Deformations:
     """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m).
 
-    The first shape is that at rest; between two shapes an end turns by less than half a turn.
+    The first shape is at rest; between two shapes an end turns by less than half a turn.
     """
     ends = x[:, walls.dofs]
     along = ends[..., 3:5] - ends[..., :2]
@@ -135,7 +135,8 @@ def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]
 def crossings(frames: Frames) -> int:
     """Greatest number of pairs of elements that cross one another in a stored shape.
 
-    Independent of the solver. Where round-off may decide, shapely's exact predicates are used.
+    The check is independent of the solver. Where round-off may decide, shapely's exact predicates
+    are used.
     """
     position, edges = frames["position_m"], frames["edges"]
     low, high = position.min(axis=0)[edges].min(axis=1), position.max(axis=0)[edges].max(axis=1)

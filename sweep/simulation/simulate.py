@@ -1,4 +1,4 @@
-"""From a case to its result: build the arrays, march through the stages, measure. No files."""
+"""Simulates a case: builds the arrays, marches through the stages, measures. No files."""
 
 import time
 from collections.abc import Iterable, Mapping, Sequence
@@ -67,15 +67,15 @@ from sweep.simulation.time_resolution import (
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
-GAP = 1e-3  # of the greatest energy in the book: residual that is allowed
+GAP = 1e-3  # allowed residual, as a share of the greatest energy in the book
 CURABLE = {  # other steps or another imperfection may help
     *(outcomes.ITERATIONS, outcomes.STALLED, outcomes.SINGULAR, outcomes.INACCURATE),
     *(outcomes.UNBALANCED, outcomes.NOT_FINITE),
 }
-EXPIRED = 2  # what `stop[0]` is after the time limit
-LOST, REGAINED = 0.1, 0.25  # of the greatest force: a lattice that slips away from a striker
-UNTOUCHED = 1e-6  # of the typical force: a striker that touches nothing
-CREATED = 0.1  # of the work done: energy that an integrator may create
+EXPIRED = 2  # value of `stop[0]` after the time limit
+LOST, REGAINED = 0.1, 0.25  # share of the greatest force: a lattice slips away from a striker
+UNTOUCHED = 1e-6  # share of the typical force: a striker touches nothing
+CREATED = 0.1  # energy that an integrator may create, as a share of the work done
 
 
 def simulate(
@@ -83,9 +83,9 @@ def simulate(
 ) -> Result:
     """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
 
-    case: or the tables of a config, as `crumple.case` takes them; `ConfigError` holds their faults.
-    stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to `EXPIRED`;
-    stop[1] counts steps. seconds: what is left of `solver.time_limit`; all of it if None.
+    case: a `Case`, or the tables of a config, as `crumple.case` takes them; `ConfigError` reports
+    their faults. stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to
+    `EXPIRED`; stop[1] counts steps. seconds: time left of `solver.time_limit`; all of it if None.
     """
     case = case_of(case)
     started = time.thread_time()
@@ -141,7 +141,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
 def _of_impact(
     case: Case, summary: Mapping[str, Any], curves: Curves, where: str
 ) -> tuple[Status, str]:
-    """Status and sentence of a finished impact: whether its steps resolve it, and it was whole."""
+    """Status and message of a finished impact: whether it is complete and its steps resolve it."""
     if not isinstance(case.loading, Impact):
         return Status.CONVERGED, ""
     if _removes_energy(case, summary, curves):
@@ -161,8 +161,9 @@ def _of_impact(
 def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typical: float) -> bool:
     """Whether a striker that is not flat, or a base of ribs, bears force until full stroke.
 
-    Else the lattice slips away: the force falls below `LOST` of its greatest value, and does not
-    rise to `REGAINED` again. It is below `UNTOUCHED` of a ``typical`` one (N) if they never touch.
+    Otherwise the lattice slips away: the force falls below `LOST` of its greatest value, and does
+    not rise to `REGAINED` again. If they never touch, it is below `UNTOUCHED` of a ``typical``
+    force (N).
     """
     if not isinstance(case.loading, Crush) or not case.loading.is_shaped:
         return True
@@ -173,7 +174,9 @@ def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typi
 
 
 def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:
-    """Whether the integrator takes so much energy of an impact that steps do not resolve it."""
+    """Whether the integrator removes so much energy from an impact that its steps do not resolve
+    it.
+    """
     if not isinstance(case.loading, Impact):
         return False
     return bool(summary["integrator_share"] > MOST_LOST and striker_share(curves) > OF_STRIKER)
@@ -224,7 +227,7 @@ SMALLEST: Mapping[str, Sequence[Inputs]] = {
     ],
 }
 """Cases of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are flat
-at rest and those that are not.
+at rest and others.
 """
 
 
@@ -261,8 +264,8 @@ class _Run:
         self.slots[0] = 0
         self.positions = np.tile(scene.x_rest, (kept, 1))
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
-        self.done = self.reached = 1  # rows that are kept, and those before any were dropped
-        self.planned = 1  # rows of the stages so far, with those that steps leave out
+        self.done = self.reached = 1  # rows that are kept, and their number before any were dropped
+        self.planned = 1  # rows of the stages so far, including rows that steps leave out
         self.noise, self.expired, self.curable = 0.0, False, False
 
     def _begin(self) -> None:
@@ -281,7 +284,7 @@ class _Run:
         row.gap = row.patch_at = np.nan
 
     def complete(self, seconds: float) -> tuple[Status, str]:
-        """March through all stages within ``seconds``; return the status and its sentence."""
+        """March through all stages within ``seconds``; return the status and its message."""
         with WATCH.limit(seconds, self._expire):
             for number, phase in enumerate(self.stages):
                 outcome = self._through(number)
@@ -310,7 +313,8 @@ class _Run:
     def _creates_energy(self, count: int) -> bool:
         """True if in ``count`` rows the integrator creates more than `CREATED` of the work done.
 
-        A static structure is not checked: a result of few steps is of use whatever they created.
+        A static structure is not checked: a result in few steps is useful however much energy they
+        create.
         """
         if self.case.loading.quasi_static and self.blind:
             return False
@@ -330,7 +334,7 @@ class _Run:
         return float(np.abs(self.rows["residual"][:count]).max())
 
     def _is_over(self) -> bool:
-        """True if the striker is back where it started, or has stopped again under its weight.
+        """Whether the striker is back where it started, or has stopped again under its weight.
 
         Later rows are dropped.
         """
@@ -342,8 +346,8 @@ class _Run:
         return last is not None
 
     def _has_passed(self) -> bool:
-        """True if a striker that is not flat is below the base, and no wall is in its way for as
-        far as it can fall until `duration`: it touches the lattice no more.
+        """Whether a striker that is not flat is below the base, and no wall is in its way as far as
+        it can fall until `duration`, so that it never touches the lattice again.
         """
         loading, touch = self.case.loading, self.scene.terms.contact
         if not isinstance(loading, Impact) or loading.striker == "flat":
@@ -370,11 +374,11 @@ class _Run:
         self.control[0] = self.control[0] or EXPIRED
 
     def _through(self, number: int) -> int:
-        """March through a stage; return the outcome. Rows that a step leaves out are closed up."""
+        """March through a stage; return the outcome. Rows that a step leaves out are removed."""
         phase = self.stages[number]
         stage, start = phase.stage, self.done
         span = slice(start, start + stage.steps)
-        self.rows["time"][span] = np.nan  # it stays so in rows that a step leaves out
+        self.rows["time"][span] = np.nan  # stays NaN in rows that a step leaves out
         self.rows["least_height"][span], self.rows["most_force"][span] = np.inf, -np.inf
         slots = self.slot_of[self.planned : self.planned + stage.steps]
         out = Output(
@@ -430,7 +434,9 @@ class _Run:
         return (self.rows["height"][0] - height) / self.case.height
 
     def whole_rows(self) -> np.ndarray:
-        """The rows so far, of the whole lattice where one of several equal parts is computed."""
+        """The rows so far, scaled to the whole lattice if one of several equal parts is
+        computed.
+        """
         rows = self.rows[: self.done].copy()
         if isinstance(self.scene, PlateScene):
             for name in (*BOOK.values(), "reaction_top", "reaction_bottom", "most_force"):

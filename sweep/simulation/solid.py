@@ -1,4 +1,4 @@
-"""How much of a lattice is solid: its mass as drawn, and the share of its box that it fills."""
+"""Solid content of a lattice: its mass as drawn, and the share of its box that it fills."""
 
 from sweep.config.case import Case
 from sweep.config.kinds.sheet import Surface

@@ -4,14 +4,14 @@ An accelerometer on the striker measures the force of the lattice on it / its ma
 gravity: 0 in free fall, 1 g0 at rest on the lattice. This is the G of a drop test, peak force /
 weight (ASTM D1596), and it is reported as the deceleration.
 
-A base that moves (`loading.target_mass`) has a part in the motion: stroke, stop and rebound are
-those of the striker relative to it, with the reduced mass; what striker and base have in common
-after the hit is neither absorbed nor thrown back.
+A base that moves (`loading.target_mass`) takes part in the motion: stroke, stop and rebound
+describe the striker relative to the base, with the reduced mass; the energy of the common motion of
+striker and base after the hit is neither absorbed nor returned.
 
 The striker stops at its lowest point. Its rebound ends when the lattice no longer pushes it: its
-mechanical energy, m v^2 / 2 - m g s after a descent s, is then at its greatest on the way up. Later
-a glued platen would hold it back. A run ends when the striker is back where it met the lattice, or
-when its weight has brought it down again and it has stopped less deep than before.
+mechanical energy, m v^2 / 2 - m g s after a descent s, is then greatest on the way up. Later a
+glued platen would hold it back. A run ends when the striker is back where it met the lattice, or
+when its weight has brought it down again and it has stopped at a smaller depth than before.
 """
 
 from collections.abc import Mapping
@@ -40,13 +40,15 @@ MEASURES = (
 )
 
 
-SWING = 0.1  # of the stroke, by which a striker comes down again
-STILL = 1e-3  # of the stroke; a striker that stops moves by 1 % in the last tenth of its way down
+SWING = 0.1  # share of the stroke by which a striker comes down again
+STILL = 1e-3  # of the stroke; a stopping striker moves by 1 % in the last tenth of its way down
 
 
 class Rebound(NamedTuple):
-    """Speed of a striker away from the base (m/s), its mechanical energy relative to the base (J),
-    0 at rest at first touch, and the row; the last one without a rebound.
+    """The rebound of a striker from the base, or its state in the last row if it does not rebound.
+
+    speed: away from the base, m/s. energy: mechanical energy relative to the base, J; 0 at rest at
+    first touch. row: of the history.
     """
 
     speed: float
@@ -55,7 +57,7 @@ class Rebound(NamedTuple):
 
 
 def closing_speed(history: Curves) -> Floats:
-    """Speed at which the striker nears the base, (rows,) m/s."""
+    """Speed at which the striker approaches the base, (rows,) m/s."""
     return history["striker_speed_m_per_s"] - history["target_speed_m_per_s"]
 
 
@@ -98,8 +100,8 @@ def work_on_lattice(case: Case, history: Curves) -> Floats:
 
 
 def striker_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
-    """The columns `MEASURES`: the stroke left of any striker but a platen, others of an impact;
-    NaN for the rest.
+    """The columns `MEASURES`: the stroke left for any striker but a platen, the others for an
+    impact; NaN for the rest.
     """
     loading = case.loading
     columns = dict.fromkeys(MEASURES, nan)
@@ -111,7 +113,7 @@ def striker_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> d
 
 def stroke_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
     """stroke_left_m: the stroke that closes all voids, minus the greatest stroke; bottomed_out:
-    whether nothing is left of it.
+    whether no stroke is left.
     """
     outer = case.lattice.outer_size
     height = case.height if case.shells else outer[1]
@@ -136,7 +138,7 @@ def hit_columns(loading: Impact, history: Curves) -> dict[str, float]:
 
 
 def rebound(loading: Impact, history: Curves) -> Rebound:
-    """The rebound of a striker; one that never moves up stays where it is lowest."""
+    """The rebound of a striker; a striker that never moves up stays at its lowest place."""
     speed, travel = closing_speed(history), history["top_displacement_m"]
     moving = 0.5 * loading.reduced_mass * speed**2
     energy = np.where(speed < 0.0, moving - loading.weight * travel, -np.inf)
@@ -147,16 +149,16 @@ def rebound(loading: Impact, history: Curves) -> Rebound:
 
 
 def brought(loading: Impact, history: Curves) -> float:
-    """Energy of the striker relative to the base at first touch, and work of its weight until it
-    stops, J.
+    """Energy of the striker relative to the base at first touch, plus the work of its weight until
+    it stops, J.
     """
     return loading.relative_energy + loading.weight * float(history["top_displacement_m"].max())
 
 
 def second_stop(heights: Floats) -> int | None:
-    """The row at which a striker stops again, less deep than before, if it does. heights (rows,) m.
+    """The row at which a striker stops again at a smaller depth, if it does. heights (rows,) m.
 
-    It has come down again by a share `SWING` of its stroke: walls that swing are no second stop.
+    It has come down again by a share `SWING` of its stroke: vibrating walls are no second stop.
     """
     lowest = int(heights.argmin())
     after = heights[lowest:]

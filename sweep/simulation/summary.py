@@ -1,4 +1,4 @@
-"""The columns of a result: history, energies, plateau, densification, shapes."""
+"""Measures a run: columns of history, energies, plateau, densification and shapes."""
 
 import numpy as np
 
@@ -90,7 +90,7 @@ OF_THE_WHOLE_RUN = (
     *("rebound_speed_m_per_s", "rebound_share"),
     *("target_speed_m_per_s", "base_impulse_Ns"),
 )
-"""Columns that only a run to its end has: of unloading, and of what is lost until then."""
+"""Columns that need a run to its end: on unloading, and on losses until then."""
 ROUND_OFF = 1e-9
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 
@@ -129,7 +129,7 @@ def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
 
 
 def peaks_of(case: Case, rows: np.ndarray) -> tuple[float, float]:
-    """Greatest strain and lower reaction (N) of the rows and of all shares of them."""
+    """Greatest strain and lower reaction (N) in the rows and all their shares."""
     travel = rows["height"][0] - rows["least_height"].min()
     return float(travel / (case.height or np.nan)), float(rows["most_force"].max())
 
@@ -145,9 +145,10 @@ def summarise(  # noqa: PLR0913  of one case each
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
-    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; of
-    plates, as of `plate_shapes.plate_strains`. cycles: rows at which each is loaded and unloaded;
-    energies and the curve of the loading are those of the first. peaks: of `peaks_of`.
+    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; for
+    plates, see `plate_shapes.plate_strains`. cycles: rows at which each cycle is loaded and
+    unloaded; energies and the curve of the loading belong to the first cycle. peaks: from
+    `peaks_of`.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
@@ -215,7 +216,9 @@ def printed_mass(case: Case) -> float:
 
 
 def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
-    """Work given back in a cycle to a platen or a striker that moves back up, J; NaN without."""
+    """Work given back in a cycle to a platen or a striker that moves back up, J; NaN if nothing
+    does.
+    """
     if isinstance(case.loading, Impact):
         thrown = rebound(case.loading, history).energy
         return thrown + brought(case.loading, history) - case.loading.relative_energy
@@ -226,10 +229,11 @@ def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
 
 
 def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
-    """Columns of the energy that comes back and of that which is lost.
+    """Columns of the returned and the lost energy.
 
-    given, back: work done, or brought by a striker, and given back, J; negative if a glued platen
-    has to pull the lattice back, which is no loss of the loading. grams: mass of the specimen, g.
+    given, back: work done, or brought by a striker, and work given back, J; negative if a glued
+    platen has to pull the lattice back, which is no loss of the loading. grams: mass of the
+    specimen, g.
     """
     lost = given - np.maximum(back, 0.0)  # NaN stays NaN
     return {
@@ -241,16 +245,16 @@ def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
 
 
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
-    """The greater force of the two platens; for an impact that on the support, (rows,) N."""
+    """The greater force of the two platens, (rows,) N; for an impact, the force on the support."""
     if isinstance(case.loading, Impact):
         return history["reaction_bottom_N"]
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
 def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
-    """Columns from the force-displacement curve of the loading; only a crush can pack."""
+    """Columns from the force-displacement curve of the loading; only a crush can densify."""
     force, work = transmitted(case, loading), loading["work_in_J"]
-    until = {  # of the rows, as it is read from the stored curve for any other force
+    until = {  # from the rows, as the stored curve gives it for any other force
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
         for allowed in case.loading.allowed_forces
     }
@@ -334,10 +338,10 @@ def plate_columns(
     strains: tuple[Floats, ...],
     loading: dict[str, Floats],
 ) -> dict[str, float | int]:
-    """Columns from the stored shapes of plates, as those of `shape_columns`.
+    """Columns from the stored shapes of plates, as in `shape_columns`.
 
-    The work within the model is that until the walls, whose volume is constant, fill the area that
-    is pressed. strains: as of `plate_shapes.plate_strains`.
+    The work within the model counts until the walls, whose volume is constant, fill the pressed
+    area. strains: from `plate_shapes.plate_strains`.
     """
     least, greatest, surface = strains
     solid = 1.0 - filled(case, scene)
@@ -389,10 +393,11 @@ def shape_columns(
 
 
 def stretch_over_curve(material: Material, strains: tuple[Floats, Floats]) -> float:
-    """Greatest stretch that the curve of a material answers with a stress / its last strain.
+    """Greatest stretch for which the curve of a material gives the stress / last strain of the
+    curve.
 
     NaN without a curve. strains (f, m): of the elements, and of their most stretched surfaces,
-    which count if bending goes by the curve.
+    which count if bending follows the curve.
     """
     if not material.curve_strain:
         return float("nan")

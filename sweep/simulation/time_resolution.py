@@ -1,24 +1,25 @@
 """Whether the time steps of a motion resolve it, by energy and by momentum.
 
-Energy: what the integrator itself removes vanishes with its steps. Its share of the work done is a
-measure of the error of all integrators: in 13 impacts with 3 to 1000 steps each, below 5 % force
-and strain err by 3 % in the median, from 5 to 20 % by 2 to 15 %, above it by up to 98 %.
+Energy: the energy that the integrator itself removes vanishes with its steps. Its share of the work
+done measures the error of all integrators: in 13 impacts with 3 to 1000 steps each, force and
+strain err by a median of 3 % for shares below 5 %, by 2 to 15 % for shares of 5 to 20 %, and by up
+to 98 % above.
 
-A dead load excites waves in which the integrator may take much or little without an error of the
-greatest strain. That errs by the local errors of the path on which the top goes down, C h^(p+1)
-times its derivative of order p + 1 (Hairer, Norsett and Wanner, Solving Ordinary Differential
-Equations I, sections II.2 and III.2), relative to its length. The measurements are in
-docs/accuracy.md.
+A dead load excites waves from which the integrator may remove much or little energy without an
+error of the greatest strain. The error of this strain follows from the local errors of the path on
+which the top goes down, C h^(p+1) times its derivative of order p + 1 (Hairer, Norsett and Wanner,
+Solving Ordinary Differential Equations I, sections II.2 and III.2), relative to its length. The
+measurements are in docs/accuracy.md.
 
-A lattice without damping vibrates, and what the integrator takes from its vibrations is no error of
-the striker: with a share of 27 %, force and strain err by 1 % where 900 steps are one contact. So
-an impact is unresolved if the steps are also long beside the time in which the striker is stopped.
-Its loss by backward Euler is a measure, sum m (v' - v)^2 / 2: pi^2 / 2n of the energy in a half
-wave of n steps, more if the force has a peak.
+A lattice without damping vibrates, and energy that the integrator removes from its vibrations is no
+error of the striker: with a share of 27 %, force and strain err by 1 % where 900 steps are one
+contact. So an impact is unresolved if the steps are also long compared with the time in which the
+striker is stopped. Its loss by backward Euler is a measure, sum m (v' - v)^2 / 2: pi^2 / 2n of the
+energy in a half wave of n steps, more if the force has a peak.
 
-Momentum: what striker and lattice bring, p = 2 E / v of the kinetic energy E at the start, and
-the impulse of the weight in the time t go into the support: sum F dt = p + m g t - m v' - q, with q
-of the lattice at the end, q^2 <= 2 m_l K_l.
+Momentum: the momentum of striker and lattice at the start, p = 2 E / v with their kinetic energy E,
+and the impulse of the weight in the time t go into the support: sum F dt = p + m g t - m v' - q,
+with q the momentum of the lattice at the end, q^2 <= 2 m_l K_l.
 """
 
 from collections.abc import Mapping
@@ -39,8 +40,8 @@ MOST_LOST = 0.2  # share of energy or momentum that an impact may lose to its st
 OF_STRIKER = 0.05  # share of its energy that a striker may lose to steps of backward Euler
 LOCAL = {"backward_euler": (1, 1 / 2), "newmark": (2, 1 / 12), "bdf2": (2, 2 / 9)}
 """Order p and constant C of the local error of each integrator."""
-LOCAL_OF_STEP_ERROR = 0.1  # of `step_error`: steps are lengthened where their error is smaller
-RESOLVED = 0.9  # of a peak that is resolved: the greater force of the rows before and after it
+LOCAL_OF_STEP_ERROR = 0.1  # of `step_error`: below this error steps are lengthened
+RESOLVED = 0.9  # share of a resolved peak: the greater force of the rows before and after it
 
 
 def integrator_share(loading: Loading, history: Curves) -> float:
@@ -52,10 +53,10 @@ def integrator_share(loading: Loading, history: Curves) -> float:
 
 
 def path_error(case: Case, history: Curves, peak: float) -> float:
-    """Greatest local error of the path of the top under a dead load until its greatest strain /
-    the length of that path; NaN of other loadings, in statics and without a motion.
+    """Greatest local error of the path of the top under a dead load until its greatest strain,
+    ``peak``, / the length of this path; NaN for other loadings, in statics and without a motion.
 
-    peak: that strain. Infinite if the path has fewer rows than its derivative needs.
+    Infinite if the path has fewer rows than its derivative needs.
     """
     loading, solver, strain = case.loading, case.solver, history["strain"]
     if not isinstance(loading, DeadLoad) or not isinstance(solver, InTime) or not peak > 0.0:
@@ -68,8 +69,8 @@ def path_error(case: Case, history: Curves, peak: float) -> float:
 
 
 def known_peak(case: Case, force: Floats, most: float) -> float:
-    """The greatest of the forces (rows,) of a run and of its shares, of which it is ``most``, N;
-    NaN of what `peak_row` does not know in equal steps.
+    """The greatest of the forces (rows,) of a run and of its shares (``most``), N; NaN if in equal
+    steps `peak_row` finds no resolved peak.
     """
     equal = isinstance(case.solver, InTime) and case.solver.step_error is None
     unknown = equal and peak_row(case.loading, force) is None
@@ -77,8 +78,8 @@ def known_peak(case: Case, force: Floats, most: float) -> float:
 
 
 def peak_row(loading: Loading, force: Floats) -> int | None:
-    """Row of the greatest of forces or pressures (rows,); None under a dead load if no row beside
-    it has nearly the same, so that the true peak may lie in between.
+    """Row of the greatest of forces or pressures (rows,); None under a dead load if no neighbouring
+    row has nearly the same value, so that the true peak may lie in between.
     """
     row = int(force.argmax())
     beside = np.append(force[max(row - 1, 0) : row], force[row + 1 : row + 2])
@@ -87,17 +88,18 @@ def peak_row(loading: Loading, force: Floats) -> int | None:
 
 
 def striker_share(history: Curves) -> float:
-    """Energy that backward Euler would take from the striker in these rows / its greatest one,
-    relative to the base.
+    """Energy that backward Euler would take from the striker in these rows / its greatest kinetic
+    energy, both relative to the base.
     """
     speed = closing_speed(history)
     return float(np.sum(np.diff(speed) ** 2) / np.max(speed**2))
 
 
 def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
-    """Momentum of an impact that the support has not borne, or has borne too much / that at first.
+    """Momentum of an impact that the support has not taken, or has taken in excess / momentum at
+    first.
 
-    mass: of the lattice, kg. What the lattice may still have does not count.
+    mass: of the lattice, kg. Momentum that the lattice may still have does not count.
     """
     speed, force = history["striker_speed_m_per_s"], history["reaction_bottom_N"]
     brought = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed

@@ -1,4 +1,4 @@
-"""Energy or stroke of a crush up to the point at which its force first exceeds a given force.
+"""Energy and stroke of a crush up to the point at which its force first exceeds a given force.
 
 Between two rows the force is linear in the stroke, so that the stroke is linear in the force, and
 the work in its square: W = W0 + (F^2 - F0^2) / (F1^2 - F0^2) (W1 - W0).
@@ -20,7 +20,9 @@ def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:
 
 
 def stroke_until(force: float, transmitted: Floats, travel: Floats) -> float:
-    """The stroke (m) until then, of ``travel`` (rows,)."""
+    """Stroke (m), of ``travel`` (rows,), until ``transmitted`` (rows,) first exceeds ``force``
+    (both N).
+    """
     return _reached(force, transmitted, travel)
 
 

@@ -1,6 +1,7 @@
-"""Results as HDF5: sealed parts that survive any end of a sweep, folded into one file.
+"""Stores results as HDF5: sealed parts that survive any end of a sweep, folded into one file.
 
 `write` decides when rows are written, `parts` names the sealed files, `hdf5` writes one, `read`
-reads all of them, and `lock` admits one writer at a time. `batch` and `tables` hold rows in memory.
-`hdf5` and `read` are the only home of h5py, `errors` has the one error.
+reads all of them, and `lock` admits one writer at a time. `batch` and `tables` hold rows in memory,
+`checksum` detects damaged rows. `hdf5` and `read` are the only home of h5py, `errors` has the one
+error.
 """

@@ -1,7 +1,7 @@
 """Blocks of rows of a results file, in memory or in a sealed file, and the union of blocks.
 
 The curves and shapes of cases have different lengths: the arrays of all cases are stored one after
-another, and `start` and `rows` say which range belongs to which case.
+another, and `start` and `rows` give the range of each case.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -47,7 +47,7 @@ CHUNK = 1 << 18  # rows copied at a time
 
 
 def is_as_written(group: str, name: str, dtype: np.dtype, shape: tuple[int, ...]) -> bool:
-    """Whether an array of a group has the kind and the length of rows that a writer gives it."""
+    """Whether an array of a group has the type and row shape that a writer gives it."""
     length = DIMENSIONS.get(group, 0) if name == "position_m" else LENGTHS.get(name, 0)
     kinds = "iu" if name in WHOLE else "f"
     return dtype.kind in kinds and shape[1:] == ((length,) if length else ())
@@ -82,8 +82,8 @@ class Ragged:
     def cases(
         self, kept: np.ndarray, names: Sequence[str]
     ) -> Iterator[tuple[int, dict[str, np.ndarray]]]:
-        """The number of each kept row and its named arrays, in their order in the file; those of
-        many cases are read at once.
+        """The number of each kept row and its named arrays, in the order of the file; many cases
+        are read at once.
         """
         order = kept[np.argsort(self.start[kept], kind="stable")]
         begins, ends = self.start[order], np.maximum.accumulate((self.start + self.rows)[order])
@@ -114,7 +114,7 @@ class Block:
     summary: Mapping[str, np.ndarray]
     ragged: Mapping[str, Ragged]
     attributes: Mapping[str, Any]
-    damaged: frozenset[int] = frozenset()  # numbers of rows that are not as they were written
+    damaged: frozenset[int] = frozenset()  # numbers of the rows that differ from what was written
 
     def as_stored(self, rows: np.ndarray) -> np.ndarray:
         """Row numbers in the order in which the file stores their texts, curves and shapes."""
@@ -139,8 +139,8 @@ def block_of(results: Sequence[Result], revision: str = "") -> Block:
 
 
 def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
-    """Row numbers of each block (oldest first) that no later row of the same case replaces; damaged
-    rows are left out.
+    """Row numbers of each block (oldest first) without rows that a later row of the same case
+    replaces, and without damaged rows.
     """
     newest = {
         case_id: (number, row)
@@ -188,6 +188,6 @@ def _end_to_end(name: str, cases: Sequence[Mapping], rows: np.ndarray) -> np.nda
 
 
 def digits(dtype: np.dtype) -> type[np.number]:
-    """The numbers that a file keeps of an array: single precision, short integers, or bytes."""
+    """The array in the precision that a file keeps: single precision, short integers, or bytes."""
     kinds: dict[str, type[np.number]] = {"f": np.float32, "i": np.int32, "u": np.uint8}
     return kinds[dtype.kind]

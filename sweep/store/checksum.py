@@ -2,8 +2,8 @@
 
 HDF5 itself keeps a checksum of each compressed chunk (curves, shapes, texts of cases), but none of
 the columns of the summary and of the attributes. The checksum of a row mixes its values, column by
-column, with steps that lose nothing, h -> rotated(h ^ value) x odd number: whatever changes one
-value, or the name of a column, changes the checksum of the row for certain.
+column, with steps that lose no information, h -> rotated(h ^ value) x odd number: whatever changes
+one value, or the name of a column, changes the checksum of the row for certain.
 """
 
 from collections.abc import Mapping
@@ -24,8 +24,8 @@ ROTATION = np.uint64(23)
 def checked_columns(
     summary: Mapping[str, np.ndarray], ranges: Mapping[str, tuple[np.ndarray, np.ndarray]]
 ) -> Table:
-    """The columns of a summary, and where the curves and shapes of each row begin and how long they
-    are, by group.
+    """The columns of a summary, and the start and length of the curves and shapes of each row, by
+    group.
     """
     parts = {f"{name}/{k}": part for name, pair in ranges.items() for k, part in enumerate(pair)}
     return Table([*summary, *parts], lambda name: parts[name] if name in parts else summary[name])
@@ -43,7 +43,7 @@ def row_checksums(columns: Mapping[str, np.ndarray]) -> np.ndarray:
 
 
 def _bits(column: np.ndarray) -> np.ndarray:
-    """The values of a column as 64 bits each; of a text, its length and its checksum."""
+    """The values of a column as 64 bits each; for a text, its length and its checksum."""
     if column.dtype == object:
         encoded = {text: text.encode() for text in {*column}}
         bits = {name: len(text) << 32 | crc32(text) for name, text in encoded.items()}
@@ -53,6 +53,6 @@ def _bits(column: np.ndarray) -> np.ndarray:
 
 
 def attribute_checksum(attributes: Mapping[str, Any]) -> int:
-    """Checksum of attributes, without the one that holds it."""
+    """Checksum of all attributes except the checksum itself."""
     pairs = [(name, str(value)) for name, value in attributes.items() if name != CHECKSUM]
     return crc32(repr(sorted(pairs)).encode())

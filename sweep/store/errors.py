@@ -1,4 +1,4 @@
-"""The error of everything that reads and writes results files."""
+"""The error of all modules that read and write results files."""
 
 
 class StoreError(Exception):

@@ -1,7 +1,7 @@
 """Writes a sealed file: blocks are added one after another, the summary is written at the end.
 
 The layout is described in `read`. The file has a temporary name until it is sealed. Texts have a
-fixed length: HDF5 keeps those of variable length in heaps without checksums, and a damaged heap can
+fixed length: HDF5 keeps texts of variable length in heaps without checksums, and a damaged heap can
 send a reader into an endless loop.
 """
 
@@ -39,7 +39,7 @@ CACHE = 1 << 18  # bytes of unfinished chunks that HDF5 keeps in memory for each
 
 @dataclass(frozen=True)
 class About:
-    """What a sealed file holds besides its rows.
+    """The contents of a sealed file besides its rows.
 
     axes: case id -> grid values (dotted key -> value in SI), in the order of the rows of the file.
     attributes: config, versions and the like. last: number of the last batch in the file.
@@ -51,7 +51,9 @@ class About:
 
 
 def seal_blocks(target: Path, blocks: Iterable[Block], about: About, packed: bool) -> None:
-    """Seal the union of blocks, oldest first, under the name `target`; one is used at a time."""
+    """Seal the union of blocks, oldest first, under the name `target`; one block is used at a
+    time.
+    """
     with closing(Growing(target, packed)) as growing:
         for block in blocks:
             growing.add(block, *newest_rows([block]))
@@ -146,7 +148,7 @@ class _Ragged:
                 data[end - last + first : end] = array[first:last]
 
     def finish(self, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Write and return which rows belong to which case, in the order of the summary."""
+        """Write and return the range of rows of each case, in the order of the summary."""
         rows = np.concatenate(self._rows)
         ranges = (np.cumsum(rows) - rows)[order], rows[order]
         self._group["start"], self._group["rows"] = ranges

@@ -1,8 +1,8 @@
 """One writer at a time: a lock that the system releases when its holder ends, also by a kill.
 
 Some network file systems have no locks. There the file itself is the lock: it exists while its
-holder runs, and names it. One that a kill has left behind is taken over on the same host, and on
-another one has to be deleted by hand.
+holder runs, and names the holder. A lock that a killed process has left behind is taken over on the
+same host; on another host it has to be deleted by hand.
 """
 
 import errno
@@ -23,13 +23,13 @@ HOW = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NON
 NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
 OWNED = ".owner"  # suffix of the lock where there are no locks
 LONGEST = 300  # bytes of the name of a holder
-LOCKED_BYTE = 1 << 30  # of the file, on Windows: what is locked there, others cannot read
+LOCKED_BYTE = 1 << 30  # of the file, on Windows: others cannot read a locked byte
 
 
 class LockedError(Exception):
     """Another process holds the lock; `holder`: its process id, or "" if unknown.
 
-    left: the file to delete, if that process runs no more; None where the system knows.
+    left: the file to delete if that process no longer runs; None where the system knows.
     """
 
     def __init__(self, holder: str, left: Path | None = None) -> None:
@@ -98,7 +98,7 @@ def _release(path: Path, descriptor: int) -> None:
 
 
 def _own(path: Path) -> int:
-    """Make the file `path`; one that a dead process of this host has left is removed before."""
+    """Create the file `path`, after removing one that a dead process of this host has left."""
     if _is_dead(holder := _owner(path)):
         aside = path.with_name(f"{path.name}.{os.getpid()}")
         with suppress(FileNotFoundError):
@@ -119,11 +119,11 @@ def _owner(path: Path) -> str:
 
 
 def _is_dead(holder: str) -> bool:
-    """Whether a holder, "PROCESS on HOST", is a process of this host that runs no more."""
+    """Whether a holder, "PROCESS on HOST", is a process of this host that no longer runs."""
     from psutil import pid_exists
 
     process, _, host = holder.partition(" on ")
-    with suppress(OverflowError):  # no number of a process
+    with suppress(OverflowError):  # not a process id
         return host == socket.gethostname() and process.isdecimal() and not pid_exists(int(process))
     return False
 
@@ -134,7 +134,7 @@ def _holder(descriptor: int) -> str:
 
 
 def _is_still(path: Path, descriptor: int) -> bool:
-    """Whether the file that was opened is still there; Windows deletes none that is open."""
+    """Whether the opened file still exists; Windows deletes no open file."""
     with suppress(FileNotFoundError):
         return sys.platform == "win32" or os.path.samestat(os.stat(path), os.fstat(descriptor))
     return False

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 MERGE_AT = 64  # parts of one size that are merged; so there are never more than a few hundred
 MOMENT, LONGEST = 0.1, 2.0  # seconds between two attempts to replace a file, and for all of them
-NO_FSYNC = {errno.EINVAL, errno.EOPNOTSUPP}  # of a folder, on some network file systems
+NO_FSYNC = {errno.EINVAL, errno.EOPNOTSUPP}  # for folders on some network file systems
 
 _NAME = re.compile(r"(\d{1,18})-(\d{1,18})\.h5")
 _TEMPORARY = ".tmp"
@@ -47,8 +47,8 @@ def parts_folder(path: Path) -> Path:
 
 
 def target(path: Path) -> Path:
-    """The file that a name stands for: links are followed, so that it has one lock and one folder
-    of parts under all of its names.
+    """The file that a name refers to: links are followed, so that it has one lock and one folder of
+    parts under all of its names.
     """
     return Path(os.path.realpath(path)) if path.is_symlink() else path
 
@@ -68,7 +68,7 @@ def list_parts(path: Path) -> list[Part]:
 
 
 def too_many(parts: list[Part]) -> bool:
-    """True if the parts should be merged, since a reader holds all of them open."""
+    """Whether the parts should be merged, since a reader holds all of them open."""
     return len(parts) >= MERGE_AT
 
 
@@ -136,7 +136,7 @@ def make_folder(folder: Path) -> None:
 def discard(parts: list[Part]) -> None:
     """Delete parts whose batches are stored elsewhere.
 
-    One that Windows keeps, as a reader has it open, is left to the next run.
+    A part that Windows keeps, as a reader has it open, is left to the next run.
     """
     for part in parts:
         with suppress(PermissionError):
@@ -173,13 +173,15 @@ def _list_all(path: Path) -> list[Part]:
 
 
 def _refuse_link(path: Path) -> None:
-    """A link leads to what is no part of the results, and must not be deleted with the parts."""
+    """Refuse a link: it leads to a file outside the results, which must not be deleted with the
+    parts.
+    """
     if path.is_symlink():
         raise StoreError(f"{path} is a link: remove it; allowed: what a run has written there.")
 
 
 def _replace(source: Path, target: Path) -> None:
-    """Rename a file. Windows refuses while a reader has the target open: it is given a moment."""
+    """Rename a file. Windows refuses while a reader has the target open, so retry for a moment."""
     due = time.monotonic() + LONGEST
     while True:
         try:

@@ -10,11 +10,11 @@ with the same case id it takes the newer one.
     /histories/values/COLUMN   (sum of rows,) float32, the curves of all cases one after another
     /histories/start, rows     (n,) first row of the curves of a case, and their number of rows
     /frames, /points, /edges   the same; a row is a frame, a node of a frame, an element
-    /plate_points, /quads      the same of plates
+    /plate_points, /quads      the same for plates
     /strikers, /bases          the same; a row is a point of an outline
     /cases                     the same; a row is a byte of the case as JSON (`Case.to_json`)
     /checksums                 (n,) of the rows of the summary, with `start` and `rows`; the
-                               attribute `checksum` is that of the other attributes
+                               attribute `checksum` covers the other attributes
 """
 
 import json
@@ -52,8 +52,8 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
 
-SHOWN = 3  # damaged cases that are named
-ATTEMPTS = 100  # to open all files of a set before the writer changes the set
+SHOWN = 3  # most damaged cases that are named
+ATTEMPTS = 100  # attempts to open all files of a set before the writer changes the set
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 ID = re.compile(r"[0-9a-f]{1,16}")
@@ -73,7 +73,7 @@ _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 
 
 class Rerun(NamedTuple):
-    """Which cases run again although they have a row: failed ones, those of another model."""
+    """Which cases run again although they have a row: failed, or of another model."""
 
     failed: bool = False
     older: bool = False
@@ -142,13 +142,13 @@ def read_attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
-    """The case that a row was computed from. Its labels are those of the sweep that computed it."""
+    """The case that a row was computed from, with the labels of the sweep that computed it."""
     return _case(path, case_id, _read_arrays(Path(path), case_id, ["cases"]))
 
 
 def unreadable(path: str | os.PathLike[str]) -> dict[str, StoreError]:
     """The rows whose curves, shapes or case cannot be read, or whose case has another id: their
-    ids, each with what is wrong.
+    ids, each with the fault.
     """
     with _union(Path(path)) as blocks:
         pairs = zip(blocks, newest_rows(blocks), strict=True)
@@ -158,7 +158,9 @@ def unreadable(path: str | os.PathLike[str]) -> dict[str, StoreError]:
 def _unreadable(
     path: str | os.PathLike[str], block: Block, rows: np.ndarray
 ) -> Iterator[tuple[str, StoreError]]:
-    """Of a block; its rows are read in runs, and one by one from the first damaged run on."""
+    """The unreadable rows of a block, which are read in runs, and one by one from the first damaged
+    run on.
+    """
     ids, stored = block.summary["case_id"], block.as_stored(rows)
     cache: dict[Any, Any] = {}
     number = 0
@@ -183,7 +185,7 @@ def _unusable(
     arrays: dict[str, np.ndarray],
     cache: dict[Any, Any],
 ) -> StoreError | None:
-    """What is wrong with the shapes or the case of a row; cache: see `Case.from_json`."""
+    """The fault in the shapes or the case of a row; cache: see `Case.from_json`."""
     try:
         _frames(path, case_id, arrays)
         _case(path, case_id, arrays, cache)
@@ -195,9 +197,10 @@ def _unusable(
 def changed_cases(
     path: str | os.PathLike[str], ids: Collection[str], case_of: Callable[[str], "Case"]
 ) -> set[str]:
-    """Those of the ids whose row holds another case than theirs; ids without a row are left out.
+    """The ids whose row holds another case than ``case_of`` returns; ids without a row are left
+    out.
 
-    Texts are compared, which takes 30 us each; where they differ, the ids of the cases.
+    Texts are compared, which takes 30 us each; if they differ, the ids of the cases are.
     """
     if not exists(path):
         return set()
@@ -216,7 +219,9 @@ def _texts(blocks: list[Block], ids: Collection[str]) -> Iterator[tuple[str, byt
 
 
 def _is_of(text: bytes, case: "Case") -> bool:
-    """Whether a stored text is of a case; labels, the last table, may be those of another sweep."""
+    """Whether a stored text describes a case; labels, the last table, may come from another
+    sweep.
+    """
     own, mark = case.to_json().encode(), b',"axes":'
     (body, _, labels), (own_body, _, own_labels) = text.rpartition(mark), own.rpartition(mark)
     try:
@@ -284,8 +289,8 @@ def read_runs(
 def read_curves(
     path: str | os.PathLike[str], case_ids: Collection[str], names: Sequence[str]
 ) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
-    """Named columns of the curves of many cases, in their order in the file; no rows where a case
-    has no curves.
+    """Named columns of the curves of many cases, in their order in the file; no rows if a case has
+    no curves.
     """
     ids = {*case_ids}
     with _union(Path(path)) as blocks:
@@ -369,7 +374,9 @@ def _open_all(path: Path, stack: ExitStack) -> list[Block]:
 
 
 def open_whole(path: Path, stack: ExitStack) -> list[Block]:
-    """All sealed blocks of a results file, none of whose rows is damaged; open as `open_sealed`."""
+    """All sealed blocks of a results file, none of whose rows is damaged; open as in
+    `open_sealed`.
+    """
     blocks = _open_all(path, stack)
     _refuse_damaged(path, blocks)
     return blocks
@@ -409,7 +416,7 @@ def _inside(group: h5py.Group, name: str, kind: type) -> Any:
     """The group or dataset (``kind``) of this name, as Crumple writes it.
 
     A results file is complete, so no link to another file is followed. Nothing of variable length
-    is read: HDF5 can loop for ever in a heap that is damaged.
+    is read: HDF5 can loop forever in a damaged heap.
     """
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):
         raise ValueError("a link")
@@ -426,7 +433,7 @@ def _numbers(group: h5py.Group, name: str) -> np.ndarray:
 
 
 def _identity(file: h5py.File) -> tuple[int, ...]:
-    """What changes if the content of a file does."""
+    """A value that changes with the content of a file."""
     about = os.fstat(file.id.get_vfd_handle())
     return about.st_dev, about.st_ino, about.st_size, about.st_mtime_ns, about.st_ctime_ns
 
@@ -434,8 +441,8 @@ def _identity(file: h5py.File) -> tuple[int, ...]:
 def _changed_rows(
     path: Path, columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
 ) -> frozenset[int]:
-    """Numbers of the rows whose checksums are not those written, or whose id is none of Crumple's:
-    ids become names of files.
+    """Numbers of the rows whose checksums differ from those written, or whose id is no id of
+    Crumple: ids become names of files.
     """
     ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
     checked = checked_columns(columns, ranges)
@@ -457,7 +464,7 @@ def _changed_rows(
 
 
 def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
-    """Ids, as stored, of rows that are not as they were written and that no other row replaces."""
+    """Ids, as stored, of rows that differ from what was written and that no other row replaces."""
     if not exists(path):
         return []
     with _union(Path(path)) as blocks:
@@ -519,7 +526,8 @@ class _Array:
 class _Members(Mapping[str, Any]):
     """The datasets of a group of a sealed file, each opened or read when it is indexed.
 
-    Kept are texts, which take long to read, and what is small, since there may be many files.
+    Texts are kept, as they take long to read, and so are small datasets, since there may be many
+    files.
     """
 
     def __init__(self, path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> None:
@@ -546,7 +554,7 @@ def _column(data: h5py.Dataset) -> np.ndarray:
     if not h5py.check_string_dtype(data.dtype):
         return data[:]
     encoded = data[:].tolist()
-    texts = {text: text.decode() for text in {*encoded}}  # most are alike, and then one object
+    texts = {text: text.decode() for text in {*encoded}}  # most are equal, and share one object
     return np.array([texts[text] for text in encoded], dtype=object)
 
 
@@ -560,14 +568,14 @@ def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, n
 
 
 def _arrays(block: Block, row: int, groups: Iterable[str]) -> dict[str, np.ndarray]:
-    """Arrays of the case in one row of a block; those without any row are left out."""
+    """Arrays of the case in one row of a block; arrays without rows are left out."""
     arrays = [block.ragged[group].case(row) for group in groups]
     return {k: v for named in arrays for k, v in named.items() if len(v)}
 
 
 def _arrays_in_runs(block: Block, rows: np.ndarray) -> Iterator[tuple[int, dict[str, np.ndarray]]]:
-    """Row by row what `_arrays` reads of all groups, of rows in the order in which they are stored;
-    a `StoreError` if a group stores them in another order.
+    """The arrays that `_arrays` reads from all groups, row by row, for rows in the order in which
+    they are stored; a `StoreError` if a group stores them in another order.
     """
     groups = [block.ragged[name] for name in GROUPS]
     for cases in zip(*(group.cases(rows, [*group.arrays]) for group in groups), strict=True):

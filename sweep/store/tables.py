@@ -20,9 +20,9 @@ _HEAD = ("case_id", "status", "message")
 
 
 class Table(Mapping[str, np.ndarray]):
-    """Columns by their names, each made when it is asked for, and not kept.
+    """Columns by their names, each made when it is requested, and not kept.
 
-    All columns of a large sweep at a time would be most of the memory that a run takes.
+    All columns of a large sweep at the same time would be most of the memory that a run takes.
     """
 
     def __init__(self, names: Iterable[str], make: Callable[[str], np.ndarray]) -> None:
@@ -73,7 +73,7 @@ def relabel(table: Mapping[str, np.ndarray], axes: Axes) -> Table:
     """Table with the grid values of its cases replaced by those in `axes`.
 
     A case that an earlier sweep computed is part of this one too, with the values of this grid.
-    Values that `axes` does not have stay.
+    Values that `axes` does not have stay unchanged.
     """
     ids = table["case_id"]
     labels = dict.fromkeys(name for case_id in ids for name in axes.get(case_id, ()))
@@ -133,5 +133,5 @@ def _list(part: np.ndarray | None, length: int) -> list[Any]:
 
 
 def _text(value: Any) -> str:
-    """A value of a text column, one object for all that are alike; "" for None and NaN."""
+    """A value of a text column, one object for all equal texts; "" for None and NaN."""
     return "" if value is None or value != value else sys.intern(str(value))

@@ -40,7 +40,7 @@ ASIDE = "move it away; `crumple merge` brings its rows into any results file"
 
 
 class WriteError(StoreError):
-    """A results file, or its folder, that the system does not let a run write to."""
+    """A results file, or its folder, to which the system does not let a run write."""
 
 
 class Writer:
@@ -67,7 +67,7 @@ class Writer:
         self._stack = ExitStack()
 
     def __enter__(self) -> Self:
-        if self.path.suffix != ".h5":  # its folder of parts would be that of NAME.h5
+        if self.path.suffix != ".h5":  # its parts would be in the folder of NAME.h5
             raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
         with _writing(self.path), ExitStack() as stack:
             make_folder(self.path.parent)
@@ -104,7 +104,8 @@ class Writer:
         """Bring all parts into the results file, and its rows into the order of `axes`.
 
         last: results that go into the file directly, without a part of their own. files: other
-        results files whose rows it takes over; of two rows of a case, that of the later file stays.
+        results files whose rows it takes over; of two rows of a case, the row of the later file
+        stays.
         """
         parts = [*self._parts, *self._sealed]
         with _writing(self.path), ExitStack() as stack:

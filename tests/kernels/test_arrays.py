@@ -1,4 +1,4 @@
-"""Loops over arrays: the same as what numpy does."""
+"""Loops over arrays: the same results as numpy."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,9 @@ def test_vectors_are_copied_added_and_cleared(vectors):
 
 @pytest.mark.parametrize("value", [-1.0, 0.0, 0.5, 2.0, 3.5, 4.0, 9.0])
 def test_places_among_ascending_numbers(value):
-    """As by bisection of the whole, or of a part; a piece is one of those between the bounds."""
+    """The same places as by bisection, of the whole or of a part; a piece lies between the
+    bounds.
+    """
     ascending = np.array([0.0, 1.0, 2.0, 2.0, 3.5, 4.0])
     for low, high in ((0, 6), (1, 4), (3, 3)):
         expected = low + np.searchsorted(ascending[low:high], value)

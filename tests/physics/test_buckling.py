@@ -62,7 +62,9 @@ def test_no_load_on_platens_is_too_much(force, friction, damping):
 @pytest.mark.parametrize("force", LOADS)
 @pytest.mark.parametrize("damping", [HEAVY, VISCOUS], ids=["rayleigh", "viscous"])
 def test_damped_lattice_recovers_once_released(force, damping):
-    """The strain is that of its extent, and it may turn as it jumps off: so compare shapes too."""
+    """The strain is measured on its extent, and it may turn as it jumps off: so compare shapes
+    too.
+    """
     result = on_platens(force, 1e-3, damping, 0.3)
     assert result.history["time_s"][-1] == pytest.approx(RELEASE + REST)
     assert result.summary["residual_strain"] < 0.02

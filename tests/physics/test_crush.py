@@ -1,4 +1,4 @@
-"""Crushing with contact: against solid finite elements, and what any crush must obey."""
+"""Crushing with contact: against solid finite elements, and laws that any crush must obey."""
 
 import numpy as np
 import pytest
@@ -76,8 +76,8 @@ def test_reactions_of_both_platens_agree(platen, friction):
 
 
 def test_unloading_returns_all_energy_without_friction():
-    """Glued, nothing snaps: the curve back is the curve there. (At three elements a wall, one does
-    at 58 %.)
+    """Glued walls do not snap, so that unloading follows the loading curve. (With three elements
+    per wall, one snaps at 58 %.)
     """
     result = there_and_back("glued", 0.0, elements=6)
     summary, force = result.summary, result.history["reaction_top_N"]
@@ -99,7 +99,9 @@ def test_friction_keeps_some_energy(platen):
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_friction_never_gives_energy_back(platen):
-    """Backward Euler books the work of the forces at the end of a step, none of which aids it."""
+    """Backward Euler books the work of the forces at the end of a step, none of which drives the
+    motion.
+    """
     case = pressed(6, 0.6, 200, platen, 1.0, unload=True, speed=1.0)
     result = simulate(case)
     rubbed = result.history["dissipated_friction_J"]

@@ -56,7 +56,7 @@ def honeycomb(t):
 @pytest.mark.parametrize("slenderness", [0.05, 0.1])
 @pytest.mark.parametrize("way", ["pointy", "flat"])
 def test_regular_honeycomb_is_as_stiff_as_its_closed_form(way, slenderness):
-    """In both directions: 4/sqrt(3) (t/L)^3 / (1 + 3 (t/L)^2) Y'."""
+    """The modulus in both directions is 4/sqrt(3) (t/L)^3 / (1 + 3 (t/L)^2) Y'."""
     found = modulus("hex", way, slenderness)
     assert found == pytest.approx(honeycomb(slenderness), rel=2e-4)
 

@@ -87,7 +87,7 @@ def test_halved_steps_take_their_share_of_the_time():
 
 
 def test_a_strip_bends_alike_through_its_section_and_linearly():
-    """One material of a straight curve: relaxation of sections is that of moments."""
+    """One material with a straight curve: sections relax like moments."""
     strain = (0.01, 0.05, 0.5, 2.0)
     curve = {"curve_strain": (-0.5, *strain), "curve_stress": (-6e6, *(12e6 * e for e in strain))}
     through = LINEAR | curve | {"plane": "stress", "loss": 0.4, "reference_time": 1.0}

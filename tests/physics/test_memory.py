@@ -30,7 +30,7 @@ def case(loading, bend="section", loss=LOSS, **solver):
 @pytest.mark.parametrize("bend", ["section", "linear"])
 @pytest.mark.parametrize("kind", LOADINGS)
 def test_the_book_of_a_crush_closes(kind, bend):
-    """3 x 3 cells with solid joints, in contact; no step gives back what is lost."""
+    """3 x 3 cells with solid joints, in contact; no step returns lost energy."""
     loading, solver = LOADINGS[kind]
     result = run(case(loading, bend, **solver))
     history = result.history
@@ -66,8 +66,8 @@ def slender(rate, loss=0.3, strain=1e-4):
 
 
 def mean_modulus(material, start, end):
-    """Mean of the modulus from one time to another over that at 1 s: what is seen, at ``end``, of
-    an even ramp of strain that began then and stopped at ``end - start``.
+    """Mean of the modulus from one time to another over the modulus at 1 s: it determines the
+    stress at ``end`` after an even ramp of strain that began then and stopped at ``end - start``.
     """
     shares, times, instant = relaxation_of(material)
     left = times * (np.exp(-start / times) - np.exp(-end / times)) / (end - start)

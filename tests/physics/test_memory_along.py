@@ -56,7 +56,7 @@ def test_dissipation_never_falls(folded):
 
 
 def test_before_it_buckles_a_tube_loses_what_a_strip_loses():
-    """Until its force is zero."""
+    """The loss until its force is zero."""
     rows = history(pressed(SMALL, 100))
     strain, force = rows["strain"], rows["reaction_top_N"]
     peak = np.argmax(strain)
@@ -71,7 +71,9 @@ def test_before_it_buckles_a_tube_loses_what_a_strip_loses():
 
 @pytest.mark.parametrize("strain_rate", [1e-3, 1.0, 1e3])
 def test_a_faster_crush_is_stiffer_as_the_modulus_of_a_ramp(strain_rate):
-    """Of the elastic tube's force: the mean of the relaxation modulus over the ramp."""
+    """Its force over the force of an elastic tube is the mean of the relaxation modulus over the
+    ramp.
+    """
     elastic = history(pressed(SMALL, 20, loss=0.0))["reaction_top_N"].max()
     case = pressed(SMALL, 20, strain_rate)
     time, branches = SMALL / strain_rate, relaxation_of(case.material)

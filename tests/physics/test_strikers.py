@@ -104,7 +104,7 @@ class Beam:
         return x
 
     def force(self, x):
-        """Of the striker, N."""
+        """Force of the striker, N."""
         return -self.terms[-1].gradient(x)[-1]
 
 
@@ -157,7 +157,7 @@ def _impact(**loading):
     dict(striker="punch", base="ribs", base_span=18e-3),
 ], ids=["round", "edge", "on ribs"])  # fmt: skip
 def test_momentum_and_energy_of_an_impact(loading):
-    """What the base bears over time is the change of the momentum of striker and lattice."""
+    """The impulse on the base is the change of the momentum of striker and lattice."""
     of = _impact(**loading)
     mass, n = of.scene.terms.coordinates.mass, 2 * len(of.scene.mesh.points)
     times = np.diff(of.rows["time"], prepend=0.0)
@@ -203,7 +203,9 @@ def test_no_wall_passes_through_a_striker(loading):
 
 @pytest.mark.parametrize("at", PLACES)
 def test_a_round_striker_against_plane_finite_elements(at):
-    """Beside a joint and between two; the coarser solid is within 2.5 % of the finer one."""
+    """Strikers beside a joint and between two; the coarser solid is within 2.5 % of the finer
+    one.
+    """
     strain, force = stored()[round(at, 4), MESHES[-1]]
     coarser = stored()[round(at, 4), MESHES[0]][1]
     np.testing.assert_allclose(coarser, force, atol=0.025 * force.max())
@@ -212,7 +214,7 @@ def test_a_round_striker_against_plane_finite_elements(at):
 
 
 def test_ribs_carry_a_panel_that_bends_between_them():
-    """The wider their span, the softer; less than by its third power, as the panel shears too."""
+    """A wider span is softer, by less than its third power, as the panel shears too."""
     soft = [
         np.interp(0.02, *curve(striker="round", base="ribs", base_span=span, strain=0.05))
         for span in (12e-3, 22e-3)

@@ -86,7 +86,9 @@ def dispersion(rho, rows):
 
 @pytest.mark.parametrize("rows", [2, 4, 8, 24])
 def test_a_crush_meets_the_longest_sway_that_the_period_has_room_for(rows):
-    """With the mean shear held at zero, the longer the period the lower: 0.474 at last."""
+    """The mean shear is held at zero: the longer the period, the lower the load, 0.474 in the
+    limit.
+    """
     result = simulate(grid((1, rows), 3))
     history = result.history
     bent = np.flatnonzero(history["bend_J"] > 1e-6 * history["stretch_J"].max())[0]

@@ -1,4 +1,4 @@
-"""A small tube that is pressed along its cell by 40 %: what holds at every step of the march."""
+"""A small tube pressed along its cell by 40 %: properties of every step of the march."""
 
 import numpy as np
 import pytest

@@ -127,6 +127,12 @@ def nodes(module):
     return [*ast.walk(tree(module))]
 
 
+def docstrings(module):
+    """Strings that stand alone: docstrings of functions, classes, modules and constants."""
+    values = [node.value for node in nodes(module) if isinstance(node, ast.Expr)]
+    return [value for value in values if isinstance(getattr(value, "value", None), str)]
+
+
 def is_for_types(test):
     return any(isinstance(n, ast.Name) and n.id == "TYPE_CHECKING" for n in ast.walk(test))
 
@@ -145,7 +151,7 @@ def walk(node, lazy, typed=False):
 
 @cache
 def imports(module, lazy=True, typed=False):
-    """Dotted names that a module imports; a name that is no module of ours is cut at its module."""
+    """Dotted names that a module imports; a name outside our modules is cut at its module."""
     found = set()
     for node in walk(tree(module), lazy, typed):
         if isinstance(node, ast.Import):
@@ -173,7 +179,7 @@ def called(function):
 
 
 def python(script):
-    """What a fresh interpreter makes of a script."""
+    """Result of running a script in a fresh interpreter."""
     command = [sys.executable, "-c", script]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
@@ -238,7 +244,7 @@ def test_the_solver_and_the_physics_do_not_know_each_other():
 
 def strings(module):
     """Texts of a module that are no docstrings."""
-    stated = {id(node.value) for node in nodes(module) if isinstance(node, ast.Expr)}
+    stated = {id(value) for value in docstrings(module)}
     constants = [n for n in nodes(module) if isinstance(n, ast.Constant) and id(n) not in stated]
     return [node.value for node in constants if isinstance(node.value, str)]
 
@@ -342,7 +348,7 @@ def test_help_and_a_refused_config_need_no_heavy_imports():
 
 @cache
 def defined(module):
-    """Names that a module binds at its top, in branches of it too."""
+    """Names that a module binds at its top, also in branches."""
     names = {"*"}
     for node in nodes(module):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
@@ -355,7 +361,7 @@ def defined(module):
 
 
 def test_what_is_imported_of_our_own_is_there():
-    """In the programs of slow studies too, which no test runs."""
+    """Programs of slow studies, which no test runs, are read too."""
     missing = [
         f"{module}: {node.module}.{alias.name}"
         for module in SOURCES
@@ -381,8 +387,20 @@ def test_quantities_are_converted_for_people_in_one_place():
 
 
 def test_no_variable_is_a_participle():
-    """Of those that say nothing of a value: a name is a noun."""
+    """A name is a noun: these participles say nothing of a value."""
     for module in PROGRAM:
         names = {n.id for n in ast.walk(tree(module)) if isinstance(n, ast.Name)}
         names |= {n.arg for n in ast.walk(tree(module)) if isinstance(n, ast.arg)}
         assert not names & {"found", "known", "told", "held", "made"}, module
+
+
+def test_docstrings_repeat_the_noun():
+    """A pronoun without a referent makes a reader search for it: a noun does not."""
+    riddle = re.compile(r"\b(that of|those of|as of|what is asked)\b", re.IGNORECASE)
+    found = {
+        f"{module}:{value.lineno}: {phrase.group()}"
+        for module in PROGRAM
+        for value in docstrings(module)
+        if (phrase := riddle.search(" ".join(value.value.split())))
+    }
+    assert found == set()

@@ -159,7 +159,7 @@ def test_reuse_softens_as_it_says():
 
 
 def test_slicer_holds_its_numbers():
-    """Seven infills of the same mass as extruded, of which honeycomb needs the least share."""
+    """Seven infills of the same mass as extruded; honeycomb needs the least share."""
     cases = expand(load_config(CONFIGS / "slicer.toml"))
     glued = {case.lattice.pattern: case for case in cases if case.loading.platen == "glued"}
     assert len(cases) == 2 * len(glued) == 14
@@ -315,7 +315,7 @@ def seed(model, hinges):
     [("position_based", "classical", 122.0, 1e-2), ("barrier", "cubic", 99.28, 1e-3)],
 )
 def test_seed_holds_its_numbers(model, hinges, energy, within):
-    """What is moved apart in another order comes to rest a little elsewhere."""
+    """Nodes that are moved apart in another order come to rest a little elsewhere."""
     summary = seed(model, hinges).summary
     assert summary["status"] == "converged"
     assert summary["max_crossings"] == 0

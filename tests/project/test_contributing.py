@@ -1,4 +1,4 @@
-"""CONTRIBUTING.md: what it names is there."""
+"""CONTRIBUTING.md: everything it names exists."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What builds, tests and describes Crumple elsewhere: the same packages, versions and pages."""
+"""Files that build, test and describe Crumple elsewhere: the same packages, versions and pages."""
 
 import re
 import tomllib

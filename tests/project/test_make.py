@@ -1,4 +1,4 @@
-"""The Makefile, with a program in place of Python that says what it is asked for."""
+"""The Makefile, with a program in place of Python that prints its arguments."""
 
 import os
 import re

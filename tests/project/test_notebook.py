@@ -1,4 +1,4 @@
-"""The notebook of docs/: its cells run, and show what it has stored."""
+"""The notebook of docs/: its cells run, and print the stored outputs."""
 
 import re
 from base64 import b64decode

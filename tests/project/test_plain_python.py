@@ -33,8 +33,8 @@ for case in (crush, path):
 NONSENSE = {"MALLOC_PERTURB_": "165", "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0"}
 
 
-def told(**environment):
-    """What the program prints."""
+def output(**environment):
+    """Output of the program."""
     run = subprocess.run(
         [sys.executable, "-c", PROGRAM],
         env=os.environ | environment,
@@ -47,14 +47,14 @@ def told(**environment):
 
 @pytest.fixture(scope="module")
 def compiled():
-    return told()
+    return output()
 
 
 @pytest.mark.parametrize(
     "environment", [{"NUMBA_DISABLE_JIT": "1"}, NONSENSE], ids=["plain", "freed"]
 )
 def test_simulations_find_the_same(compiled, environment):
-    crush, crushed, path, bent = told(**environment)
+    crush, crushed, path, bent = output(**environment)
     assert [crush, path] == compiled[::2]
     assert crush.startswith("converged")
     assert path.startswith("converged")

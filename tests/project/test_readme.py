@@ -1,4 +1,6 @@
-"""What README and its pages say: commands, files, keys, columns, snippets, figures are real."""
+"""Statements of README and its pages: commands, files, keys, columns, snippets, figures are
+real.
+"""
 
 import json
 import os
@@ -105,7 +107,7 @@ def test_example_has_as_many_cases_as_it_says(tmp_path):
 
 
 def keys_of(table):
-    """What is said of the keys of a table."""
+    """Statements about the keys of a table."""
     (text,) = re.findall(rf"^- `\[{table}\]`:\s(.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
     return " ".join(text.split())
 
@@ -236,7 +238,7 @@ def test_winners_are_the_first_of_the_rankings():
 
 @pytest.fixture(scope="module")
 def quick_armor(tmp_path_factory):
-    """A folder with the results of those designs of armor.toml that take no time."""
+    """A folder with the results of the designs of armor.toml that take no time."""
     folder = tmp_path_factory.mktemp("readme")
     config = load_config(ROOT / "configs/armor.toml")
     cases = [case for case in expand(config) if is_quick(case)]

@@ -1,7 +1,7 @@
-"""A wheel, made from an sdist and installed where nothing else of ours is: what users get.
+"""A wheel, made from an sdist and installed where nothing else of ours is, as users get it.
 
-Kernels run as plain Python, since to compile them all takes longer than all else here. That they
-are compiled and kept from a wheel too is shown by one of them.
+Kernels run as plain Python, since compiling them all takes longer than everything else here. One of
+them shows that they are also compiled and cached from a wheel.
 """
 
 import ast
@@ -57,7 +57,7 @@ print(dot(np.ones(3), np.ones(3)), sum(dot.entry.stats.cache_hits.values()))
 
 
 def made(folder, what, into):
-    """What setuptools makes of a folder, as pip, build and uv ask it to: an sdist or a wheel."""
+    """The sdist or wheel that setuptools makes of a folder when pip, build or uv call it."""
     script = f"from setuptools import build_meta; build_meta.build_{what}({str(into)!r})"
     subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
     (path,) = into.glob("*.tar.gz" if what == "sdist" else "*.whl")
@@ -79,9 +79,10 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def environment(wheel, tmp_path_factory):
-    """The programs of an environment with the wheel, and with all but it from this environment.
+    """The programs of an environment with the wheel, and with everything else from this
+    environment.
 
-    It lies in a git repository, which is not that of the source.
+    It lies in a git repository, which is not the repository of the source.
     """
     folder = tmp_path_factory.mktemp("environment")
     git = ["git", "-C", folder]
@@ -105,7 +106,7 @@ def environment(wheel, tmp_path_factory):
 
 @pytest.fixture
 def run(environment, tmp_path_factory):
-    """Runs a program of that environment in a folder elsewhere, and returns what it prints."""
+    """Run a program of that environment in another folder, and return its output."""
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     usual = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "CRUMPLE"))}
     usual |= {"PYTHONNOUSERSITE": "1", "CRUMPLE_CACHE_DIR": str(elsewhere / "cache")}
@@ -179,6 +180,6 @@ def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
 
 
 def test_kernels_are_compiled_once(run):
-    """And found by another process."""
+    """Another process finds them."""
     assert run("python", "-I", "-c", KEPT) == "3.0 0\n"
     assert run("python", "-I", "-c", KEPT) == "3.0 1\n"

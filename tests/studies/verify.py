@@ -1,7 +1,7 @@
-"""What the README says in numbers, as it says it.
+"""The numbers of the README, in its own form.
 
 Run by `make verify` with the results of `configs/armor.toml`: the tables of its examples, and how
-far to trust a crush, beside independent references. These are for the 3 x 3 grid of the default
+reliable a crush is, against independent references. These are for the 3 x 3 grid of the default
 case (12.5 mm over centre lines, walls of 0.8 mm) of a linear material, Y = 12 MPa, nu = 0.48, plane
 stress, and were computed outside this repository with other programs:
 
@@ -64,7 +64,7 @@ def loaded(force, contact="none", platen="none", **solver):
 
 
 def beside(name, found, reference, digits):
-    """A row of what was found, each with its error against the reference."""
+    """A row of results, each with its error against the reference."""
     errors = [round(100.0 * (a / b - 1.0), 1) + 0.0 for a, b in zip(found, reference, strict=True)]
     cells = zip(found, errors, strict=True)
     return [name, *(f"{value:.{digits}f} ({error:+.1f} %)" for value, error in cells)]
@@ -125,7 +125,7 @@ def soundness_rows():
 
 
 def crush_rows(file):
-    """Spread over the crushes of a sweep of what tells whether its energies mean something."""
+    """Spread over the crushes of a sweep of the measures of the reliability of energies."""
     summary = read_summary(file)
     crushes = summary[summary["loading_mode"] == "displacement"]
     demand(crushes.to_dict("records"))
@@ -150,7 +150,7 @@ def beyond(file):
 
 
 def failure():
-    """What a case says that may not iterate enough."""
+    """Message of a case that may not iterate enough."""
     solver = dict(load_steps=20, max_iterations=4)
     case = Case.of(loading=dict(mode="displacement"), solver=solver)
     result = simulate(case)
@@ -158,7 +158,7 @@ def failure():
 
 
 def answer(example):
-    """What the command of an example prints below its title now, up to the next empty line."""
+    """Output of the command of an example below its title, up to the next empty line."""
     with redirect_stdout(io.TextIOWrapper(io.BytesIO(), "utf-8")) as output:
         main(shlex.split(example.command)[1:])
     output.seek(0)

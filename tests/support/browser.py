@@ -1,4 +1,4 @@
-"""A headless Chromium that is driven through its debugging pipe, if there is one on the machine."""
+"""A headless Chromium, if the machine has one, driven through its debugging pipe."""
 
 import base64
 import json
@@ -29,7 +29,7 @@ PATIENCE = 60  # s
 class Tab:
     """A page: `run` evaluates a script in it.
 
-    complaints: what it wrote to its console; asked_for: addresses that it loaded.
+    complaints: its messages on the console; asked_for: addresses that it loaded.
     """
 
     def __init__(self, to, back):
@@ -96,7 +96,7 @@ class Tab:
             self._read()
 
     def run(self, script):
-        """The value of an expression in the page; of a promise, what it becomes."""
+        """The value of an expression in the page; for a promise, its result."""
         later = script.startswith("new Promise")  # waiting takes forever if scripts are disabled
         told = self.call(
             "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=later

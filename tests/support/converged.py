@@ -1,6 +1,6 @@
-"""What has converged, or the end: no study goes on from a case that has not.
+"""Ends a study when one of its cases has not converged.
 
-It ends with exit status 1, the case and its sentence.
+It ends with exit status 1, the case and its message.
 """
 
 import sys
@@ -30,7 +30,7 @@ def converged(case):
 
 
 def swept(cases, file, simulate=None):
-    """The summary of all cases, of which only those are run that the file lacks."""
+    """The summary of all cases; only cases that the file lacks are run."""
     run_sweep(cases, file, simulate=simulate)
     rows = read_summary(file)
     rows = rows[rows["case_id"].isin({case.case_id for case in cases})]

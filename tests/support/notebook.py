@@ -28,7 +28,7 @@ def executed(code_cells):
 
 
 def _outputs(source, names):
-    """What a cell prints, then the value of its last expression, if it ends in one."""
+    """Output of a cell, then the value of its last expression, if it ends in one."""
     tree = ast.parse(source)
     last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
     printed = StringIO()

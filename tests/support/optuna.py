@@ -1,6 +1,7 @@
-"""What docs/questions.md uses of Optuna, with three trials: the ends of ranges and their middle.
+"""The parts of Optuna that docs/questions.md uses, with three trials: the ends of ranges and their
+middle.
 
-Names and arguments are those of Optuna 4; what the page uses beyond them fails here.
+Names and arguments agree with Optuna 4; any further use by the page fails here.
 """
 
 SHARES = (0.0, 0.5, 1.0)

@@ -45,7 +45,7 @@ def table(first):
 
 
 def numbers(row):
-    """The numbers of a row, but for those of its first cell."""
+    """The numbers of a row, without its first cell."""
     return [float(number) for number in re.findall(NUMBER, " ".join(row[1:]))]
 
 

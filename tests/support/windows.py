@@ -24,7 +24,9 @@ FORBIDDEN = '<>:"|?*'  # in the names of files
 
 
 def pretend():
-    """Take from this process what Windows lacks, and refuse what it refuses."""
+    """Remove from this process the functions that Windows lacks, and refuse operations that it
+    refuses.
+    """
     for name in OTHERS:  # they take what their own system has
         import_module(name)
     for name in LACKING:
@@ -45,7 +47,7 @@ def pretend():
 
 
 def _locking(descriptor, mode, count):
-    """A lock of a byte, as one of the whole file; it belongs to the one who opened the file."""
+    """A lock of one byte locks the whole file, and belongs to whoever opened the file."""
     assert (mode, count) == (2, 1)
     assert os.lseek(descriptor, 0, os.SEEK_CUR) > 1000, "others could not read who has the lock"
     try:

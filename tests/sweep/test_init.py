@@ -1,4 +1,4 @@
-"""What users import: the errors are those that the functions raise."""
+"""The names that users import: the errors are the ones that the functions raise."""
 
 import pytest
 

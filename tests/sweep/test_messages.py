@@ -1,4 +1,4 @@
-"""The sentences that people read, all in one file: what each section says, and when.
+"""The sentences that people read, all in one file, by the occasion on which they appear.
 
 `python -m tests.sweep.test_messages` writes them again: read the difference, then commit it. Other
 tests assert keys, values and what is allowed.

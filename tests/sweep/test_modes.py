@@ -1,4 +1,4 @@
-"""The table of modes: complete, and its words of columns and requirements are those in use."""
+"""The table of modes: complete, and its words of columns and requirements are the ones in use."""
 
 import pytest
 from pandas import DataFrame

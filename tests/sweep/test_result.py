@@ -1,4 +1,4 @@
-"""The result of a case: its status, the row of its design, and that of a case that failed."""
+"""The result of a case: its status, the row of its design, and the result of a case that failed."""
 
 from math import isnan
 

@@ -42,14 +42,14 @@ with Writer("c.h5"):
 
 
 def run(program, folder, *words):
-    """Run a program in another folder, on a terminal of Western Europe: what it prints."""
+    """Run a program in another folder, on a terminal of Western Europe; return its output."""
     here = {"PYTHONPATH": os.getcwd(), "PYTHONIOENCODING": "cp1252:strict", "COLUMNS": "100"}
-    told = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", program, *words],
         cwd=folder, env=os.environ | here, capture_output=True, timeout=600,
     )  # fmt: skip
-    assert told.returncode == 0, told.stderr.decode("cp1252")
-    return told.stdout.decode("cp1252"), told.stderr.decode("cp1252")
+    assert process.returncode == 0, process.stderr.decode("cp1252")
+    return process.stdout.decode("cp1252"), process.stderr.decode("cp1252")
 
 
 def test_a_whole_sweep(tmp_path):

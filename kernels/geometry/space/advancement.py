@@ -5,9 +5,9 @@ the sum of the longest moves of the two things, less their common motion. From s
 
     s += (1 - KEPT) d(s) / l
 
-until the distance is less than KEPT times that at the start (M. Li, D. M. Kaufman, C. Jiang 2021,
-Codimensional incremental potential contact, section 5, without an offset). The last s before is
-returned: up to it the distance is positive whatever the motion.
+until the distance is less than KEPT times the distance at the start (M. Li, D. M. Kaufman, C. Jiang
+2021, Codimensional incremental potential contact, section 5, without an offset). The last s before
+that is returned: up to it the distance is positive whatever the motion.
 """
 
 import math
@@ -17,7 +17,7 @@ from kernels.geometry.space.closest import squared_between_edges, squared_to_tri
 from kernels.geometry.space.vectors import inner, minus, plus
 
 KEPT = 0.1  # share of the distance that is kept
-MOST_ROUNDS = 1000  # the share that is reached by then is admissible too
+MOST_ROUNDS = 1000  # the share reached after so many steps is admissible too
 
 
 @jit_exact

@@ -8,13 +8,15 @@ from kernels.compile.jit import jit_exact
 from kernels.geometry.space.vectors import inner, minus, plus
 
 FACE = 6  # feature of a triangle a, b, c: 0 .. 2: corners, 3 .. 5: sides ab, bc, ca, 6: inside
-NEARLY_PARALLEL = 1e-8  # squared sine of two edges below which ends of them are tried too
-PARALLEL = 1e-18  # squared sine below which only ends are
+NEARLY_PARALLEL = 1e-8  # squared sine between two edges below which their ends are tried too
+PARALLEL = 1e-18  # squared sine below which only the ends are tried
 
 
 @jit_exact
 def on_triangle(p, a, b, c):
-    """Return (feature, v, w): the closest point a + v (b - a) + w (c - a) and where it lies."""
+    """Return (feature, v, w): the closest point a + v (b - a) + w (c - a) and the feature that it
+    lies on.
+    """
     ab, ac, ap = minus(b, a), minus(c, a), minus(p, a)
     d1, d2 = inner(ab, ap), inner(ac, ap)
     if d1 <= 0.0 and d2 <= 0.0:

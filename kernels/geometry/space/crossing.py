@@ -2,7 +2,7 @@
 
 The sides on which points lie are signs of determinants. A sign is undecided if the determinant is
 less than `SIGN_TOLERANCE` of the sum of the sizes of its terms, some 1e4 times its round-off. An
-edge in the plane of a triangle, as in a flat wall, is apart from it if the distance is more than
+edge in the plane of a triangle, as in a flat wall, counts as apart if their distance is more than
 `DISTANCE_TOLERANCE` of the length of the edge.
 """
 
@@ -21,7 +21,7 @@ STRIPS = 1 << 12  # number of classes of position by which edges are sorted
 
 @jit_exact
 def side(a, b, c, p):
-    """Return the sign of the side of the plane a, b, c that ``p`` is on; 0 if undecided."""
+    """Return on which side of the plane a, b, c the point ``p`` lies, as a sign; 0 if undecided."""
     u, v, w = minus(b, a), minus(c, a), minus(p, a)
     value = inner(cross(u, v), w)
     one = abs(w[0]) * (abs(u[1] * v[2]) + abs(u[2] * v[1]))
@@ -34,8 +34,8 @@ def side(a, b, c, p):
 
 @jit_exact
 def _squared_distance(a, b, c, p, q):
-    """Return the squared distance of the edge p-q from the triangle a, b, c if they do not cross,
-    m^2.
+    """Return the squared distance, m^2, of the edge p-q from the triangle a, b, c, which it does
+    not cross.
     """
     ends = min(squared_to_triangle(p, a, b, c), squared_to_triangle(q, a, b, c))
     sides = min(squared_between_edges(p, q, a, b), squared_between_edges(p, q, b, c))
@@ -91,7 +91,9 @@ def _share_a_node(triangle, edge):
 
 @jit_owning
 def _by_position(points, edges):
-    """Return (start, order, low, width, longest): edges by strips of their left ends along x."""
+    """Return (start, order, low, width, longest): edges sorted into strips by their left ends along
+    x.
+    """
     low, high, longest = np.inf, -np.inf, 0.0
     for e in range(edges.shape[0]):
         left, right = _extent(points, edges[e], 0)
@@ -106,8 +108,9 @@ def _by_position(points, edges):
 
 @jit_owning
 def count(points, triangles, edges, unsure):
-    """Return the number of edges that pass through triangles without a common node, and of the
-    undecided pairs, which are written to ``unsure`` (k, 2), triangle and edge, as far as they fit.
+    """Return the number of edges that pass through triangles with which they share no node, and the
+    number of undecided pairs, which are written to ``unsure`` (k, 2), triangle and edge, as far as
+    they fit.
 
     points (n, 3): one shape, finite; triangles (m, 3), edges (l, 2): nodes.
     """

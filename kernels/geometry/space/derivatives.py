@@ -2,9 +2,9 @@
 
 The distance is d = |r|, r = sum_i q_i x_i over four nodes, where the shares q depend on the closest
 points: (1, v + w - 1, -v, -w) of a node p and a triangle a, b, c; (1 - s, s, t - 1, -t) of two
-edges. Which closest points are free to move says ``free``: 1 if the first parameter (v, s) is, plus
-2 if the second one is. A triangle whose closest point is on a side is a stencil of that side,
-(p, a, b, b) with free = 1; a corner one of (p, a, a, a) with free = 0.
+edges. ``free`` says which parameters may change: 1 for the first one (v, s), plus 2 for the second
+one. If the closest point of a triangle is on a side, the stencil is (p, a, b, b) with free = 1; if
+it is a corner, (p, a, a, a) with free = 0.
 
 With the unit vector n = r / d, an orthonormal basis u_k of the directions in which the closest
 points move, and nodal weights rho_k with sum_i rho_ki x_i = u_k (at a move of r by u_k, q changes
@@ -61,7 +61,7 @@ def _along(rho, a, b, c, d):
 
 @jit
 def tangents(points, slopes, free):
-    """Return (u_1, rho_1, u_2, rho_2); what is not ``free`` is zero.
+    """Return (u_1, rho_1, u_2, rho_2), zero for a parameter that is not ``free``.
 
     points: four nodes; slopes: `TRIANGLE` or `EDGES`.
     """

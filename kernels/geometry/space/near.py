@@ -9,7 +9,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.geometry.space.closest import squared_between_edges, squared_to_triangle
 from kernels.geometry.space.vectors import length, minus, point
 
-CELLS_PER_NODE = 4.0  # most cells of a grid, per thing in it
+CELLS_PER_NODE = 4.0  # greatest number of cells of a grid, per item in it
 SHARE_OF_EXTENT = 1e-2  # least size of a cell, as a share of the largest extent of the grid
 
 
@@ -51,7 +51,7 @@ def _bins(places, grid):
 def _without_images(bins, is_image):
     """Return bins, (start (c + 1,), order (m,)), without the points that are images.
 
-    is_image (n,): by point.
+    is_image (n,): of each point.
     """
     start, order = bins
     first, kept, n = np.empty(start.size, np.int64), np.empty(order.size, np.int64), 0
@@ -79,7 +79,7 @@ def _box(x, nodes, radius, box):
 
 @jit_exact
 def _cells(box, wider, grid, span):
-    """Write the first and last cells that a ``wider`` box reaches to ``span`` (2, 3)."""
+    """Write the first and last cell that a box grown by ``wider`` reaches to ``span`` (2, 3)."""
     low, cell, counts = grid
     for k in range(3):
         first = math.floor((box[0, k] - wider - low[k]) / cell)
@@ -90,7 +90,7 @@ def _cells(box, wider, grid, span):
 
 @jit_exact
 def _is_in(at, box):
-    """Return whether a point is in a box."""
+    """Return whether the point ``at`` is in a box."""
     for k in range(3):
         if at[k] < box[0, k] or at[k] > box[1, k]:
             return False

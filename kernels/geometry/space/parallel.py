@@ -1,4 +1,4 @@
-"""Smooth factor that takes the contact of two edges out where they are parallel.
+"""Smooth factor that removes the contact of two edges as they become parallel.
 
 The distance of two parallel edges has no second derivative. With c = |(b - a) x (d - c)|^2 and e =
 SINE2 times the product of their squared lengths at rest,
@@ -27,7 +27,7 @@ def factor(points, scale):
 def slopes(points):
     """Return dc/du and dc/dv of the edges u = b - a and v = d - c, m^3."""
     u, v = minus(points[1], points[0]), minus(points[3], points[2])
-    normal = times(2.0, cross(u, v))  # as products with it nothing cancels where it is small
+    normal = times(2.0, cross(u, v))  # products with this small vector: nothing cancels
     return cross(v, normal), cross(normal, u)
 
 

@@ -59,7 +59,7 @@ def length(a):
 def combined(q, a, b, c, d):
     """Return the sum of four vectors with weights ``q`` that add up to zero.
 
-    Only differences of the vectors enter: far from the origin nothing is lost.
+    Only differences of the vectors are used, so that no digits are lost far from the origin.
     """
     u, v, w = minus(b, a), minus(c, a), minus(d, a)
     return (

@@ -19,7 +19,7 @@ from kernels.linear.condensed.bundles import CONDENSED, OPEN, RIGID, Bundles, bu
 LENGTHS = 2  # coordinates of a position
 PLACE = np.dtype(
     (
-        np.record,  # for attributes in plain Python too
+        np.record,  # fields are attributes in plain Python too
         [
             ("wall", np.int64),  # number of a condensed wall; -1: the block matrix
             ("row", np.int64),  # row of the wall, or home in the block matrix; -1: none
@@ -29,15 +29,15 @@ PLACE = np.dtype(
 
 
 class Layout(NamedTuple):
-    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, both
-    platens as point n_nodes, and after it each rotation beside that of a node.
+    """The coordinates and their unknowns. A *point* has a block of the matrix: each node, then the
+    two platens as one point n_nodes, then every further rotation of a node as a point of its own.
 
-    leader (n,): the coordinate itself if it is free, that of the platen that it is tied to, -1 if
-    held. ratio (n,): move divided by that of the leader; 1 unless the leader is driven.
-    images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven: coordinate
-    with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and its place
-    in the block of the point. first (n_nodes,): first coordinate of the position of each node.
-    origin (points,): the point itself, or the point of which it is an image. inner (r,):
+    leader (n,): the coordinate itself if it is free, the coordinate of the platen if it is tied to
+    one, -1 if held. ratio (n,): move divided by the move of the leader; 1 unless the leader is
+    driven. images (k, 4): see `periodic_images`; their leader is the coordinate itself. driven:
+    coordinate with a prescribed value, -1 if none. point, slot (n,): point of each coordinate, and
+    its place in the block of the point. first (n_nodes,): first coordinate of the position of each
+    node. origin (points,): the point itself, or the original point if it is an image. inner (r,):
     coordinates of the nodes inside walls, wall by wall. wall_of (points,): wall of an inner node,
     else -1. outer (w, 6): coordinates of the two joints of a wall; the second joint may be an
     image. scale (3,): stiffness of the stiffest element in each slot, N/m and N m.
@@ -61,9 +61,9 @@ class Layout(NamedTuple):
 class Scattered(NamedTuple):
     """Entries of the walls that have a place in the block matrix.
 
-    start (2 w + 1,): first of the rows of wall w, if it is open, at 2 w; first of its joints at 2 w
-    + 1. source: as of `condense.entry` and `condense.joint_entry`. target: positions in the values
-    of the matrix.
+    start (2 w + 1,): at 2 w the first entry of the rows of wall w, if it is open; at 2 w + 1 the
+    first entry of its joints. source: index by `condense.entry` or `condense.joint_entry`. target:
+    positions in the values of the matrix.
     """
 
     start: np.ndarray
@@ -72,7 +72,7 @@ class Scattered(NamedTuple):
 
 
 class System(NamedTuple):
-    """kind (w,): CONDENSED, OPEN or RIGID. bundles: of all walls but rigid ones.
+    """kind (w,): CONDENSED, OPEN or RIGID. bundles: all walls but the rigid ones.
 
     rows (48 r,), own (4 r,), inside (4 r,): of the r rows of all bundles, see `condense`; inside:
     right side and solution. outer (144,), joints (24,): scratch. place (1,): of the first negative
@@ -93,7 +93,7 @@ class System(NamedTuple):
 
 @jit_exact
 def _point(layout, c):
-    """Return the point of the unknown of coordinate ``c``, -1 if it has none."""
+    """Return the point that holds the unknown of coordinate ``c``, -1 if it has none."""
     leader = layout.leader[c]
     if leader < 0 or leader == layout.driven:
         return -1
@@ -161,7 +161,7 @@ def _is_tied(layout, node):
 
 @jit_exact
 def _turning(layout, c, points, count):
-    """Append the point of the rotation ``c`` if it is not that of a node; return the new count."""
+    """Append the point of the rotation ``c`` unless it is a node; return the new count."""
     if layout.point[c] > layout.n_nodes:
         points[count] = layout.point[c]
         return count + 1

@@ -39,9 +39,9 @@ def add_diagonal(blocks, scale):
 def _is_rounded(blocks, failed, pivot):
     """Return whether the negative pivot at home ``failed`` is round-off.
 
-    It is d . A d with the vector d of `descend`. Entries of A are known to a share of themselves,
-    so that the round-off of this sum is a share of sum A_ii d_i^2. In a motion of the whole, such
-    as a rotation, that is far more than the diagonal of the pivot.
+    The pivot is d . A d with the vector d of `descend`. The entries of A have relative errors, so
+    that the round-off of this sum is a share of sum A_ii d_i^2. In a motion of the whole lattice,
+    such as a rotation, that is far more than the diagonal of the pivot.
     """
     descend(blocks, failed)
     size = 0.0
@@ -96,7 +96,7 @@ def _columns(values, at):
 
 @jit
 def _weights(values, at):
-    """Return the row of a block at ``at``, each of its entries spread over all four lanes."""
+    """Return the row of a block at ``at``, each entry spread over all four lanes."""
     x, y, z = values[at], values[at + STRIDE], values[at + 2 * STRIDE]
     return spread(x), spread(y), spread(z)
 
@@ -113,8 +113,8 @@ def _combined(sums, columns, weights):
 def _scale_column(blocks, j, nb):
     """Replace the blocks A of column ``j`` by A l^{-T} D^{-1}; copy -A l^{-T} to ``column``.
 
-    Column by column, not with the inverse of the block: where that is large, stiff entries would
-    cancel, and the sign of a soft pivot would be lost.
+    Columns are eliminated one by one instead of multiplied by the inverse of the block: where that
+    is large, stiff entries would cancel, and the sign of a soft pivot would be lost.
     """
     values, minus, offset, at = blocks.values, spread(-1.0), 0, SIZE * j
     l10, l20, l21 = spread(-values[at + 1]), spread(-values[at + 2]), spread(-values[at + 6])
@@ -134,7 +134,7 @@ def _scale_column(blocks, j, nb):
 def _update(blocks, j, nb, count):
     """Subtract A_a D^{-1} A_b^T from the blocks (a, b) right of column ``j`` with the blocks A.
 
-    count: number of its first update. Return that of the next column.
+    count: number of its first update. Return the number of the first update of the next column.
     """
     values, column, update, offset = blocks.values, blocks.column, blocks.update, 0
     last = SIZE * (nb + blocks.start[j + 1])

@@ -184,7 +184,7 @@ def add_image(blocks, i, j, value, pulls):
 
 @jit_exact
 def _add_images(blocks, i, j, block):
-    """Add a 2 x 2 block of two points, one of which is an image at least."""
+    """Add a 2 x 2 block of two points, at least one of which is an image."""
     for k in range(4):
         if k != 1 or i != j:
             add_image(blocks, i + k // 2, j + k % 2, block[k], True)

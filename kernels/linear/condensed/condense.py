@@ -1,7 +1,7 @@
 """Static condensation: eliminates the inner unknowns of walls.
 
 Each node has three unknowns x, y, phi and couples with the next node only. Row k of a wall holds
-the entries (k, k) .. (k, k + 5) of the inner nodes, then those with the unknowns of the joints:
+the entries (k, k) .. (k, k + 5) of the inner nodes, then the couplings with the joints:
 
     [ band 6 | x_a y_a phi_a x_b y_b phi_b ]
 
@@ -9,7 +9,7 @@ After `eliminate` it holds the row of D L^T, with 1 / pivot as its first entry. 
 couples with the second joint: the rows before it have zeros there.
 
 Four walls with the same number of elements are handled together, one in each lane of a vector
-(`bundles`): entry c of row k is at `entry`, followed by that of the next wall.
+(`bundles`): entry c of row k is at `entry`, followed by the same entry of the next wall.
 """
 
 from kernels.arrays import zero
@@ -22,13 +22,15 @@ NODE, BAND, WIDTH, OUTER = 3, 6, 12, 6
 
 @jit
 def entry(k, c):
-    """Return where entry ``c`` of row ``k`` of the first of four walls is."""
+    """Return the index of entry ``c`` of row ``k`` of the first of four walls."""
     return LANES * (WIDTH * k + c)
 
 
 @jit
 def joint_entry(c, d):
-    """Return where the entry of the unknowns ``c`` >= ``d`` of the joints is, for four walls."""
+    """Return the index of the entry of the joint unknowns ``c`` >= ``d`` of the first of four
+    walls.
+    """
     return LANES * (OUTER * c + d)
 
 
@@ -105,7 +107,7 @@ def fill(first, n, stiffness, rows, outer):
 
 @jit
 def _reach(k, m):
-    """Return how many inner unknowns row ``k`` couples with, and how many of the joints."""
+    """Return how many inner unknowns and how many joint unknowns row ``k`` couples with."""
     inner = BAND - k % NODE
     return min(inner, m - k), (OUTER if k >= m - NODE else NODE)
 
@@ -129,8 +131,8 @@ def _reduce(rows, k, m, outer):
 
 @jit_exact
 def _regularise(rows, k, own, scale, rounded, failure):
-    """Replace the pivots of row ``k`` that are zero within round-off; return the new ``failure``,
-    see `eliminate`.
+    """Replace the pivots of row ``k`` that are zero within round-off; return the new ``failure`` of
+    `eliminate`.
     """
     for lane in range(LANES):
         at = entry(k, 0) + lane
@@ -181,7 +183,9 @@ def forward(rows, inside, joints):
 
 @jit
 def backward(rows, inside, joints, last):
-    """Back substitution for the first ``last`` inner unknowns, given those of ``joints`` (24,)."""
+    """Back substitution for the first ``last`` inner unknowns, given the solution at ``joints``
+    (24,).
+    """
     m = inside.size // LANES
     for k in range(last - 1, -1, -1):
         inner, outer = _reach(k, m)

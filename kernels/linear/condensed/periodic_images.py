@@ -1,8 +1,8 @@
 """Coordinates of periodic images, which follow two others: dx_c = dx_of + times dx_mean.
 
 A periodic lattice is modelled by one period. The image c of a coordinate ``of`` is ``times``
-periods away from it, and the coordinate ``mean`` is the length of the period. A row of images (k,
-4) is c, of, mean, times; of = -1: held.
+periods away from its original, and the coordinate ``mean`` is the length of the period. A row of
+images (k, 4) is c, of, mean, times; of = -1: held.
 """
 
 import numpy as np

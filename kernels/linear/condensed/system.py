@@ -21,7 +21,7 @@ def _scatter(values, scattered, w, rows, outer, lane):
 
 @jit
 def _scatter_image(system, layout, w, inner, rows, lane):
-    """Add the entries of wall ``w`` with the image of a joint at its end.
+    """Add the entries of wall ``w``, one end of which is the image of a joint.
 
     If both ends are one joint, the coupling of their rotations counts twice on the diagonal.
     Entries of an open wall that are zero have no room: they belong to nodes too far apart to
@@ -89,7 +89,9 @@ def factor(system, layout, stiffness, projected, through):
 
 @jit_exact
 def negatives(system):
-    """Return the number of negative pivots, which is that of negative eigenvalues (Sylvester)."""
+    """Return the number of negative pivots, which equals the number of negative eigenvalues
+    (Sylvester).
+    """
     count, bundles = block_ldlt.negatives(system.matrix), system.bundles
     for g in range(bundles.size.size):
         if system.kind[bundles.wall[g, 0]] == CONDENSED:

@@ -1,4 +1,4 @@
-"""Analysis of a matrix before it is factored: the order of elimination, room for all entries."""
+"""Analysis of a matrix before it is factored: order of elimination, and room for all entries."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def _by_degree(start, near):
 
 @jit_exact
 def _work(order, first, row, sizes):
-    """Return the multiplications of a factor with these columns."""
+    """Return the number of multiplications of a factor with these columns."""
     work = 0.0
     for j in range(order.size):
         height = 0.0
@@ -35,10 +35,11 @@ def _work(order, first, row, sizes):
 
 @jit_owning
 def _order(start, near, sizes, points):
-    """Return the better order, that of minimum degree or nested dissection, and its columns.
+    """Return the better order of elimination, by minimum degree or nested dissection, and its
+    columns.
 
-    Flat lattices of plates favour the former by a third, folded ones in contact the latter by a
-    factor of two to five.
+    Minimum degree is better by a third for flat lattices of plates, nested dissection by a factor
+    of two to five for folded ones in contact.
     """
     order = dissect(start, near, sizes, points)
     parent, first, row = columns(start, near, order)
@@ -94,8 +95,8 @@ def _runs(lower, up):
 
 @jit_owning
 def _update_starts(lower, child_start, child):
-    """Return (start (ns,), size): the first free room for each update beside those that still
-    wait for their parents, and the size of the whole.
+    """Return (start (ns,), size): the first free place for each update next to those still waiting
+    for their parents, and the total size.
     """
     ns = lower.size - 1
     start, size, live = np.zeros(ns, np.int64), np.zeros(ns, np.int64), np.empty(ns, np.int64)
@@ -124,7 +125,7 @@ def _update_starts(lower, child_start, child):
 @jit_owning
 def _panels(column, lower):
     """Return (panel, tile, widest, tallest): where panels and tiles start, (ns + 1,) each, and the
-    most columns and rows of a front.
+    greatest numbers of columns and rows of a front.
     """
     ns, widest, tallest = column.size - 1, 0, 0
     panel, tile = np.zeros(ns + 1, np.int64), np.zeros(ns + 1, np.int64)
@@ -171,7 +172,7 @@ def analyse(sizes, pairs, points):
     """Return a zero `Matrix`.
 
     sizes (nb,): unknowns of each block. pairs (k, 2): blocks that couple, in any order, repeats
-    allowed. points (nb, 3): positions in m, of which only the order of elimination depends.
+    allowed. points (nb, 3): positions in m, which affect only the order of elimination.
     """
     nb = sizes.size
     start, near = neighbours(nb, pairs)

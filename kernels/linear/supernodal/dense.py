@@ -2,8 +2,8 @@
 
 A *strip* is twelve rows of a panel; its columns follow one another, twelve entries each. A *tile*
 is four columns of a strip: twelve registers of four numbers, which stay in the processor while all
-earlier columns are subtracted. The four rows of the other factor are packed before, four entries
-for each column.
+earlier columns are subtracted. The four rows of the other factor are packed beforehand, four
+entries for each column.
 """
 
 from kernels.compile.jit import jit
@@ -55,7 +55,7 @@ def subtract(tiles, at, packed, depth, target, to, step):
 
 @jit
 def _keep(target, at, x, y, z):
-    """Write a column of a tile."""
+    """Store a column of a tile."""
     store(target, at, x)
     store(target, at + 4, y)
     store(target, at + 8, z)
@@ -66,7 +66,7 @@ def divide(tiles, at, corner, inverse):
     """Replace a tile A of ``tiles`` by A l^-T D^-1, column by column.
 
     at: start of the tile. corner: start of the factored 4 x 4 block l in its strip. inverse: 1 / d,
-    four numbers, zero for columns that are not there.
+    four numbers, zero for missing columns.
     """
     l10, l20, l30 = spread(tiles[corner + 1]), spread(tiles[corner + 2]), spread(tiles[corner + 3])
     second, third = corner + ROWS, corner + 2 * ROWS
@@ -86,7 +86,7 @@ def divide(tiles, at, corner, inverse):
 
 @jit
 def times(tiles, at, x, depth, y, to):
-    """Subtract a strip times ``x`` (depth,) from the twelve entries of ``y`` from ``to`` on."""
+    """Subtract a strip times ``x`` (depth,) from twelve entries of ``y``, starting at ``to``."""
     a, b, c = load(y, to), load(y, to + 4), load(y, to + 8)
     for k in range(depth):
         i, w = at + ROWS * k, spread(x[k])
@@ -98,8 +98,8 @@ def times(tiles, at, x, depth, y, to):
 
 @jit
 def transposed_times(tiles, at, x, of, depth, sums):
-    """Subtract the transpose of a strip times the twelve entries of ``x`` from ``of`` on from
-    ``sums`` (4 depth,); the product is the sum of four numbers for each column.
+    """Subtract the transpose of a strip times the twelve entries of ``x`` that start at ``of`` from
+    ``sums`` (4 depth,); each product is the sum of four of these numbers.
     """
     a, b, c = load(x, of), load(x, of + 4), load(x, of + 8)
     for k in range(depth):

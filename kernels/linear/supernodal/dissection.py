@@ -10,7 +10,7 @@ import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
 
-SMALLEST = 8  # blocks; a part that is not larger is not cut
+SMALLEST = 8  # blocks; only a larger part is cut
 LIGHTEST = 0.25  # least share of a part on each side of a cut
 UNEQUAL = 4.0  # cost of a cut into unequal halves: times 1 + this times the difference squared
 CROWDED = 10.0  # a block with more neighbours than this times sqrt(blocks) is eliminated last
@@ -99,7 +99,7 @@ def _cut_weights(start, near, weight, rank, sorted_nodes, before, after):
 
 @jit_exact
 def _best_cut(weight, sorted_nodes, before, after):
-    """Return (cost, m, side) of the cheapest cut; side 0: its blocks are those before ``m``."""
+    """Return (cost, m, side) of the cheapest cut; side 0: its blocks are before ``m``."""
     n, whole, left = sorted_nodes.size, 0.0, 0.0
     for v in sorted_nodes:
         whole += weight[v]
@@ -134,7 +134,7 @@ def _is_on_cut(start, near, rank, v, m):
 
 @jit_exact
 def _divide(start, near, rank, part, other, m, side):
-    """Write what is before the cut, what is after it, and the blocks on it, to ``part``.
+    """Write to ``part`` the blocks before the cut, the blocks after it, and the blocks on it.
 
     Return the sizes of the first two.
     """
@@ -158,7 +158,9 @@ def _divide(start, near, rank, part, other, m, side):
 
 @jit_owning
 def _crowded_last(start):
-    """Return (order (n,), count): all blocks, the ``count`` blocks that are not crowded first."""
+    """Return (order (n,), count): all blocks, starting with the ``count`` blocks that are not
+    crowded.
+    """
     n = start.size - 1
     order, most, count, last = np.empty(n, np.int64), CROWDED * np.sqrt(n) + 1.0, 0, n
     for i in range(n):
@@ -175,8 +177,8 @@ def _crowded_last(start):
 def dissect(start, near, weight, points):
     """Return the order (n,) of elimination.
 
-    start, near: as of `neighbours`. weight (n,): unknowns of each block. points (n, 3): positions
-    in m.
+    start, near: the graph as `neighbours` returns it. weight (n,): unknowns of each block. points
+    (n, 3): positions in m.
     """
     n = start.size - 1
     order, count = _crowded_last(start)

@@ -23,7 +23,7 @@ def _is_rounded(matrix, s, place, pivot):
 
 @jit_exact
 def _pivot(matrix, s, place, value, scale, rounded):
-    """Return ``value``, or its replacement if that pivot is zero within round-off."""
+    """Return ``value``, or its replacement if this pivot is zero within round-off."""
     own = matrix.own[place]
     pivot = regularised(value, own, scale, rounded)
     if pivot < 0.0 and rounded != THROUGH and _is_rounded(matrix, s, place, pivot):
@@ -128,8 +128,8 @@ def factor(matrix, scale, weights, shift, rounded):
     """Factor A + shift diag(weights) = L D L^T; ``values`` keeps A.
 
     Return (failed, pivot): unknown and value of the first negative pivot, -1 if none. scale (n,):
-    stiffness of each unknown, of its unit, beside which a pivot is zero within round-off. weights
-    (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
+    stiffness of each unknown, in its unit, relative to which a pivot is zero within round-off.
+    weights (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
     """
     _read_diagonal(matrix, weights, shift)
     matrix.failed[0] = -1
@@ -147,7 +147,9 @@ def factor(matrix, scale, weights, shift, rounded):
 
 @jit_exact
 def negatives(matrix):
-    """Return the number of negative pivots, which is that of negative eigenvalues (Sylvester)."""
+    """Return the number of negative pivots, which equals the number of negative eigenvalues
+    (Sylvester).
+    """
     count = 0
     for pivot in matrix.pivots:
         count += pivot < 0.0

@@ -14,7 +14,9 @@ from kernels.linear.supernodal.matrix import COLUMNS, ROWS, rounded_up, size
 
 @jit_exact
 def strip(matrix, s, row):
-    """Return where the strip of a ``row`` of the front of supernode ``s`` starts in ``tiles``."""
+    """Return the index in ``tiles`` at which the strip of ``row`` of the front of supernode ``s``
+    starts.
+    """
     w, _ = size(matrix, s)
     return matrix.tile[s] + row // ROWS * ROWS * rounded_up(w, COLUMNS)
 
@@ -58,7 +60,9 @@ def _fill(matrix, s):
 
 @jit
 def _add_run(source, of, target, to, count):
-    """Add ``count`` entries of ``source`` from ``of`` on to those of ``target`` from ``to`` on."""
+    """Add ``count`` entries of ``source``, starting at ``of``, to the entries of ``target``
+    starting at ``to``.
+    """
     whole = count // LANES * LANES
     for i in range(0, whole, LANES):
         store(target, to + i, load(target, to + i) + load(source, of + i))

@@ -2,9 +2,9 @@
 
 A *block* holds the 1 to 6 unknowns of one point. The caller numbers blocks and unknowns; *places*
 number both in the order of elimination. Supernode s has w columns and r rows below them. Its panel
-in `values` holds the lower half of its columns, w + r rows each, one column after the other; what
-is above the diagonal is not read. Every entry of the factor has room in a panel, also where no
-pair of blocks was asked for.
+in `values` holds the lower half of its columns, w + r rows each, one column after the other;
+entries above the diagonal are not read. Every entry of the factor has room in a panel, even if
+`analyse` was not given its pair of blocks.
 """
 
 from typing import NamedTuple
@@ -34,10 +34,10 @@ class Matrix(NamedTuple):
     child_start (ns + 2,), child: see `symbolic.children`. panel, tile (ns + 1,), update (ns,):
     where its panel in `values`, its tiles in `tiles` and its update in `updates` start.
 
-    values: entries. tiles: factor. updates: what is passed on to parents. own, pivots, inverse
-    (n,): diagonal before the factor, pivots and their inverses. vector (n,), front, sums, pack:
-    scratch. missing (1,): set to 1 when an entry has no room. failed (1,): place of the first
-    negative pivot, -1 if none.
+    values: entries. tiles: factor. updates: passed on to parents. own, pivots, inverse (n,):
+    diagonal before the factor, pivots and their inverses. vector (n,), front, sums, pack: scratch.
+    missing (1,): set to 1 when an entry has no room. failed (1,): place of the first negative
+    pivot, -1 if none.
     """
 
     first: np.ndarray
@@ -78,13 +78,13 @@ class Matrix(NamedTuple):
 
 @jit_exact
 def rounded_up(number, step):
-    """Return the least multiple of ``step`` that is not below ``number``."""
+    """Return the least multiple of ``step`` that is at least ``number``."""
     return (number + step - 1) // step * step
 
 
 @jit_exact
 def size(matrix, s):
-    """Return the columns of supernode ``s`` and the rows below them."""
+    """Return the number of columns of supernode ``s`` and the number of rows below them."""
     return matrix.column[s + 1] - matrix.column[s], matrix.lower[s + 1] - matrix.lower[s]
 
 

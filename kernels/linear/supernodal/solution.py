@@ -62,7 +62,7 @@ def _clear_sums(matrix, s):
 @jit
 def _backward_columns(matrix, s, last):
     """Solve L^T y = vector for the first ``last`` columns of supernode ``s``, the rest of which are
-    zero or below; ``sums``: what the rows below contribute.
+    zero or below; ``sums``: contribution of the rows below.
     """
     x, sums, tiles, first = matrix.front, matrix.sums, matrix.tiles, matrix.column[s]
     for i in range((last - 1) // ROWS * ROWS, -1, -ROWS):
@@ -81,7 +81,7 @@ def _backward_columns(matrix, s, last):
 
 @jit
 def _backward(matrix, s):
-    """Solve L^T y = vector for the columns of supernode ``s``, given what is below."""
+    """Solve L^T y = vector for the columns of supernode ``s``, given the solution below them."""
     w, r = size(matrix, s)
     below, has_any = rounded_up(w, ROWS), _gather_below(matrix, s)
     _clear_sums(matrix, s)

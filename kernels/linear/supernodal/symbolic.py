@@ -1,9 +1,9 @@
-"""Symbolic factorisation: columns of the factor, and the supernodes that they are gathered in.
+"""Symbolic factorisation: the columns of the factor, grouped into supernodes.
 
 A *supernode* is a set of blocks whose columns have the same rows below them, or nearly: its panel
 is dense. Columns are found by the row subtrees of the elimination tree (Davis 2006, Direct Methods
-for Sparse Linear Systems, ch. 4); a supernode is merged into its parent where that saves
-time, although zeros are stored then (Ashcraft & Grimes 1989, ACM Trans. Math. Softw. 15).
+for Sparse Linear Systems, ch. 4); a supernode is merged into its parent where that saves time,
+although zeros are stored then (Ashcraft & Grimes 1989, ACM Trans. Math. Softw. 15).
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from kernels.compile.jit import jit_exact, jit_owning
 
 # Nanoseconds, measured on one core of 2.6 GHz with AVX2; only their ratios matter.
 OPERATION = 0.027
-ENTRY = 2.5  # of a panel: copied, and read in the solves
+ENTRY = 2.5  # per entry of a panel: copied, and read in the solves
 PASSED_ON = 2.0  # an entry of an update
 SUPERNODE = 2000.0
 
@@ -67,7 +67,7 @@ def _cost(w, r):
 
 @jit_owning
 def _fundamental(parent, first):
-    """Return (group (n,), count): the supernode of each column, of neighbouring columns only."""
+    """Return (group (n,), count): the supernode of each column, of adjacent columns only."""
     group, count = np.empty(parent.size, np.int64), 0
     for j in range(parent.size):
         below = first[j + 1] - first[j]
@@ -87,8 +87,9 @@ def _top(into, s):
 
 @jit_owning
 def children(above):
-    """Return (start (ns + 2,), child (ns,)): child[start[s]:start[s + 1]] are those of supernode s,
-    ascending, and those from start[ns] on have no parent. above (ns,): parents, -1 if none.
+    """Return (start (ns + 2,), child (ns,)): the children of supernode s are child[start[s]:start[s
+    + 1]], ascending; supernodes without a parent start at start[ns]. above (ns,): parents, -1 if
+    none.
     """
     group = np.empty(above.size, np.int64)
     for s in range(above.size):
@@ -98,8 +99,8 @@ def children(above):
 
 @jit_owning
 def _merged(group, count, parent, first, row, weight):
-    """Return (into (count,), above (count,)): the supernode that each is merged into, and the
-    parent of each that is left, -1 if none.
+    """Return (into (count,), above (count,)): the supernode that each one is merged into, and the
+    parent of each remaining one, -1 if none.
     """
     width, below = np.zeros(count, np.int64), np.zeros(count, np.int64)
     above, into = np.full(count, -1), np.arange(count)
@@ -125,8 +126,8 @@ def _merged(group, count, parent, first, row, weight):
 
 @jit_owning
 def _postorder(into, above):
-    """Return (rank (count,), left): place of each supernode that is left, children directly before
-    their parents; -1 of merged ones.
+    """Return (rank (count,), left): place of each remaining supernode, children directly before
+    their parents; -1 for merged ones.
     """
     count = into.size
     rank, left = np.full(count, -1), 0
@@ -154,8 +155,8 @@ def _postorder(into, above):
 def supernodes(parent, first, row, weight):
     """Return (start (ns + 1,), block, below (ns + 1,), rows, above (ns,)).
 
-    The columns of supernode s are block[start[s]:start[s + 1]], given by their places in the order
-    before; rows[below[s]:below[s + 1]] are the places in ``block`` of the rows below them,
+    The columns of supernode s are block[start[s]:start[s + 1]], given by their places in the
+    previous order; rows[below[s]:below[s + 1]] are the places in ``block`` of the rows below them,
     ascending. above: parent of each supernode, -1 if none. weight (n,): unknowns of each column.
     """
     n = parent.size

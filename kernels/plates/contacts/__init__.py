@@ -1,6 +1,6 @@
-"""Walls that touch in space.
+"""Contact and friction of walls in space.
 
-`pairs` lists what is near, `touching` measures it; `contact` has the energy, `friction` the slip;
-`mirror` adds the images of a quarter, `thickness` follows squeezed walls, and `admissible` limits a
-move.
+`pairs` lists pairs that are near, `touching` measures them; `contact` has the energy, `friction`
+the slip; `mirror` adds the images of a quarter, `thickness` lets squeezed walls thicken, and
+`admissible` limits a move.
 """

@@ -55,11 +55,11 @@ def _limit_platen(x, dx, nodes, platen, side, most):
 
 @jit_exact
 def step_limit(x, dx, far, contact, pairs, drift):
-    """Return the admissible share of the move ``dx``, at most 1: no surfaces cross or touch, and no
-    node passes a platen.
+    """Return the share of the move ``dx``, at most 1, up to which no surfaces cross or touch, and
+    no node passes a platen.
 
     far: longest move of a node in ``dx``, m. drift: as in `detect`. At least `advancement.KEPT` of
-    each distance is left; the pairs have to hold for the move.
+    each distance is left; the pairs must be valid for the move.
     """
     most = _limit_platen(x, dx, contact.low_nodes, contact.low, 1.0, 1.0)
     most = _limit_platen(x, dx, contact.high_nodes, contact.high, -1.0, most)
@@ -79,7 +79,7 @@ def _gap_to_platen(x, nodes, platen, side):
 @jit_exact
 def least_gap(x, contact, pairs, drift):
     """Return the smallest distance in m of nodes from middle surfaces and platens that they may
-    touch, near parts of a wall left out; drift: `detect`.
+    touch, without near parts of a wall; drift: `detect`.
     """
     least = min(
         _gap_to_platen(x, contact.low_nodes, contact.low, 1.0),

@@ -6,12 +6,11 @@
 
 p: nodes with the tributary area a_p; F: triangles, sides and corners with the weights of `pairs`,
 by which a surface counts once at any mesh; 1/2, as each pair of walls counts from both sides; t_c:
-distance at which contact starts, at most the mean thickness, half of the thickness for a platen;
-b: `barrier`.
-
-Two surfaces can cross along edges where all nodes are far. Contact of two edges, below half of t_c,
-keeps them apart: a is the product of the widths of the strips that belong to them, so that all
-edges together count about once, and m takes parallel edges out (`geometry.space.parallel`).
+distance at which contact starts, at most the mean thickness, half of the thickness for a platen; b:
+`barrier`. Two surfaces can cross along edges where all nodes are far. Contact of two edges, below
+half of t_c, keeps them apart: a is the product of the widths of the strips that belong to them, so
+that all edges together count about once, and m takes parallel edges out
+(`geometry.space.parallel`).
 """
 
 from typing import NamedTuple
@@ -24,7 +23,7 @@ from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import phi
 from kernels.plates.contacts.touching import NO_PAIR, corners, detect, shares
 
-MOST_THICKENING = 1.5  # greatest thickness over which walls touch / that at rest: few are thicker
+MOST_THICKENING = 1.5  # greatest contact thickness / thickness at rest: few walls become thicker
 
 
 class Contact(NamedTuple):
@@ -33,13 +32,12 @@ class Contact(NamedTuple):
     stiffness: C Y', Pa. reach: largest distance at which contact starts. most_move: longest move of
     a node that neighbour lists cover. triangles (k, 3), edges (l, 2): nodes; sides (k, 3): edges
     ab, bc, ca of each triangle (`geometry.space.surface`); widths (l,): of the strips that belong
-    to edges; own (l,): 1, or 0 for edges of images. area (n,): a_p of each node, 0 of images, which
-    only own nodes touch. original (n,): the node itself, or that of which it is an image, a period
-    away. thickness (n,): at each node, which a problem may change
-    between steps, up to ``reach`` (`plates.thickness`); rest_thickness (n,): at rest. rest (n,
-    3): positions at rest. low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the
-    upper platen; low_rest, high_rest: their distances from it at rest. low, high: coordinates of
-    the platens.
+    to edges; own (l,): 1, or 0 for edges of images. area (n,): a_p of each node, 0 for images,
+    which only own nodes touch. original (n,): the node itself or, for an image, its original, a
+    period away. thickness (n,): at each node, which a problem may change between steps, up to
+    ``reach`` (`plates.thickness`); rest_thickness (n,): at rest. rest (n, 3): positions at rest.
+    low_nodes (i,), high_nodes (j,): nodes that may touch the lower and the upper platen; low_rest,
+    high_rest: their distances from it at rest. low, high: coordinates of the platens.
     """
 
     stiffness: float
@@ -67,8 +65,8 @@ def build(stiffness, most_move, triangles, area, thickness, rest, low, high, ori
     """Return the `Contact` of a surface that may thicken up to `MOST_THICKENING` times.
 
     low, high: (nodes, distances at rest, coordinate) of the two platens. original: None without
-    images. Others: as in `Contact`. Of an edge and its images, that one is own whose node of the
-    lower original is no image.
+    images. Others: as in `Contact`. Of an edge and its images, one is own: the edge whose node with
+    the lower original is no image.
     """
     if original is None:
         original = np.arange(area.size)
@@ -131,7 +129,7 @@ def _mollified(contact, pairs, touching, n, points):
 
 @jit
 def _push_apart(contact, pairs, touching, n, points, g):
-    """Add the part of the gradient of a contact of two edges that comes from m to ``g``."""
+    """Add to ``g`` the part of the gradient of a contact of two edges that comes from m."""
     value, _, first, _ = _mollified(contact, pairs, touching, n, points)
     if first == 0.0:
         return
@@ -148,9 +146,9 @@ def block(x, contact, pairs, touching, n, projected, K):
     """Write the Hessian of contact ``n`` of ``touching`` at ``x`` to ``K`` (12, 12); return the
     number of its nodes.
 
-    Row and column 3 i + k: coordinate k of node touching.nodes[n, i]; of nodes beyond the number
-    that is returned, rows and columns are zero. projected: positive semi-definite, without the
-    negative parts of the terms of `geometry.space.derivatives.fill`.
+    Row and column 3 i + k: coordinate k of node touching.nodes[n, i]; rows and columns of further
+    nodes are zero. projected: positive semi-definite, without the negative parts of the terms of
+    `geometry.space.derivatives.fill`.
     """
     points, share = corners(x, touching, n), shares(touching, n)
     i = touching.pair[n]
@@ -204,7 +202,7 @@ def platen_block(x, contact, upper, i):
     """Return (p, force, stiffness) of platen node ``i``: the node, the normal force on it in N, and
     the curvature k of its energy in the distance, N/m.
 
-    upper: whether of the upper platen. The Hessian is k at (z_p, z_p) and at the platen's
+    upper: whether the platen is the upper one. The Hessian is k at (z_p, z_p) and at the platen's
     coordinate, and -k between them; it is positive semi-definite.
     """
     nodes, rests, platen, side = contact.low_nodes, contact.low_rest, contact.low, 1.0

@@ -3,14 +3,15 @@
     D_f = sum mu lambda f(|delta|),   f of `terms.friction`
 
 delta: tangential slip since y, two numbers in the plane normal to the contact; lambda: normal force
-of a contact where it was lagged, as in `terms.friction` (Li et al. 2020, eq. 16). Walls have a
-thickness, so that two walls that rotate together do not slip: with the distance d, the normal n,
+of the contact where it was last lagged, as in `terms.friction` (Li et al. 2020, eq. 16). Walls have
+a thickness, so that two walls that rotate together do not slip: with the distance d, the normal n,
 the moves dp of the node and dc of the closest point, and the rotation omega of the triangle,
 
     delta = T^T [dp - dc - d omega x n],   linear in the moves of p, a, b, c
 
-The rotation of a triangle with the sides e_1, e_2, its normal N and the dual basis e^k is that of
-any rigid motion, omega = (sum e^k x de_k + N x dN) / 2, so that friction has no resultant moment.
+The rotation of a triangle with the sides e_1, e_2, its normal N and the dual basis e^k is omega =
+(sum e^k x de_k + N x dN) / 2, which is exact for any rigid motion, so that friction has no
+resultant moment.
 
 Primal-dual Newton method (Chan, Golub & Mulet 1999, SIAM J. Sci. Comput. 20, 1964): the dual w =
 f' e, e = delta / |delta|, is an unknown, and psi(|delta|) w = delta is linearised. The Hessian in
@@ -20,8 +21,8 @@ delta is
 
 positive semi-definite for |w| <= 1, and the second derivative where w = delta / psi.
 `terms.friction` is the same in the plane. A negative force, where the contact sum subtracts more
-than it adds at a side or a corner, is taken from the other forces of the same node: in proportion
-from those of features that hold this side or corner, what these do not have from all.
+than it adds at a side or a corner, is taken from the other forces of the same node: first in
+proportion from features that contain this side or corner, the remainder from all forces.
 """
 
 import math
@@ -157,7 +158,9 @@ def _lag_platen(x, contact, upper, mu, lagged_contacts, n):
 
 @jit_exact
 def _holds(touching, n, m):
-    """Whether the feature of contact ``n`` has all corners of that of contact ``m``."""
+    """Return whether the feature of contact ``n`` has all corners of the feature of contact
+    ``m``.
+    """
     count = 1
     for i in range(1, touching.size[m]):
         for j in range(1, touching.size[n]):
@@ -167,7 +170,9 @@ def _holds(touching, n, m):
 
 @jit_exact
 def _claim(lagged_contacts, m, first):
-    """Claim the negative load ``m`` from those loads of its node whose features hold its own."""
+    """Claim the negative load ``m`` from the loads of its node whose features contain its
+    feature.
+    """
     touching, load = lagged_contacts.touching, lagged_contacts.load
     total, n = 0.0, first
     while n != NO_CONTACT:
@@ -184,8 +189,10 @@ def _claim(lagged_contacts, m, first):
 
 @jit_exact
 def _fill_loads(lagged_contacts):
-    """Fill ``load`` with the normal force of every contact of a node in ``touching``, N, none
-    negative; return their number. Those of two edges, which have no friction, come after them.
+    """Fill ``load`` with the normal forces of all contacts of nodes in ``touching``, N, none
+    negative; return their number.
+
+    They precede the contacts of two edges, which have no friction.
     """
     touching, load, after = (
         lagged_contacts.touching, lagged_contacts.load, lagged_contacts.after,
@@ -220,7 +227,7 @@ def lag(lagged_contacts, x, contact, pairs, drift, friction):
     detect(x, contact, pairs, drift, touching)
     for m in range(_fill_loads(lagged_contacts)):
         load = friction.mu * lagged_contacts.load[m]
-        if load > 0.0:  # n <= m: loads that are still to be read are not overwritten
+        if load > 0.0:  # n <= m: no load is overwritten before it is read
             _lag_triangle(x, contact, touching, m, load, lagged_contacts, n)
             n += 1
     n = _lag_platen(x, contact, False, friction.mu, lagged_contacts, n)
@@ -288,8 +295,7 @@ def _next_dual(delta, move, w, eps):
     """Return the dual after the Newton step ``move`` from the slip ``delta`` and the dual ``w``.
 
     Its size is at most 1. It is linearised with the symmetric `curvature`, as the Hessian is: with
-    the linearisation that is not symmetric, a tenth of 200 random problems of one contact ended in
-    a cycle.
+    the unsymmetric linearisation, a tenth of 200 random problems of one contact ended in a cycle.
     """
     psi, _ = _psi(math.hypot(delta[0], delta[1]), eps)
     c11, c12, c22 = curvature(delta, w, eps)
@@ -330,7 +336,7 @@ class LaggedContacts(NamedTuple):
 
     nodes (n, 4): p, a, b, c; size (n,): 4, or 1 for a platen, which does not move sideways. slopes
     (n, 4, 2, 3): derivatives of the slip in the moves of the nodes. load (n,): mu lambda, N. dual
-    (n, 2): w; `UNKNOWN` stands for that of the present slip. touching, after, claim (n,): scratch,
+    (n, 2): w; `UNKNOWN` stands for f' e at the present slip. touching, after, claim (n,): scratch,
     the latter two as in `terms.friction`.
     """
 
@@ -355,8 +361,8 @@ def block(u, lagged_contacts, eps, k, K):
     """Write the primal-dual Hessian of contact ``k`` to ``K`` (12, 12); return the number of its
     nodes.
 
-    Row and column 3 i + m: coordinate m of node lagged_contacts.nodes[k, i]; only those of the
-    number of nodes that is returned are written. It is positive semi-definite.
+    Row and column 3 i + m: coordinate m of node lagged_contacts.nodes[k, i]; only rows and columns
+    of its nodes are written. It is positive semi-definite.
     """
     load, size = lagged_contacts.load[k], lagged_contacts.size[k]
     dual = lagged_contacts.dual[k, 0], lagged_contacts.dual[k, 1]

@@ -1,12 +1,12 @@
 """Contact of plates with their own images beyond mirror planes, of a lattice cut at these planes.
 
-A node at the distance d from a plane is 2 d from its image. Of the energy of such a pair of walls,
-half belongs to either side,
+A node at the distance d from a plane is 2 d from its image. Half of the energy of such a pair of
+walls belongs to either side,
 
     1/2 a phi_t(2 d) = a phi_(t/2)(d),    phi_t(d) = C Y' t b(d / t),
 
-so that a mirror plane acts as a rigid platen (`contact`). Images move alike along the plane, so
-that there is no friction.
+so that a mirror plane acts as a rigid platen (`contact`). A node and its image move alike along the
+plane, so that there is no friction.
 """
 
 from typing import NamedTuple

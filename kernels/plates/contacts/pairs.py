@@ -1,4 +1,4 @@
-"""Near pairs of wall surfaces: which are in contact, from which distance, with which weight.
+"""Near pairs of wall surfaces: which may touch, where their contact starts, and with which weight.
 
 *Counted once.* A node p sees the triangles T that it may touch. The sum of phi(d(p, T)) would count
 a side or a corner once for every triangle that shares it. Sides E and corners V therefore have
@@ -12,10 +12,10 @@ pieces of surface within a distance, whatever the mesh: with B the ball round p 
 Euler characteristic of the union of the triangles that meet B, integrated over r by phi'. A
 junction of walls counts once, and walls in front of p and behind it count both.
 
-*What touches must have been apart.* As in `kernels.terms.contact_near_joints`, walls can fold upon
-themselves only at parts that are farther than pi t / 2 apart, t the mean thickness. Where walls
-meet at an angle, s is the straight distance at rest, not the path along the walls. Contact starts
-at
+*Parts that touch must have been apart.* As in `kernels.terms.contact_near_joints`, walls can fold
+upon themselves only at parts that are farther than pi t / 2 apart, t the mean thickness. Where
+walls meet at an angle, s is the straight distance at rest, not the path along the walls. Contact
+starts at
 
     t_c = t s / sqrt(s^2 + t^2)   for s < 5 t,   t beyond,
 
@@ -25,11 +25,10 @@ to s = 2 t. A triangle whose centre is nearer to p at rest than pi t / 2 is not 
 Crossing has to be prevented there too, where a wall is creased or crushed, and a step limit alone
 would stop a search: for such near parts contact starts at `NEAR_SHARE` t_c.
 
-*Images.* Of a surface that repeats, copies of triangles stand around. Nodes that are images see
-nothing; of two edges, one of which is an image, both copies of the pair are listed, with half the
-weight.
+*Images.* A surface that repeats is surrounded by copies of its triangles. Nodes that are images see
+nothing; if one of two edges is an image, both copies of the pair are listed, with half the weight.
 
-t_c of a side or a corner is the least of the triangles seen that share it: where t_c differs
+t_c of a side or a corner is the least t_c of the triangles seen that share it: where t_c differs
 between triangles, the one with the largest contribution counts.
 """
 
@@ -50,26 +49,27 @@ from kernels.geometry.space.parallel import SINE2
 from kernels.geometry.space.vectors import inner, length, minus, point, row
 from kernels.terms.contact_near_joints import FAR
 
-LEAST_PATH = 0.5 * math.pi  # of what may touch, at rest, in units of t
-NEAR_SHARE = 0.3  # of t_c, at which contact of near parts starts: a wall can be crushed to that
-EDGE_SHARE = 0.5  # of t_c, at which contact of two edges starts
-SHELLS = 64  # number of distance classes by which pairs of edges are sorted
+LEAST_PATH = 0.5 * math.pi  # least distance at rest of parts that may touch, in units of t
+NEAR_SHARE = 0.3  # share of t_c at which contact of near parts starts; walls can be crushed to it
+EDGE_SHARE = 0.5  # share of t_c at which contact of two edges starts
+SHELLS = 64  # number of classes of distance into which pairs of edges are sorted
 
 
 class Pairs(NamedTuple):
     """Pairs of a node and a triangle, a side or a corner, and of two edges, without common node.
 
-    Those of node p are start[p] .. start[p + 1]: triangle (k,), bound (k,): distance when they were
-    listed, m, ascending for each node; path (k,): s of the module's docstring, m, negative of near
-    parts; d_contact (k,): distance at which contact starts, m, 0 of what is not apart at rest.
+    Pairs start[p] .. start[p + 1] belong to node p: triangle (k,), bound (k,): distance when they
+    were listed, m, ascending for each node; path (k,): s of the module's docstring, m, negative for
+    near parts; d_contact (k,): distance at which contact starts, m, 0 for parts that are not apart
+    at rest.
 
     lower_start (n + 1,), lower (j,): corners by node, sides by n + edge; lower_weight, lower_bound
-    and lower_contact (j,): weight, distance when listed and where contact starts; lower_triangle
-    (j,): a triangle that has it.
+    and lower_contact (j,): weight, distance when listed and distance at which contact starts;
+    lower_triangle (j,): a triangle that contains it.
 
     one, two (i,): edges; edge_bound (i,): lower bound of their distance when listed, ascending;
-    edge_path (i,): s, m, negative as above; edge_contact (i,): where contact starts, m; edge_area
-    (i,): weight, m^2; edge_scale (i,): e of `geometry.space.parallel`, m^4.
+    edge_path (i,): s, m, negative as above; edge_contact (i,): distance at which contact starts, m;
+    edge_area (i,): weight, m^2; edge_scale (i,): e of `geometry.space.parallel`, m^4.
     """
 
     start: np.ndarray
@@ -94,7 +94,9 @@ class Pairs(NamedTuple):
 
 @jit_exact
 def starts_at(path, t):
-    """Return where contact starts, m. path: distance at rest, m, negative of near parts."""
+    """Return the distance at which contact starts, m. path: distance at rest, m, negative for near
+    parts.
+    """
     share = NEAR_SHARE if path < 0.0 else 1.0
     s = abs(path)
     return share * (t if s >= FAR * t else t * s / math.hypot(s, t))
@@ -177,8 +179,8 @@ def _feature(contact, k, i):
 def _weigh(contact, seen, p, weight, owner, listed):
     """Write w of the sides and corners that node ``p`` sees to ``weight``; return their number.
 
-    seen: start, triangle and path of `Pairs`. ``owner``: -1 for what is not listed yet, else a
-    triangle; ``listed``: their numbers.
+    seen: start, triangle and path of `Pairs`. ``owner``: -1 for features not listed yet, else a
+    triangle; ``listed``: the numbers of the listed features.
     """
     n_nodes, count = contact.area.size, 0
     start, triangle, path = seen
@@ -268,7 +270,7 @@ def _squared_rest_length(contact, e):
 def _of_edges(x, contact, radius):
     """Return one, two, edge_bound, edge_path, edge_area, edge_scale of `Pairs`.
 
-    radius: in m, of pairs at ``x``.
+    radius: largest distance of the pairs at ``x``, m.
     """
     first, second, distance = near.edge_edge(x, contact.edges, contact.own, radius)
     n = first.size
@@ -308,7 +310,8 @@ def find(x, contact, radius):
 def renew_distances(contact, pairs):
     """Write the distances at which contact starts, for the present ``contact.thickness``.
 
-    To be called after a change of it; ``contact.reach`` has to be at least the largest thickness.
+    Call it after every change of the thickness; ``contact.reach`` must be at least the largest
+    thickness.
     """
     least = np.full(contact.area.size + contact.edges.shape[0], np.inf)
     for p in range(contact.area.size):
@@ -332,5 +335,7 @@ def renew_distances(contact, pairs):
 
 @jit_exact
 def edges_within(pairs, radius):
-    """Return the number of pairs of edges, the first ones, that may be nearer than ``radius``."""
+    """Return the number of pairs of edges, the first ones listed, that may be nearer than
+    ``radius``.
+    """
     return first_at_least(pairs.edge_bound, radius, 0, pairs.edge_bound.size)

@@ -1,10 +1,10 @@
-"""Thickness over which walls touch: they keep their volume, so that they thicken where squeezed.
+"""Thickness of walls in contact: walls keep their volume, so that they thicken where squeezed.
 
     t_p = t_p0 min(j_p, MOST_THICKENING),   j_p = sum_e A_e j_e / sum_e A_e
 
 p: nodes; e: the quads at p, of area A_e at rest; j_e: mean of the thickening j (`layers`) at their
-Gauss points. The thickness is that at the last accepted step. Where it is renewed the energy of
-contact jumps, which the energy book enters as injected.
+Gauss points. The thickness is taken from the last accepted step. When it is renewed the energy of
+contact jumps, and the energy book enters the jump as injected.
 """
 
 from kernels.compile.jit import jit_exact
@@ -39,7 +39,7 @@ def measure(x, committed, walls, original, scratch, weight):
 
 @jit_exact
 def recall(contact, committed):
-    """Set the thickness of ``contact`` to that of the ``committed`` state (n, 10)."""
+    """Set the thickness of ``contact`` to the thickness in the ``committed`` state (n, 10)."""
     for p in range(contact.thickness.size):
         j = min(committed[p, THICKENING], MOST_THICKENING)
         contact.thickness[p] = j * contact.rest_thickness[p]
@@ -47,7 +47,7 @@ def recall(contact, committed):
 
 @jit_exact
 def renew(problem, x):
-    """Renew the thickness at ``x``; return False if nothing touches anything in the scene."""
+    """Renew the thickness at ``x``; return False if the scene has no contact."""
     scene, buffers = problem.scene, problem.buffers
     if is_absent(scene.contact):
         return False

@@ -1,7 +1,7 @@
-"""Where walls touch: the active contacts at one position, with their forces.
+"""The active contacts of walls at one position, with their forces.
 
-Contributions of triangles, sides and corners at one closest point add up to one contact; those that
-cancel are left out. Energies are those of `kernels.plates.contacts.contact`.
+Contributions of triangles, sides and corners at one closest point add up to one contact;
+contributions that cancel are left out. `kernels.plates.contacts.contact` has the energy.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from kernels.geometry.space.vectors import combined, inner, minus, point
 from kernels.laws.barrier import phi
 from kernels.plates.contacts.pairs import EDGE_SHARE, edges_within
 
-NEGLIGIBLE = 1e-12  # of what adds up at a side or a corner: below it nothing is left of the sum
+NEGLIGIBLE = 1e-12  # a sum below this share of its terms, at a side or a corner, is zero
 NO_PAIR = -1
 
 
@@ -24,10 +24,10 @@ class Touching(NamedTuple):
 
     nodes (n, 4): of the stencil; share (n, 4): weights of its nodes in the vector between the
     closest points; size (n,): number of its nodes, the first ones; free (n,): which closest points
-    move (`geometry.space.derivatives`). pair (n,): of edges, or `NO_PAIR`; triangle (n,): that of a
-    node. slope, curvature (n,): of the energy in the distance, N and N/m; scale (n,): sum of the
-    sizes that add up, N. distance (n,): m. feature (n,): corner, or number of nodes + side, -1 if
-    neither; slot: its contact, -1 if none, scratch.
+    move (`geometry.space.derivatives`). pair (n,): of edges, or `NO_PAIR`; triangle (n,): triangle
+    that the node touches. slope, curvature (n,): of the energy in the distance, N and N/m; scale
+    (n,): sum of the magnitudes of the contributions, N. distance (n,): m. feature (n,): corner, or
+    number of nodes + side, -1 if neither; slot: its contact, -1 if none, scratch.
     """
 
     nodes: np.ndarray
@@ -72,7 +72,7 @@ def _write(touching, nodes, share, size, free, feature):
 
 @jit
 def _raise(touching, n, d, slope, curvature):
-    """Add to the force of contact ``n``."""
+    """Add ``slope`` and ``curvature`` to contact ``n``."""
     touching.distance[n] = d
     touching.slope[n] += slope
     touching.curvature[n] += curvature
@@ -103,7 +103,9 @@ def _at_side(contact, touching, p, e, s, triangle):
 
 @jit
 def _along(contact, k, feature, v, w):
-    """Return (e, s): the edge on which the closest point of triangle ``k`` lies, and where."""
+    """Return (e, s): the edge on which the closest point of triangle ``k`` lies, and its place
+    there.
+    """
     i = feature - 3
     e = contact.sides[k, i]
     s = v if i == 0 else (w if i == 1 else 1.0 - w)
@@ -193,7 +195,7 @@ def _lower(x, contact, pairs, p, drift, touching):
 
 @jit
 def _copy(touching, n, to):
-    """Copy contact ``n`` to the place ``to``."""
+    """Copy contact ``n`` to place ``to``."""
     for i in range(4):
         touching.nodes[to, i], touching.share[to, i] = touching.nodes[n, i], touching.share[n, i]
     touching.size[to], touching.free[to] = touching.size[n], touching.free[n]
@@ -204,7 +206,7 @@ def _copy(touching, n, to):
 
 @jit
 def _keep(touching, first):
-    """Keep those contacts from ``first`` on whose contributions do not cancel; free their slots."""
+    """Keep the contacts from ``first`` on whose contributions do not cancel; free their slots."""
     kept = first
     for n in range(first, touching.count[0]):
         if touching.feature[n] >= 0:
@@ -271,7 +273,7 @@ def detect(x, contact, pairs, drift, touching):
     infinite at a distance of zero.
 
     drift: longest move of a node since the pairs were listed, m. Contributions that cancel are left
-    out: above a flat sheet one contact is left for each node.
+    out: above a flat sheet one contact remains for each node.
     """
     touching.count[0], total = 0, 0.0
     for p in range(contact.area.size):

@@ -11,7 +11,7 @@ are orthonormal there. A tensor m, as (m11, m22, m12), has in these axes the com
     P = | b^2  c^2  2 b c |
         | a b  0    a c  |
 
-The slopes of an energy in m are those in P m times P; m12 counts once, as in `laws.sheet`.
+The slopes of an energy in m are its slopes in P m times P; m12 counts once, as in `laws.sheet`.
 """
 
 import math
@@ -21,7 +21,9 @@ from kernels.compile.jit import jit, jit_exact
 
 @jit_exact
 def orthonormal(a11, a22, a12):
-    """Return a, b, c for the metric of the rest shape, and the area of a unit of s and z."""
+    """Return a, b, c for the metric of the rest shape, and the area that belongs to a unit of s and
+    z.
+    """
     det = a11 * a22 - a12 * a12
     c = math.sqrt(a11 / det)
     return 1.0 / math.sqrt(a11), -c * a12 / a11, c, math.sqrt(det)
@@ -35,7 +37,7 @@ def turned(a, b, c, one, two, both):
 
 @jit
 def turn(axes, m):
-    """Replace the measures ``m`` (9,), three tensors, by those in the ``axes`` (3,): a, b, c."""
+    """Transform the measures ``m`` (9,), three tensors, to the ``axes`` (3,): a, b, c."""
     a, b, c = axes[0], axes[1], axes[2]
     for k in range(0, 9, 3):
         m[k], m[k + 1], m[k + 2] = turned(a, b, c, m[k], m[k + 1], m[k + 2])
@@ -49,7 +51,9 @@ def pulled(a, b, c, one, two, both):
 
 @jit
 def pull_back(axes, slope):
-    """Turn the slopes (9,) of an energy in measures of the ``axes`` into those in (s, z)."""
+    """Transform the slopes (9,) of an energy from measures in the ``axes`` to measures in (s,
+    z).
+    """
     for k in range(0, 9, 3):
         slope[k], slope[k + 1], slope[k + 2] = pulled(
             axes[0], axes[1], axes[2], slope[k], slope[k + 1], slope[k + 2]
@@ -58,7 +62,7 @@ def pull_back(axes, slope):
 
 @jit
 def pull_back_second(axes, second):
-    """Turn the second derivatives (9, 9) likewise."""
+    """Transform the second derivatives (9, 9) in the same way."""
     a, b, c = axes[0], axes[1], axes[2]
     for i in range(9):
         for k in range(0, 9, 3):

@@ -1,14 +1,14 @@
 """Corrects the strain measures of a bent element: lengths of arcs in place of chords.
 
-Where an element is bent to a circle and turns by phi from one side to the other, the differences of
+If an element is bent to a circle and turns by phi from one side to the other, the differences of
 its positions and of its directors are chords, short by the factor sin(phi / 2) / (phi / 2). The
 three measures along s are products of two such differences, short by 1 - phi^2 / 12 + .., and phi
 is h_s B11 where the element is hardly stretched. To that order the arc has
 
     A11 + q,  B11 (1 + q),  D11 (1 + q),   q = h_s^2 B11^2 / 12
 
-and the same along z. These replace A11, B11, D11, less the same at rest. For small bending, q is
-the square of the slope by which a deflected plate leaves its chord; without it the plate would
+and the same along z. These replace A11, B11, D11, less their values at rest. For small bending, q
+is the square of the slope by which a deflected plate leaves its chord; without it the plate would
 buckle at too high a load.
 """
 
@@ -19,7 +19,8 @@ TWELFTH = 1.0 / 12.0
 
 @jit
 def lengthen(size, rest, m):
-    """Replace the measures ``m`` (9,) of chords by those of arcs, both less those at ``rest`` (9,).
+    """Replace the measures ``m`` (9,) of chords by measures of arcs, both less the measures at
+    ``rest`` (9,).
 
     size: h_s, h_z in m. Return B11, D11, B22, D22 of the chords, which the derivatives need.
     """
@@ -36,7 +37,7 @@ def lengthen(size, rest, m):
 
 @jit
 def lengthen_rest(size, m):
-    """Replace the measures ``m`` (9,) of chords, not less others, by those of arcs."""
+    """Replace the measures ``m`` (9,) of chords at rest by measures of arcs."""
     for k in range(2):
         q = TWELFTH * size[k] * size[k] * m[3 + k] * m[3 + k]
         m[k] += q
@@ -53,7 +54,7 @@ def _factors(size, chords, k):
 
 @jit
 def pull_back(size, chords, slope):
-    """Turn the slopes (9,) of an energy in measures of arcs into those in measures of chords."""
+    """Transform the slopes (9,) of an energy from measures of arcs to measures of chords."""
     for k in range(2):
         ab, bb, db, dd = _factors(size, chords, k)
         slope[3 + k] = ab * slope[k] + bb * slope[3 + k] + db * slope[6 + k]
@@ -62,7 +63,9 @@ def pull_back(size, chords, slope):
 
 @jit
 def pull_back_second(size, chords, slope, second):
-    """Turn the second derivatives (9, 9) likewise; slope: that in measures of arcs."""
+    """Transform the second derivatives (9, 9) in the same way; slope: slopes in measures of
+    arcs.
+    """
     for k in range(2):
         ab, bb, db, dd = _factors(size, chords, k)
         for i in range(9):

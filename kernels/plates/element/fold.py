@@ -1,12 +1,12 @@
-"""Barrier that keeps directors from turning over: on the angle to the normal of their corner.
+"""Barrier that keeps directors from turning over, on their angle to the normal of the corner.
 
     E_f = K sum over the corners  A b(v / v_f) for v < v_f, else 0,    v = d . (s x z) / a
 
 s, z: sides of the element at the corner, d: director there; a: d . (s x z) at rest; b: `barrier`;
 A: area at rest of the Gauss point at the corner. v is the cosine of the angle times the ratio of
-areas, if it was normal at rest. Beyond 90 degrees the shear of an element becomes smaller again:
-without a barrier a director turned over would be a second minimum, in which no wall can be. The
-barrier acts only on elements that are themselves folded, or squeezed to nothing.
+areas, if the director was normal at rest. Beyond 90 degrees the shear of an element becomes smaller
+again: without a barrier a director turned over would be a second minimum, which no real wall has.
+The barrier acts only on elements that are themselves folded, or squeezed to nothing.
 """
 
 from kernels.compile.jit import jit
@@ -114,7 +114,7 @@ def hessian(q, rest, areas, stiffness, row, second):
 
 @jit
 def _add_mixed(a, factor, d, s, z, second):
-    """Add ``factor`` times the second derivatives of d . (s x z), each of two of the vectors."""
+    """Add ``factor`` times the second derivatives of d . (s x z), each in two of the vectors."""
     one, two, low, high = _sides(a)
     at = 6 * a + 3
     for sign, to in ((-1.0, 6 * one), (1.0, 6 * two)):

@@ -1,13 +1,13 @@
 """Energy of a layered wall per area of its rest shape, over the strain measures of a point.
 
-The measures are A11, A22, A12, B11, B22, B12, D11, D22, D12 less those at rest: of the mid-surface
-x and the director field d, A = x,a . x,b, B = (x,a . d,b + x,b . d,a) / 2 and D = d,a . d,b. The
-layer at zeta is stretched by
+The measures are A11, A22, A12, B11, B22, B12, D11, D22, D12 less their values at rest. With the
+mid-surface x and the director field d, A = x,a . x,b, B = (x,a . d,b + x,b . d,a) / 2 and D = d,a .
+d,b. The layer at zeta is stretched by
 
     c(zeta) = 1 + A + 2 z B + z^2 D,   z = zeta j,   j = det(1 + A)^(-1/2)
 
-as an incompressible wall becomes thicker by the factor j where its mid-surface shrinks. With the
-energy W(c) of a sheet and its stress S = dW/dc and tangent T = dS/dc, three Gauss points give
+as an incompressible wall thickens by the factor j where its mid-surface shrinks. With the energy
+W(c) of a sheet and its stress S = dW/dc and tangent T = dS/dc, three Gauss points give
 
     U = sum of v W(c),   v: part of the thickness
 
@@ -36,11 +36,11 @@ import numpy as np
 from kernels.compile.jit import jit, jit_exact, jit_owning
 from kernels.plates.element import axes
 
-OUTER = math.sqrt(0.15)  # of a thickness: place of the outer of three Gauss points
+OUTER = math.sqrt(0.15)  # place of the outer of three Gauss points, as a share of the thickness
 SHARES = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
 MEASURES = 9
 LAYERS = 3
-REST = 14  # numbers of a curved point at rest: B0, D0, then axes and area of both outer layers
+REST = 14  # data of a curved point at rest: B0, D0, then axes and area of both outer layers
 
 
 class Moments(NamedTuple):
@@ -94,7 +94,7 @@ def set_rest(b, d, thickness, rest):
 
 @jit
 def _absolute(m, rest):
-    """Return B and D, with those at rest."""
+    """Return B and D, including their values at rest."""
     if rest.size == 0:
         return (m[3], m[4], m[5]), (m[6], m[7], m[8])
     return (
@@ -166,7 +166,7 @@ def _times(t, e):
 
 @jit
 def resultants(law, m, rest, thickness, memory, point, slope):
-    """Return U and that part of it which the strain of the mid-surface alone would take, J/m^2.
+    """Return U and the part of U due to the strain of the mid-surface alone, J/m^2.
 
     m (9,): measures. rest: empty, or as `set_rest` fills it. memory, point: of the first layer, see
     `laws.law`. slope (9,) receives dU/dm. U is infinite where a layer has no area left.
@@ -233,7 +233,9 @@ def _sum_layers(law, m, rest, thickness, memory, point, j, moments):
 
 @jit
 def _place(block, row, column, factor, t):
-    """Set a 3 x 3 block to ``factor`` times the symmetric matrix of upper triangle ``t`` (6,)."""
+    """Set a 3 x 3 block to ``factor`` times the symmetric matrix with the upper triangle ``t``
+    (6,).
+    """
     block[row, column] = factor * t[0]
     block[row, column + 1] = factor * t[1]
     block[row, column + 2] = factor * t[2]
@@ -249,7 +251,7 @@ def _place(block, row, column, factor, t):
 def rigidity(law, m, rest, thickness, memory, point, moments, slope, second):
     """Fill ``slope`` (9,) with dU/dm and ``second`` (9, 9), symmetric, with d2U/dm2.
 
-    To be called where U is finite.
+    Call it only where U is finite.
     """
     j = thickening(m)
     u_j, u_jj = _sum_layers(law, m, rest, thickness, memory, point, j, moments)
@@ -283,8 +285,8 @@ def rigidity(law, m, rest, thickness, memory, point, moments, slope, second):
 def commit(law, m, rest, thickness, memory, point):
     """Accept the measures ``m`` in all layers.
 
-    Return potential less stored energy, that part of it which counts as the mid-surface's, and the
-    dissipation of the step, J/m^2.
+    Return potential less stored energy, its part due to the mid-surface, and the dissipation of the
+    step, J/m^2.
     """
     released, of_middle, dissipated, j = 0.0, 0.0, 0.0, thickening(m)
     for layer in range(LAYERS):

@@ -1,7 +1,7 @@
 """Transverse shear that relaxes: branches of a spring and a dashpot in the shears of the edges.
 
 The energy E of `shear` is quadratic in the shears g of the four edges, with a matrix K that depends
-on the strain of the mid-surface. Branch i carries the share g_i of the force, and forgets it:
+on the strain of the mid-surface. Branch i carries the share g_i of the force, which relaxes:
 
     force = K (g - sum g_i q_i),   dq_i/dt = (g - q_i) / tau_i
 
@@ -10,24 +10,25 @@ changes evenly, the force at its end is
 
     K (scale g + slope),   slope = sum g_i (a_i x_i - c_i g_start)
 
-That is an elastic shear, softer by ``scale``, with slope / scale less at rest. The energies are
+That is an elastic shear, softer by ``scale``, whose rest shear is less by slope / scale. The
+energies are
 
     stored = (1 - sum g_i) E(g) + sum g_i E(x_i),   dissipation / time = 2 sum g_i E(x_i) / tau_i
 
-K is that at the end of the step. The stress that the energy of the branches adds to the
-mid-surface, of second order in the shear, is that of an elastic shear.
+K is evaluated at the end of the step. The branches add a stress to the mid-surface, of second order
+in the shear, as an elastic shear does.
 """
 
 from kernels.compile.jit import jit, jit_exact
 from kernels.plates.element import shear
 
-LINE = 5  # numbers of an element for a step: shears at rest, constant of the energy
-SHEAR, STORED, BRANCHES = 0, 4, 5  # places in a state; from the last all x_i
+LINE = 5  # number of data of an element for a step: shears at rest, constant of the energy
+SHEAR, STORED, BRANCHES = 0, 4, 5  # places in a state; all x_i start at the last one
 
 
 @jit
 def _read(state, at):
-    """Return the shears of four edges from place ``at`` on."""
+    """Return the shears of four edges from ``at`` on."""
     return state[at], state[at + 1], state[at + 2], state[at + 3]
 
 
@@ -46,7 +47,7 @@ def _sum(a, g, b, h):
 def begin(law, memory, row, rest, surface, stiffness):
     """Set shears at rest and constant of an element for a step at the pace of ``memory``.
 
-    law: with shares and times, as `laws.relaxing_sheet`. rest (4,), surface, stiffness: see
+    law: its shares and times, as in `laws.relaxing_sheet`. rest (4,), surface, stiffness: see
     `shear`, at the start of the step.
     """
     state, pace, line = memory.committed[row], memory.pace, memory.line[row]

@@ -1,9 +1,9 @@
 """Directors: unit vectors that turn with their node.
 
 A node has a committed frame Q (3 x 3, orthonormal, row-major in 9 numbers) and three coordinates w,
-its rotation since then in its own frame, as modified Rodrigues parameters (|w| = tan of a quarter
-of the angle; P. Tsiotras, J. Guid. Control Dyn. 19, 1996). With v the director in the frame of the
-node,
+its rotation since the last commit in its own frame, as modified Rodrigues parameters (|w| = tan of
+a quarter of the angle; P. Tsiotras, J. Guid. Control Dyn. 19, 1996). With v the director in the
+frame of the node,
 
     d(w) = Q R(w) v,   R(w) v = v + a c + b e,   c = w x v,   e = w x (w x v)
     a = 4 (1 - q) / (1 + q)^2,   b = 8 / (1 + q)^2,   q = w . w
@@ -188,9 +188,9 @@ def _orthonormalise(frame):
 
 @jit_exact
 def rebase(frames, x):
-    """Pass the rotations on to the frames: Q <- Q R(w), w <- 0.
+    """Move the rotations into the frames: Q <- Q R(w), w <- 0.
 
-    frames (n, 9). x: coordinates, of node i x[6 i] .. x[6 i + 2] position, then w.
+    frames (n, 9). x: coordinates; node i has x[6 i] .. x[6 i + 2] as its position, then w.
     """
     for i in range(frames.shape[0]):
         frame, w = frames[i], (x[6 * i + 3], x[6 * i + 4], x[6 * i + 5])

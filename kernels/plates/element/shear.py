@@ -7,9 +7,9 @@ strain A of the mid-surface in the middle of the element, and the means of g_s^2
     E = t h_s h_z / 2 * (A22 P + A11 Q - 2 A12 R) / det A^2
     P = k_s <g_s^2>,   Q = k_z <g_z^2>,   R = (k_s k_z)^(1/2) <g_s g_z>
 
-which is kappa G t |g|^2 / 2 where the mid-surface is not strained. The dependence on A is that of
-an incompressible neo-Hookean wall, whose fibres across are longer by (det A)^(-1/2): with
-C13 = g_s (det A)^(-1/2) and so on, det C = 1 gives C33 = (1 + C_a3 adj(A)_ab C_b3) / det A.
+which is kappa G t |g|^2 / 2 where the mid-surface is not strained. E depends on A as in an
+incompressible neo-Hookean wall, whose fibres across are longer by (det A)^(-1/2): with C13 = g_s
+(det A)^(-1/2) and so on, det C = 1 gives C33 = (1 + C_a3 adj(A)_ab C_b3) / det A.
 
 The stiffness k is kappa G, kappa = 5/6, and softer where an element is long:
 
@@ -30,7 +30,7 @@ from kernels.compile.jit import jit
 
 KAPPA = 5.0 / 6.0
 BETA = 1.0 / 40.0
-EDGES = ((0, 1), (3, 2), (0, 3), (1, 2))  # two along s, two along z, in the direction of these
+EDGES = ((0, 1), (3, 2), (0, 3), (1, 2))  # two along s, two along z, in their directions
 NUMBERS = 7
 
 
@@ -88,7 +88,7 @@ def surface(q, size):
 @jit
 def _means(g, k):
     """Return (P, Q, R), and their slopes in g: of P in g0, g1; of Q in g2, g3; of R in g0 or g1,
-    and in g2 or g3. The stiffnesses k have the factor t h_s h_z.
+    and in g2 or g3. The stiffnesses k include the factor t h_s h_z.
     """
     one, two, both = k[0] / 3.0, k[1] / 3.0, 0.25 * math.sqrt(k[0] * k[1])
     s, z = g[0] + g[1], g[2] + g[3]

@@ -5,10 +5,11 @@ rotation w since the last commit; its frame Q is a row of ``frames`` (n, 9). At 
 e, the director is d = Q R(w) v, with v = directors[e, a] (`rotation`). Walls that meet along a line
 share its nodes, each with directors of its own, so that a joint needs no constraint.
 
-In an element with sides of the lengths h_s and h_z at rest, x and d are bilinear in s and z along
-these. In a flat rectangle s and z are arc lengths; in any other quad the measures are turned from
-(s, z) to axes that are orthonormal at rest (`axes`). With p = (x,s; d,s; x,z; d,z) at a Gauss point
-each strain measure of `layers` is p . M_k p / 2, so that an energy U of the measures m has
+In an element with sides of the lengths h_s and h_z at rest, x and d are bilinear in the coordinates
+s and z along the sides. In a flat rectangle s and z are arc lengths; in any other quad the measures
+are turned from (s, z) to axes that are orthonormal at rest (`axes`). With p = (x,s; d,s; x,z; d,z)
+at a Gauss point each strain measure of `layers` is p . M_k p / 2, so that an energy U of the
+measures m has
 
     dU/dp = R p,   d2U/dp2 = R + sum over k, l of (M_k p) d2U/dm_k dm_l (M_l p)
 
@@ -17,9 +18,9 @@ each strain measure of `layers` is p . M_k p / 2, so that an energy U of the mea
                        | U_A12     U_B12 / 2 2 U_A22   U_B22     |
                        | U_B12 / 2 U_D12     U_B22     2 U_D22   |
 
-and p = sum over the corners a of (N_a,s q_a; N_a,z q_a), q_a = (x_a; d_a), gives those in q. With
-transverse shear (`shear`), the energy of the element is that of 2 x 2 Gauss points, and the chain
-rule through d(w) follows last.
+and p = sum over the corners a of (N_a,s q_a; N_a,z q_a), q_a = (x_a; d_a), gives the derivatives in
+q. The energy of the element is summed over 2 x 2 Gauss points, transverse shear (`shear`) is added,
+and the chain rule through d(w) follows last.
 """
 
 import math
@@ -32,9 +33,9 @@ from kernels.plates.element import axes, bow, fold, layers, relaxing_shear, rota
 
 GAUSS = math.sqrt(1.0 / 3.0)
 POINTS = ((-GAUSS, -GAUSS), (GAUSS, -GAUSS), (GAUSS, GAUSS), (-GAUSS, GAUSS))
-MEASURES_OF = ((0, 2, 3, 5), (3, 5, 6, 8), (1, 2, 4, 5), (4, 5, 7, 8))  # with x,s; d,s; x,z; d,z
+MEASURES_OF = ((0, 2, 3, 5), (3, 5, 6, 8), (1, 2, 4, 5), (4, 5, 7, 8))  # by x,s; d,s; x,z; d,z
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-POINTS_OF_LAYERS = 4 * layers.LAYERS  # material points of an element; those of shear come last
+POINTS_OF_LAYERS = 4 * layers.LAYERS  # material points of an element; all points of shear follow
 
 
 class Shell(NamedTuple):
@@ -42,13 +43,13 @@ class Shell(NamedTuple):
     two sides.
 
     thickness (m,) in m. directors (m, 4, 3): at rest, in the frames of the nodes. At rest, at the
-    Gauss points, in the order of the corners: rest (m, 4, 9), measures less those of a flat
+    Gauss points, in the order of the corners: rest (m, 4, 9), measures less the measures of a flat
     rectangle; area (m, 4), m^2; axes (m, 4, 3): a, b, c of `axes`; layered (m, 4, REST):
     curvatures, `layers.set_rest`. If all quads are flat rectangles, these are (0, 4, 3) and (1, 4,
-    0). At rest, of the edges of `shear`: shear_rest (m, 4), shear. sheared (m,): area
-    that `shear.stiffnesses` takes, m^2. corners (m, 4): area of the sides at each corner, m^2, as
-    `fold` takes. shear_modulus: kappa G at once, Pa. fold_modulus: the same at the reference time
-    of a material that relaxes.
+    0). shear_rest (m, 4): shear of the edges at rest, see `shear`. sheared (m,): area for
+    `shear.stiffnesses`, m^2. corners (m, 4): area of the sides at each corner, m^2, for `fold`.
+    shear_modulus: instantaneous kappa G, Pa. fold_modulus: kappa G at the reference time of a
+    material that relaxes.
     """
 
     quads: np.ndarray
@@ -97,8 +98,8 @@ class Scratch(NamedTuple):
     q, slope (24,): of the corners, and the gradient in q. At a Gauss point: p (12,); measure,
     resultant (9,); rigidity (9, 9); moments; rows (9, 12): M_k p; pushed (9, 12): rigidity x rows;
     by_p (12, 12): d2U/dp2. half (48, 24): by_p x dp/dq of all points. grid (4, 4, 2): N_a,s and
-    N_a,z by point and corner. Of shear, see `shear.hessian`: edges, strained (7, 24), inner (7, 7).
-    row (24,): of `fold`. turn (4, 3, 3): dd/dw of the corners.
+    N_a,z by point and corner. For shear, see `shear.hessian`: edges, strained (7, 24), inner (7,
+    7). row (24,): for `fold`. turn (4, 3, 3): dd/dw of the corners.
     """
 
     q: np.ndarray
@@ -183,7 +184,7 @@ def _dot(p, i, k):
 
 @jit
 def _measure(p, m):
-    """Set the measures of p less those of the flat grid."""
+    """Set the measures of p less the measures of the flat grid."""
     m[0], m[1], m[2] = _dot(p, 0, 0) - 1.0, _dot(p, 2, 2) - 1.0, _dot(p, 0, 2)
     m[3], m[4], m[5] = _dot(p, 0, 1), _dot(p, 2, 3), 0.5 * (_dot(p, 0, 3) + _dot(p, 2, 1))
     m[6], m[7], m[8] = _dot(p, 1, 1), _dot(p, 3, 3), _dot(p, 1, 3)
@@ -191,9 +192,10 @@ def _measure(p, m):
 
 @jit
 def _strain(scratch, shell, e, g):
-    """Set the measures of Gauss point ``g`` less those at rest, of arcs, in orthonormal axes.
+    """Set the measures of Gauss point ``g``: of arcs, less their values at rest, in orthonormal
+    axes.
 
-    Return those of chords that the derivatives of `bow` need.
+    Return the measures of chords that the derivatives of `bow` need.
     """
     _derive(scratch.q, scratch.grid[g], scratch.p)
     _measure(scratch.p, scratch.measure)
@@ -298,7 +300,7 @@ def _scatter(x, frames, shell, e, slope, gradient):
 
 @jit
 def _shear_stiffness(shell, e):
-    """Return the stiffnesses of an element in shear, at once."""
+    """Return the instantaneous shear stiffnesses of an element."""
     return shear.stiffnesses(
         shell.shear_modulus, shell.thickness[e], shell.size[e], shell.sheared[e]
     )
@@ -348,7 +350,7 @@ def _commit_shear(shell, law, memory, e, q):
 def commit(x, frames, shell, law, memory, scratch, released):
     """Accept ``x`` at all material points; return the dissipation of the step in J.
 
-    released (3,): potential less stored energy, in parts as those of `evaluate`.
+    released (3,): potential less stored energy, in the parts of `evaluate`.
     """
     dissipated = 0.0
     for k in range(3):
@@ -378,9 +380,10 @@ def evaluate(x, frames, shell, law, memory, scratch, gradient, stored):
     """Return the energy in J, infinite where a layer has no area left or a director is turned over;
     add its slopes to ``gradient`` (n,) and its parts to ``stored`` (3,): membrane, bending, shear.
 
-    law: `kernels.laws.relaxing_sheet.RelaxingSheet`, and its memory at the points of the layers of
-    all quads, then of the shear of all. Membrane is what the strain of the mid-surface alone would
-    take; bending is what the layers take more. Where the energy is infinite all is incomplete.
+    law: `kernels.laws.relaxing_sheet.RelaxingSheet`, with a memory of the points of the layers of
+    all quads, then of the shear of all quads. Membrane is the energy of the strain of the
+    mid-surface alone, bending the remainder of the layers. If the energy is infinite, all results
+    are incomplete.
     """
     total = 0.0
     for e in range(shell.quads.shape[0]):
@@ -495,7 +498,7 @@ def _whole(scratch, second):
 
 @jit
 def _turn_back(x, frames, shell, e, scratch, second):
-    """Turn the Hessian in q into that by coordinate: the chain rule through d(w)."""
+    """Transform the Hessian in q to the Hessian by coordinate: the chain rule through d(w)."""
     for a in range(4):
         i, at = shell.quads[e, a], 6 * a + 3
         frame, w, v = frames[i], _rotation_of(x, i), _rest_director(shell, e, a)
@@ -524,8 +527,8 @@ def _turn_back(x, frames, shell, e, scratch, second):
 
 @jit
 def hessian(x, frames, shell, law, memory, e, scratch, second):
-    """Set ``second`` (24, 24) to the exact Hessian of element ``e`` by coordinate: rows
-    6 a .. 6 a + 5 of corner a. To be called where the energy is finite.
+    """Set ``second`` (24, 24) to the exact Hessian of element ``e`` by coordinate: rows 6 a .. 6 a
+    + 5 of corner a. Call it only where the energy is finite.
     """
     size, thickness = shell.size[e], shell.thickness[e]
     _gather(x, frames, shell, e, scratch.q)

@@ -1,7 +1,5 @@
-"""What a config leaves open: values that follow from others, from the loading, or from a slicer.
+"""Values that a config leaves open, and that follow from standards or from a slicer.
 
-`resolve` completes a case. It takes the values that depend on the direction of the crush from
-`direction`, the elements of a wall from `elements`, values of the solver from `solver_defaults`,
-and those of standards from `drop_tests`. `printable` finds what does not print, `slicer_settings`
-the settings that print a design.
+`drop_tests` has the masses and heights of standard drop tests, `slicer_settings` the settings of a
+slicer that print a design.
 """

@@ -11,11 +11,11 @@ from sweep.config.faults import MisfitError
 
 PRESET = re.compile(r"(\S+)\s+(\S.*)")
 FLAT = "flat striker at equal J/cm2"
-"""What a planar model can claim of a test with a dome or a head form."""
+"""The claim that a planar model allows for a test with a dome or a head form."""
 
 
 class Drop(NamedTuple):
-    """What falls: its mass (kg), None if the preset does not say it, and its height (m)."""
+    """The falling body: its mass (kg), None if the preset does not state it, and its height (m)."""
 
     mass: float | None
     height: float
@@ -24,7 +24,7 @@ class Drop(NamedTuple):
 def in_si(preset: str, to_si: Callable[[str, str], float]) -> str:
     """A preset as a case holds it: the name of a test, a number and "kg" or "m".
 
-    to_si(quantity, unit) converts. `MisfitError` says what is wrong.
+    to_si(quantity, unit) converts. Raises `MisfitError` with the fault.
     """
     match = PRESET.fullmatch(preset)
     name = match[1] if match else preset
@@ -40,7 +40,9 @@ def in_si(preset: str, to_si: Callable[[str, str], float]) -> str:
 
 
 def drop_of(preset: str) -> Drop:
-    """The drop of a preset: by the mass of what falls, or by one of the heights of the test."""
+    """The drop of a preset: by the mass of the falling body, or by one of the heights of the
+    test.
+    """
     name, number, unit = preset.split()
     value, rows = float(number), limits(name)
     if unit == "m":
@@ -54,7 +56,7 @@ def drop_of(preset: str) -> Drop:
 
 
 def limits(name: str) -> list[tuple[float, float]]:
-    """The rows of a test: below which mass (kg) it has which height (m)."""
+    """The rows of a test: the height (m) of the drop for masses (kg) below a limit."""
     if name not in drops():
         raise MisfitError("unknown test")
     if not drops()[name]:
@@ -74,7 +76,7 @@ def drops() -> dict[str, list[tuple[float, float]]]:
 
 
 def in_words() -> str:
-    """What a preset may be."""
+    """The allowed presets, in words."""
     *others, last = [name for name, rows in drops().items() if rows]
     return (
         f'{", ".join(others)} or {last} with a mass or a height, such as "ista-1a 5 kg" or '

@@ -1,4 +1,4 @@
-"""The settings of a slicer that print a design: those of the config, or the nearest ones."""
+"""The settings of a slicer that print a design: given in the config, or the nearest ones."""
 
 from dataclasses import dataclass
 from math import degrees, sqrt
@@ -21,7 +21,7 @@ from sweep.design.slicer.patterns import (
 )
 
 REGULAR = 0.05  # relative difference of a cell's proportions from the slicer's
-WIDEST = 2.0  # nozzles: what a line fills
+WIDEST = 2.0  # nozzles: mean thickness of a line
 ROUND_OFF = 1e-9
 
 
@@ -33,7 +33,7 @@ class SlicerSettings:
     line_width, of the infill, perimeter_width and layer_height in m; fill_angle in rad from the
     width of the design, whose layers are stacked along its depth, or, if it has solid ones, along
     its height. exact: False for a design that only corresponds to these settings; then the slicer's
-    cells may be REGULAR longer or shorter, and lie otherwise in the part.
+    cells may be REGULAR longer or shorter, and be placed differently in the part.
     """
 
     slicer: str
@@ -62,17 +62,18 @@ class SlicerSettings:
 
 
 def slicer_settings(lattice: Lattice) -> SlicerSettings | None:
-    """The settings that print a lattice; None if no infill of a slicer is like it (`unlike`)."""
+    """The settings that print a lattice; None if no infill of a slicer matches it (`unlike`)."""
     if isinstance(lattice, Sliced | SlicedSheet):
         return _own(lattice)
     return _nearest(lattice) if isinstance(lattice, Cells) and not unlike(lattice) else None
 
 
 def unlike(lattice: Lattice) -> str:
-    """Why no infill of a slicer is like a drawn lattice, and what would be; empty if one is.
+    """Why no infill of a slicer matches a drawn lattice, and what would match; empty if one does.
 
-    One is if the lattice is whole and even, its cells are nearly regular, and its walls are as
-    thick as the pattern's with lines at least as wide as the nozzle that fill at most `WIDEST`.
+    One matches if the lattice is whole and even, its cells are nearly regular, and its walls are as
+    thick as the walls of the pattern with lines at least as wide as the nozzle that fill at most
+    `WIDEST`.
     """
     if isinstance(lattice, Sheet):
         return (
@@ -113,7 +114,7 @@ def _other_lines(lattice: Cells) -> str:
 
 
 def _nearest(lattice: Cells) -> SlicerSettings:
-    """The settings of PrusaSlicer for the pattern that a drawn lattice is like."""
+    """The settings of PrusaSlicer for the pattern that matches a drawn lattice."""
     like = LIKE[lattice.kind, lattice.orientation]
     across, along = _scales(lattice)
     height = lattice.layer_height or LAYER_HEIGHT
@@ -134,7 +135,7 @@ def _nearest(lattice: Cells) -> SlicerSettings:
 
 
 def _own(lattice: Sliced | SlicedSheet) -> SlicerSettings:
-    """The settings with which the lattice of a slicer is laid."""
+    """The settings with which the slicer of a lattice lays it."""
     return SlicerSettings(
         lattice.slicer,
         lattice.pattern,
@@ -151,7 +152,7 @@ def _own(lattice: Sliced | SlicedSheet) -> SlicerSettings:
 
 
 def _scales(lattice: Cells) -> tuple[float, float]:
-    """Size of the box / that of the drawing in its own unit, in x and y."""
+    """Size of the box / size of the drawing in its own unit, in x and y."""
     from sweep.design.drawing import extent
 
     low, high = extent(lattice.kind, lattice.orientation, (lattice.cells_x, lattice.cells_y))

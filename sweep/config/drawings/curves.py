@@ -1,4 +1,6 @@
-"""Curves as straight pieces: Bezier curves of degree 1 to 3, which are what DXF and SVG become."""
+"""Divides curves into straight pieces: Bezier curves of degree 1 to 3, to which DXF and SVG are
+reduced.
+"""
 
 from collections.abc import Iterable
 from math import ceil, comb, radians
@@ -10,8 +12,8 @@ from sweep.config.faults import MisfitError
 
 Floats = NDArray[np.float64]
 
-TURN = radians(12.0)  # of one straight piece, within 0.6 % of the radius: 32 of a circle
-SAMPLES = np.linspace(0.0, 1.0, 65)  # at which the direction of a curve is taken
+TURN = radians(12.0)  # turn of one straight piece, within 0.6 % of the radius: 32 in a circle
+SAMPLES = np.linspace(0.0, 1.0, 65)  # points at which the direction of a curve is taken
 MOST_LINES = 20_000
 
 

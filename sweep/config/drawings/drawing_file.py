@@ -1,6 +1,6 @@
-"""Reads the file of a drawing of any format, and lets its walls meet.
+"""Reads the file of a drawing in any format, and joins its walls.
 
-A file comes from anywhere: its size, and the lines that follow from it, are bounded.
+A file may come from anywhere: its size, and the number of lines that follow from it, are bounded.
 """
 
 from functools import lru_cache
@@ -22,19 +22,19 @@ from sweep.numbers import in_unit, text_in
 READERS = {**tables.READERS, ".dxf": dxf.read_dxf, ".svg": svg.read_svg}
 NEEDED = "the path of a .svg, .dxf, .csv or .json file, or of LAMMPS data (.data, .lmp)"
 MOST_BYTES = 8_000_000
-MOST_BYTES_OF_SVG = 2_000_000  # whose paths are read slowly
+MOST_BYTES_OF_SVG = 2_000_000  # formats whose paths are read slowly
 FARTHEST = 1e9  # units of the file
 
 
 class Read(NamedTuple):
-    """A network that is in one piece, and what its file says of it."""
+    """A network in one piece, and the remarks on its file."""
 
     network: Meeting
     lines: Lines
 
 
 def read_drawing(path: Path) -> Read:
-    """Read a file once; `StructureError` says why it is no drawing."""
+    """Read a file once; raises `StructureError` with the reason if it is no drawing."""
     try:
         state = path.stat()
         if not S_ISREG(state.st_mode):
@@ -47,7 +47,7 @@ def read_drawing(path: Path) -> Read:
         return _read(path, state.st_mtime_ns)
     except OSError as error:
         raise StructureError([f"cannot be read ({error.strerror}); needed: {NEEDED}"]) from None
-    except ValueError as error:  # of ours, or a null character in the path
+    except ValueError as error:  # one of ours, or a null character in the path
         if isinstance(error, StructureError):
             raise
         ours = isinstance(error, MisfitError | MeetingError)
@@ -56,7 +56,7 @@ def read_drawing(path: Path) -> Read:
 
 @lru_cache(maxsize=16)
 def _read(path: Path, _: int) -> Read:
-    """As `read_drawing`, of a file of that age."""
+    """`read_drawing` for a file of this age."""
     lines = READERS[path.suffix.lower()](path)
     ends = lines.ends
     if not 0 < len(ends) <= MOST_LINES:

@@ -1,4 +1,4 @@
-"""Lines and curves of a DXF file, with those of its blocks; the package ezdxf reads it."""
+"""Reads the lines and curves of a DXF file, including its blocks, with the package ezdxf."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -14,12 +14,12 @@ from sweep.config.faults import MisfitError
 
 LINES = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}
 UNITS = METRES | {"ft": 12.0 * METRES["in"], "mil": 1e-3 * METRES["in"], "µm": METRES["um"]}
-"""Those of $INSUNITS that drawings of lattices have."""
-PLANE = 1e-6  # of the greatest coordinate: what lies higher is not in the plane
+"""Units of $INSUNITS that drawings of lattices have."""
+PLANE = 1e-6  # share of the greatest coordinate: higher points are not in the plane
 
 
 def read_dxf(path: Path) -> Lines:
-    """The lines of the model space, in the plane x, y, but for those of layers that are off."""
+    """The lines of the model space, in the plane x, y, except in layers that are off."""
     try:
         from ezdxf import recover
         from ezdxf.disassemble import recursive_decompose
@@ -55,7 +55,7 @@ def read_dxf(path: Path) -> Lines:
 
 
 def _curves(entities: list[Any], hidden: set[str], left_out: Counter[str]) -> Iterator[Floats]:
-    """Control points of all lines and curves; counts what is left out."""
+    """Control points of all lines and curves; counts the entities that are left out."""
     from ezdxf.path import make_path
 
     for entity in entities:

@@ -1,4 +1,4 @@
-"""What the file of a drawing holds: lines, and what it says of their walls."""
+"""The content of the file of a drawing: lines, and data of their walls."""
 
 from typing import NamedTuple
 
@@ -16,9 +16,9 @@ METRES = {"um": 1e-3 * MM, "mm": MM, "cm": 10.0 * MM, "m": 1.0, "in": 25.4 * MM}
 class Lines(NamedTuple):
     """Centre lines (s, 2, 2) in the unit of a file.
 
-    unit: its length, m; None if the file does not say. named: whether its own heads or keys name
-    it, so that no other can be meant. thickness: of the wall of each line (s,), in
-    the same unit. depth: of the walls, m. elements: of a wall. notes: what was left out.
+    unit: its length, m; None if the file does not state it. named: whether heads or keys of the
+    file name it, so that no other can be meant. thickness: of the wall of each line (s,), in the
+    same unit. depth: of the walls, m. elements: of a wall. notes: on parts that were left out.
     """
 
     ends: Floats

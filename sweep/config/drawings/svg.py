@@ -1,4 +1,6 @@
-"""Lines and curves of an SVG file; the package svgelements reads them, with their transforms."""
+"""Reads the lines and curves of an SVG file, with their transforms, with the package
+svgelements.
+"""
 
 import re
 from collections.abc import Iterator
@@ -13,7 +15,7 @@ from sweep.config.drawings.curves import MOST_LINES, Floats, straightened
 from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
-PIXEL = METRES["in"] / 96.0  # m, of CSS
+PIXEL = METRES["in"] / 96.0  # m, in CSS
 LENGTHS = METRES | {"": PIXEL, "px": PIXEL, "pt": METRES["in"] / 72.0, "pc": METRES["in"] / 6.0}
 PAGE = ("width", "height", "viewBox", "preserveAspectRatio")
 USE = re.compile(r"(?:\{.*\})?use$")
@@ -21,11 +23,11 @@ _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 
 
 def read_svg(path: Path) -> Lines:
-    """The centre lines of all shapes that are shown, y upwards; stroke width and fill are ignored.
-    Where some shapes have a stroke, those that are only filled are no lines, but areas and dots.
+    """The centre lines of all visible shapes, y upwards; stroke width and fill are ignored. If some
+    shapes have a stroke, shapes that are only filled are no lines, but areas and dots.
 
-    The unit is that of the view box: what the width and the height of the page make of it; a pixel
-    where there is no view box. Without a size of the page it is not known.
+    The unit is the unit of the view box, from the width and the height of the page; a pixel if
+    there is no view box. Without a size of the page it is not known.
     """
     try:
         from svgelements import SVG, Shape
@@ -70,7 +72,7 @@ def _unit(root: Xml.Element) -> float | None:
 
 
 def _drawn(root: Xml.Element) -> int:
-    """Number of elements when all that are used again are drawn; too many if one uses itself."""
+    """Number of elements when all that are reused are drawn; too many if one uses itself."""
     named = {element.get("id"): element for element in root.iter()}
     count: dict[int, int] = {}
 

@@ -1,4 +1,4 @@
-"""Drawings as numbers: the JSON of a structure, CSV of nodes and walls, and LAMMPS data."""
+"""Reads drawings as numbers: the JSON of a structure, CSV of nodes and walls, and LAMMPS data."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,7 +17,7 @@ from sweep.numbers import counted
 from sweep.plain_text import plain
 
 MOST_ROWS = 200_000
-ROUND_OFF = 1e-6  # of a box
+ROUND_OFF = 1e-6  # share of the size of a box
 LINE, NODE, WALL = ("x1", "y1", "x2", "y2"), ("x", "y"), ("from", "to")
 IDS = ("node", *WALL)
 OTHER_HEADS = {
@@ -25,7 +25,7 @@ OTHER_HEADS = {
     **dict.fromkeys(("source", "start", "node1", "node_1"), "from"),
     **dict.fromkeys(("target", "end", "node2", "node_2"), "to"),
 }
-"""Heads as graphs have them."""
+"""Other heads, as in files of graphs."""
 _HEAD = re.compile(
     rf"({'|'.join((*LINE, *NODE, *IDS, 'thickness'))})(?:[ _]*[(\[]?({'|'.join(METRES)})[)\]]?)?"
 )
@@ -35,9 +35,11 @@ ATOM_STYLES = {
     **dict.fromkeys(("bond", "angle", "molecular", "charge"), 3),
     **dict.fromkeys(("full", "sphere"), 4),
 }
-"""LAMMPS: the place of x in a line of an atom."""
+"""Place of x in an atom line of LAMMPS, by its style."""
 BY_LENGTH = {5: 2, 6: 3, 7: 4, 8: 2, 9: 3, 10: 4}
-"""The same where no style is named; lines of eight and more end in three image flags."""
+"""Place of x by the length of a line, if no style is named; from eight on, three image flags
+follow.
+"""
 
 
 def read_json(path: Path) -> Lines:
@@ -56,7 +58,7 @@ def read_json(path: Path) -> Lines:
 
 
 def read_csv(path: Path) -> Lines:
-    """Walls by the coordinates of their ends, or by nodes that a table above them has."""
+    """Walls by the coordinates of their ends, or by nodes in a table above them."""
     text = foreign_text(path, CSV)
     lines = (line for line in text.splitlines() if line.strip() and not line.startswith("#"))
     first = next(lines, "")
@@ -84,7 +86,9 @@ def read_csv(path: Path) -> Lines:
 
 
 class _Table(NamedTuple):
-    """Rows below a row of heads: heads -> place and size of the unit; None where it names none."""
+    """Rows below a row of heads: heads -> place and size of the unit; None if the head names
+    none.
+    """
 
     heads: dict[str, int]
     units: dict[str, float | None]
@@ -128,7 +132,7 @@ def _tables(rows: Sequence[Sequence[str]], decimal: str) -> Iterator[_Table]:
 
 
 def _headed(cells: Sequence[str], decimal: str) -> _Table:
-    """A table without rows, whose heads these cells are; other cells are no heads."""
+    """A table without rows, if these cells are heads; else None."""
     words = [OTHER_HEADS.get(cell.lower(), cell.lower()) for cell in cells]
     matches = {place: _HEAD.fullmatch(word) for place, word in enumerate(words)}
     heads = {match[1]: (place, match[2]) for place, match in matches.items() if match}
@@ -202,7 +206,7 @@ def read_lammps(path: Path) -> Lines:
 
 
 def _inside(ends: Floats, box: Floats) -> Lines:
-    """The bonds but for those around a periodic box, which are shorter the other way."""
+    """The bonds except those around a periodic box, which are shorter the other way."""
     reach = np.abs(ends[:, 1] - ends[:, 0])
     around = ((reach > 0.5 * box) & (reach < (1.0 - ROUND_OFF) * box)).any(axis=1)
     count = int(around.sum())

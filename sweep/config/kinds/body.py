@@ -1,4 +1,4 @@
-"""What a loading presses."""
+"""The body that a loading presses."""
 
 from math import inf
 from typing import NamedTuple
@@ -9,10 +9,9 @@ from sweep.config.structures.structure import Structure
 
 
 class Body(NamedTuple):
-    """What a loading presses: its height (m), whether along the cells; the structure of a file with
-    loads; whether it is endless, whether its sides are tied to each other; its width (m); what
-    makes its walls a sheet, as a clause; the diagonal of its drawing (m), the volume of its box
-    (m^3).
+    """The pressed body: its height (m), whether along the cells; the structure of a file with
+    loads; whether it is endless, whether its sides are tied to each other; its width (m); why its
+    walls are a sheet, as a clause; the diagonal of its drawing (m), the volume of its box (m^3).
     """
 
     height: float
@@ -32,12 +31,12 @@ class Body(NamedTuple):
 
     @property
     def where(self) -> str:
-        """Why they are, as part of a sentence."""
+        """Why its walls are shells, as part of a sentence."""
         return f"if {self.sheet}" if self.sheet else WHERE
 
     @property
     def unending(self) -> str:
-        """Why there is no middle of the lattice to strike; nothing if there is one."""
+        """Why the lattice has no middle that could be struck; empty if it has."""
         if self.sheet:
             return self.where
         return ENDLESS if self.endless else TIED if self.tied_sides else ""

@@ -39,8 +39,8 @@ class Cells(WallLattice):
     both. boundary "periodic": one period of an endless lattice, of size `width` x `height`.
     Opposite sides are tied to each other; the mean shear strain and the mean lateral stress are
     zero. sides "periodic": left and right are tied to each other, between platens: the middle of a
-    wide panel, of which `width` is one period; along the cells so are its other two sides, of the
-    period `height`.
+    wide panel, one period of which is `width` wide; along the cells its other two sides are tied
+    too, with the period `height`.
     """
 
     labels: ClassVar[tuple[str, ...]] = (*WallLattice.labels, "cell_size")
@@ -72,12 +72,14 @@ class Cells(WallLattice):
 
     @classmethod
     def means(cls, inputs: Inputs) -> bool:
-        """Whether values mean this kind of lattice: if they mean no other."""
+        """Whether values mean this kind of lattice, and no other kind."""
         return True
 
     @classmethod
     def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
-        """The cells of these values. along: periodic sides are those of both directions."""
+        """The cells of these values. along: pressed along the cells, so that periodic sides are
+        periodic in both directions.
+        """
         usual = {"nodes_per_wall": nodes_of(inputs.get("kind", "square"))}
         lattice = cls.model_validate(usual | own_values(inputs, cls))
         check_proportion(lattice)
@@ -163,7 +165,7 @@ class Cells(WallLattice):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Outer width and height, m; where the lattice repeats, those of the period."""
+        """Outer width and height, m; for a lattice that repeats, of the period."""
         across, along = self.geometry.periodic
         width, height = super().outer_size
         return self.width if across else width, self.height if along else height
@@ -185,7 +187,7 @@ class Cells(WallLattice):
 
     @property
     def thickest(self) -> float:
-        """See `WallLattice.thickest`; of a gradient, that of the mean wall."""
+        """See `WallLattice.thickest`; with a gradient, for the mean wall."""
         if self.grading == 1.0:
             return super().thickest
         from sweep.design.box import gradient
@@ -205,7 +207,7 @@ def _lines(lattice: Cells) -> dict[str, Any]:
 
 
 def _filled(lattice: Cells, share: float, inputs: Inputs) -> dict[str, Any]:
-    """The numbers of cells and the wall thickness of a share of infill."""
+    """The numbers of cells and the wall thickness for a share of infill."""
     if lattice.mass is not None:
         raise RefusedError("lattice.mass", lattice.mass, "none where lattice.infill is given")
     from sweep.design.sizing import cells_for
@@ -249,7 +251,7 @@ def _following(count: tuple[int, int], reason: str, inputs: Inputs) -> dict[str,
 
 
 def _check_follows(key: str, value: object, allowed: str, inputs: Inputs) -> None:
-    """Refuse a given value that differs from the one that follows from other keys."""
+    """Refuse a given value that differs from the value that follows from other keys."""
     if inputs.get(key, value) != value:
         raise RefusedError(f"lattice.{key}", inputs[key], allowed)
 
@@ -273,7 +275,7 @@ def _check_openings(lattice: Cells) -> None:
 
 
 def _check_period(lattice: Cells) -> None:
-    """Refuse a lattice that cannot be a period, or that has two kinds of it."""
+    """Refuse a lattice that cannot be a period, or that is periodic in two ways."""
     if lattice.endless and lattice.tied_sides:
         raise RefusedError("lattice.sides", "periodic", f'"free" {ENDLESS}')
     endless = ENDLESS if lattice.endless else TIED

@@ -18,7 +18,7 @@ from sweep.config.kinds.table import (
 )
 
 SLIP = 0.01  # default slip speed / speed of the platen or the striker
-REFERENCE_SPEED = 0.1  # m/s, where nothing has a speed
+REFERENCE_SPEED = 0.1  # m/s, if nothing has a speed
 
 
 class Forceless(Table):
@@ -40,7 +40,7 @@ class NoContact(Forceless):
 class Barrier(Table):
     """The barrier, which acts if walls come within one thickness of each other.
 
-    model "none": with platens and a floor alone. `stiffness`: the factor c. `slip_speed`: None in
+    model "none": only with platens and a floor. `stiffness`: the factor c. `slip_speed`: None in
     statics, where slip is a length.
     """
 
@@ -87,7 +87,9 @@ def contact(values: Inputs | Pairs, loading: Loading, body: Body, integrator: st
 
 
 def _by_position(loading: Loading, body: Body, integrator: str) -> ByPosition:
-    """Contact by position exerts no force, so it can neither carry a platen nor cause friction."""
+    """Contact by position, which exerts no force: it can neither carry a platen nor cause
+    friction.
+    """
     key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
     if body.shells:
         raise RefusedError(key, model, f'"barrier" or "none" {body.where}')

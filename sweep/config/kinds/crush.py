@@ -24,12 +24,12 @@ from sweep.config.kinds.table import (
     own_values,
 )
 
-STRAIN_RATE = 0.01  # 1/s, of a quasi-static crush of a material that relaxes
+STRAIN_RATE = 0.01  # 1/s, in a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
 
 class Crush(Struck):
-    """A platen that moves down and back up if `unload`; the whole `cycles` times.
+    """A platen that moves down and back up if `unload`; the whole is done `cycles` times.
 
     strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
     is quasi-static and the stress of the material does not depend on time. platen "none": an
@@ -57,7 +57,7 @@ class Crush(Struck):
 
     @classmethod
     def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> "Crush":
-        """The crush of these values; of an endless lattice under a mean strain."""
+        """The crush of these values; for an endless lattice, a mean strain."""
         if body.endless:
             return _mean_crush(inputs, body, integrator, relaxes)
         if inputs.get("platen") == "none":
@@ -92,7 +92,7 @@ class Crush(Struck):
 
     @property
     def approach(self) -> float | None:
-        """Speed with which walls are pressed, m/s; None if the crush takes no time."""
+        """Speed with which walls are pressed together, m/s; None if the crush takes no time."""
         return self.speed
 
     @property
@@ -135,7 +135,7 @@ def _speed(inputs: Inputs, height: float) -> float | None:
 
 
 def _is_quasi_static(inputs: Inputs, speed: float | None, integrator: str | None) -> bool:
-    """Whether there is no inertia: as given, else without a speed, or with a rate."""
+    """Whether inertia is neglected: as given, else if there is no speed, or a strain rate."""
     rate = inputs.get("strain_rate")
     timed = speed is not None and rate is None
     quasi_static: bool = inputs.get("quasi_static", not timed or integrator == "static")

@@ -28,7 +28,7 @@ def _sound(structure: Structure) -> Structure:
 class CustomStructure(Specimen):
     """The structure in a `file`, which is connected; box and mean thickness are measured from it.
 
-    A given `wall_thickness` scales all of its walls, so that it is their mean.
+    A given `wall_thickness` scales all of its walls, so that it becomes their mean.
     """
 
     because: ClassVar[str] = 'lattice.kind is "custom"'
@@ -106,11 +106,11 @@ class CustomStructure(Specimen):
         return self.structure.pieces
 
     def remeshed(self, pieces: tuple[int, ...]) -> dict[str, Any]:
-        """What changes with other numbers of `pieces`."""
+        """The changes for other numbers of `pieces`."""
         return {"structure": self.structure.model_copy(update={"subdivide": pieces})}
 
     def check_standing(self, where: str) -> None:
-        """Refuse what stands beside walls; where: why they stand, in words."""
+        """Refuse parts other than walls; where: why the walls stand upright, in words."""
         if unfit := self.structure.beside_walls:
             allowed = f"a file without {', '.join(unfit)} {where}: its walls stand on platens"
             raise RefusedError("lattice.file", self.file, allowed)

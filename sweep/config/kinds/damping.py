@@ -1,4 +1,4 @@
-"""Damping that stands for a loss which is not known otherwise."""
+"""Damping that represents a loss which is not known otherwise."""
 
 from typing import Any, ClassVar, Literal
 
@@ -8,7 +8,7 @@ from sweep.config.kinds.table import Inputs, Lag, Pairs, Rate, RefusedError, Tab
 
 
 class NoDamping(Table):
-    """No damping: also of a quasi-static crush, and by default of a material that relaxes."""
+    """No damping: also for a quasi-static crush, and by default for a material that relaxes."""
 
     because: ClassVar[str] = 'damping.model is "none"'
 
@@ -16,7 +16,7 @@ class NoDamping(Table):
 
 
 class Rayleigh(Table):
-    """Alpha M + beta K: `mass` alpha, `stiffness` beta."""
+    """Rayleigh damping alpha M + beta K: `mass` alpha, `stiffness` beta."""
 
     because: ClassVar[str] = 'damping.model is "rayleigh"'
 
@@ -51,7 +51,8 @@ def damping(values: Inputs | Pairs, loading: Loading, body: Body, relaxes: bool)
 
 
 def _usual(inputs: Inputs, loading: Loading) -> dict[str, Any]:
-    """The values of Rayleigh damping; none goes with the mass where the base moves freely.
+    """The values of Rayleigh damping; mass-proportional damping is zero where the base moves
+    freely.
 
     It would hold the lattice back in space, and take momentum from striker and base.
     """

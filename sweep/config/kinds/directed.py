@@ -1,4 +1,6 @@
-"""What all loadings have: a direction, the base, and ramps of a load or of what is driven."""
+"""The common part of all loadings: a direction, the base, and ramps of a load or a driven
+motion.
+"""
 
 from abc import abstractmethod
 from typing import Any, ClassVar, Literal, NamedTuple
@@ -13,11 +15,11 @@ Role = Literal["loading", "hold", "unloading"]  # in the order of a cycle
 
 
 class Ramp(NamedTuple):
-    """A part of a loading, in which the load and what is driven change evenly.
+    """A part of a loading, in which the load and the driven motion change evenly.
 
-    name: in messages. role: what it is to the measures. load: factor of the load at both ends.
-    way: share of the way of what is driven, at both ends. It takes a `time` (s), or `steps`, or
-    both. watched: whether the run may end within it.
+    name: in messages. role: in the measurements. load: factor of the load at both ends. way: share
+    of the driven travel, at both ends. It takes a `time` (s), or `steps`, or both. watched: whether
+    the run may end within it.
     """
 
     name: str
@@ -40,8 +42,9 @@ class Directed(Table):
 
     base_patch: width of the patch of the base over which its greatest pressure is taken.
 
-    words: what `loading.mode` may be, the mode itself first. driven: whether a platen moves by a
-    stroke. usual_integrator: of a motion. solid: whether joints of a lattice are, if not given.
+    words: allowed values of `loading.mode`, the mode itself first. driven: whether a platen moves
+    by a stroke. usual_integrator: of a motion. solid: whether joints of a lattice are solid by
+    default.
     """
 
     words: ClassVar[tuple[str, ...]]
@@ -72,7 +75,7 @@ class Directed(Table):
 
     @property
     def approach(self) -> float | None:
-        """Speed (m/s) with which walls are pressed; None if it is not known."""
+        """Speed (m/s) with which walls are pressed together; None if it is not known."""
         return None
 
     @property

@@ -1,6 +1,6 @@
 """The direction in which a lattice is pressed: across its cells, in the plane, or along them.
 
-Along the cells the drawing is extruded to `lattice.depth`, which is then the height pressed, and
+Along the cells the drawing is extruded to `lattice.depth`, which is then the pressed height, and
 its walls are plates (`scene.plates`).
 """
 

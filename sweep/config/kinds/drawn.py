@@ -1,4 +1,4 @@
-"""A lattice of a user's own drawing, pressed as the built-in infills are."""
+"""A lattice from a user's own drawing, pressed as the built-in infills are."""
 
 from functools import lru_cache
 from math import inf, isclose, sqrt
@@ -17,11 +17,13 @@ from sweep.numbers import at_most
 DRAWN: Final = "drawn"
 DIGITS = 12  # decimals of a coordinate in m, so that equal drawings of all formats are equal
 
-SIZED = 1e-6  # relative error of a size of the drawing that a config states
+SIZED = 1e-6  # relative error of a stated size of the drawing
 
 
 def _sound(drawing: Drawing) -> Drawing:
-    """A drawing from its lower left corner, whose walls end at two of its joints; all are used."""
+    """A drawing moved to its lower left corner, whose walls each end at two of its joints; all are
+    used.
+    """
     used = {joint for wall in drawing.walls for joint in wall}
     apart = all(a != b for a, b in drawing.walls)
     even = len(drawing.shares) in (0, len(drawing.walls)) and all(s > 0.0 for s in drawing.shares)
@@ -35,8 +37,9 @@ def _sound(drawing: Drawing) -> Drawing:
 class Drawn(WallLattice):
     """The walls in a `file`, which meet where they cross and are in one piece.
 
-    file_unit: length of one unit of the file, in place of the one that it states. `mass` sets the
-    wall thickness, the mean of all walls weighted by length. Box and joints follow from the file.
+    file_unit: length of one unit of the file, which replaces the unit that it states. `mass` sets
+    the wall thickness, the mean of all walls weighted by length. Box and joints follow from the
+    file.
     """
 
     because: ClassVar[str] = f'lattice.kind is "{DRAWN}"'
@@ -86,14 +89,14 @@ class Drawn(WallLattice):
 
     @classmethod
     def idle(cls, inputs: Inputs) -> dict[str, str]:
-        """The keys of cells."""
+        """The keys of cells, which have no meaning here."""
         own = {**cls.neutral, **cls.constants}
         others = (key for key in inputs if key not in cls.model_fields)
         return {key: cls.because for key in others if own.get(key) != inputs[key]}
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
-        """Refuse a file that is no drawing; else what a reader leaves out of it."""
+        """Refuse a file that is no drawing; else return notes on parts that are left out."""
         from sweep.config.drawings.drawing_file import read_drawing
 
         return list(read_drawing(path).lines.notes)
@@ -130,7 +133,9 @@ class Drawn(WallLattice):
 
     @property
     def cells_x(self) -> int:
-        """About how many cells there are across: those of a square grid of as many cells."""
+        """About how many cells there are across, as in a square grid with the same number of
+        cells.
+        """
         return max(1, round(self.width / self._cell))
 
     @property
@@ -155,7 +160,7 @@ class Drawn(WallLattice):
 
 
 def _check_sides(lattice: Drawn, inputs: Inputs) -> None:
-    """Refuse sizes that are not those of the drawing."""
+    """Refuse sizes that differ from the drawing."""
     refused = [
         RefusedError(
             f"lattice.{key}",

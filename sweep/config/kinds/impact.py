@@ -27,19 +27,19 @@ from sweep.constants import STANDARD_GRAVITY
 
 DROP: Final = "drop"  # `mode` of an impact with gravity
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
-STEPS_OF_CONTACT = 20  # time steps in which a solid block would throw a striker back
+STEPS_OF_CONTACT = 20  # time steps in which a solid block would return a striker
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
 class Impact(Struck):
     """A rigid striker of `striker_mass` that hits the lattice at `striker_speed`.
 
-    `drop_height` and `preset` (`drop_tests`) are other words for its speed and mass, `specimens`
-    for the share of the mass of the preset that one specimen bears. `filter_class`: of the filter
-    behind which its deceleration is measured (SAE J211-1); 1000 as of a head form in drop tests
-    (ASTM F1292). `gravity`: whether its weight acts after the first touch too, by default in drops:
-    with `mode` "drop", `drop_height` or `preset`. `target_mass`: of the base, a rigid body that
-    moves freely away from the hit, and falls like the striker; None: the base is fixed.
+    `drop_height` and `preset` (`drop_tests`) are other ways to give its speed and mass, `specimens`
+    sets the share of the mass of the preset that one specimen bears. `filter_class`: class of the
+    filter behind which its deceleration is measured (SAE J211-1); 1000 as for a head form in drop
+    tests (ASTM F1292). `gravity`: whether its weight acts after the first touch too, by default in
+    drops: with `mode` "drop", `drop_height` or `preset`. `target_mass`: mass of the base, a rigid
+    body that moves freely away from the hit, and falls like the striker; None: the base is fixed.
     """
 
     because: ClassVar[str] = 'loading.mode is "impact"'
@@ -100,15 +100,15 @@ class Impact(Struck):
         return 2.0 * height / self.striker_speed
 
     def usual_step(self, body: Body, modulus: float) -> float:
-        """Time step (s) of a motion, if none is given, of no more than `MAX_STEPS`."""
+        """Time step (s) of a motion if none is given, for at most `MAX_STEPS` steps."""
         return max(self.contact_step(body, modulus), self.duration / MAX_STEPS)
 
     def contact_step(self, body: Body, modulus: float) -> float:
-        """A share of the contact, s; modulus: of the material, Pa.
+        """A share of the duration of contact, s; modulus: of the material, Pa.
 
         A fast striker is stopped within the height of the lattice, in which its weight speeds it
-        up. A slow one is thrown back as by a spring of compliance c, after pi sqrt(m c) whatever
-        its speed, with the reduced mass m; for a solid block, this time is a lower bound.
+        up. A slow one rebounds as from a spring of compliance c, after pi sqrt(m c) whatever its
+        speed, with the reduced mass m; for a solid block, this time is a lower bound.
         """
         passage = body.height / self.greatest_speed(body.height) / STEPS_OF_PASSAGE
         contact = pi * sqrt(self.reduced_mass * body.compliance(modulus)) / STEPS_OF_CONTACT
@@ -116,7 +116,7 @@ class Impact(Struck):
 
     @property
     def approach(self) -> float:
-        """Speed with which walls are pressed, m/s."""
+        """Speed with which walls are pressed together, m/s."""
         return self.striker_speed
 
     @property
@@ -139,7 +139,7 @@ class Impact(Struck):
     def relative_energy(self) -> float:
         """Kinetic energy of striker and base in the frame of their centre of mass, J.
 
-        What the lattice can absorb; the rest stays in the common motion.
+        It is the energy that the lattice can absorb; the rest stays in the common motion.
         """
         return self.energy * self.reduced_mass / self.striker_mass
 
@@ -161,12 +161,12 @@ class Impact(Struck):
 
 
 def is_drop(inputs: Inputs) -> bool:
-    """Whether these values of an impact speak of a fall."""
+    """Whether these values of an impact describe a fall."""
     return inputs.get("mode") == DROP or "drop_height" in inputs or "preset" in inputs
 
 
 def _check_target(inputs: Inputs) -> None:
-    """Refuse what a target that moves freely does not have: gravity, and walls along the hit."""
+    """Refuse settings that a freely moving target excludes: gravity, and walls along the hit."""
     free = "if loading.target_mass is given"
     if inputs.get("gravity"):
         allowed = f"false {free}, as a target that moves freely falls like the striker"
@@ -176,7 +176,7 @@ def _check_target(inputs: Inputs) -> None:
 
 
 def _dropped(inputs: Inputs) -> tuple[float, float | None]:
-    """Mass of the striker and height of its fall, of the preset where it says them."""
+    """Mass of the striker and height of its fall, from the preset if it states them."""
     mass, height, count = (inputs.get(key) for key in ("striker_mass", "drop_height", "specimens"))
     preset = inputs.get("preset")
     drop = drop_of(preset) if preset else Drop(None, height or 0.0)
@@ -198,7 +198,7 @@ def _dropped(inputs: Inputs) -> tuple[float, float | None]:
 def _at_touch(inputs: Inputs, mass: float, drop_height: float | None) -> tuple[float, float, float]:
     """Speed and energy of a striker and the height of its fall, from one of them: v^2 = 2 g h.
 
-    2 m/s if none is given.
+    The speed is 2 m/s if none is given.
     """
     speed = inputs.get("striker_speed", 2.0)
     if "striker_speed" not in inputs and drop_height is not None:

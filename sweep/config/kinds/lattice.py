@@ -1,4 +1,4 @@
-"""The kinds of lattice, and which of them values mean."""
+"""The kinds of lattice, and the choice of the kind from given values."""
 
 from typing import Annotated, Any, TypeAlias, get_args
 
@@ -22,7 +22,7 @@ WORDS = tuple(word for kind in KINDS for word in kind.words)
 
 
 def _tag(value: Any) -> str:
-    """The kind of a lattice or of all of its values, by their keys."""
+    """The kind of a lattice, or of its values by their keys."""
     keys = {*value} if isinstance(value, dict) else {*getattr(value, "__dict__", {})}
     return min(KINDS, key=lambda kind: len(kind.model_fields.keys() ^ keys)).__name__
 
@@ -67,8 +67,8 @@ def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
 
 
 def _across(lattice: Lattice) -> Lattice:
-    """The lattice without what only a crush along the cells uses.
+    """The lattice without values that only a crush along the cells uses.
 
-    It is one of perhaps very many: all share the set of their keys.
+    A sweep may have very many such lattices, so all share one set of keys.
     """
     return type(lattice).model_construct(keys_of(type(lattice)), **(dict(lattice) | lattice.across))

@@ -1,4 +1,4 @@
-"""The kinds of loading, and which of them a config means."""
+"""The kinds of loading, and the choice of the kind from a config."""
 
 from typing import Annotated, TypeAlias, get_args
 
@@ -38,8 +38,8 @@ def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes:
 
 
 def _mode_of(inputs: Inputs, shells: bool) -> str:
-    """The mode, which keys that only one mode has imply if it is not given; else a dead load, and
-    of shells a crush.
+    """The mode; if it is not given, keys that only one mode has imply it; else a dead load, for
+    shells a crush.
     """
     if "mode" in inputs:
         for kind in KINDS:
@@ -71,7 +71,9 @@ def _implied(inputs: Inputs) -> dict[str, str]:
 
 
 def _check(inputs: Inputs, mode: str, body: Body, integrator: str | None) -> None:
-    """Refuse a mode, an integrator or platens that the lattice or the direction does not have."""
+    """Refuse a mode, an integrator or platens that are not available for the lattice or the
+    direction.
+    """
     shells, since = body.shells, _implied(inputs).get(mode)
     because = f"loading.{since}" if since else None
     if shells and mode not in ("displacement", "impact"):

@@ -1,4 +1,4 @@
-"""The material: a named record or numbers, and what follows from them."""
+"""The material: a named record or numbers, and values that follow from them."""
 
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -41,14 +41,14 @@ Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bar
 Stretched = Annotated[
     float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
 ]
-IDLE_ALONG = ("plane", "poisson")  # keys of which plates take the default
+IDLE_ALONG = ("plane", "poisson")  # keys that have their defaults in plates
 SECTIONS = ("section", "fibres")  # `Material.bend` that integrates a law over the thickness
 
 
 def by_curve(stretch: str, bend: str) -> str | None:
-    """The key of a material that goes by the curve of its record, if any.
+    """The key of a material that uses the curve of its record, if any.
 
-    Sections follow the law of stretching, or the curve where that law is linear.
+    Sections follow the law of stretching, or the curve if that law is linear.
     """
     if stretch == "nonlinear":
         return "stretch"
@@ -60,20 +60,21 @@ class Material(Table):
 
     It relaxes if it has a `loss`, the share of the work that is lost in a cycle of loading and
     unloading, or branches: shares of the instantaneous stress, each with the time in which it
-    relaxes. The curve, or the modulus, then holds at `reference_time` after loading. It softens on
-    reuse if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh. It yields, instead of
-    following a curve, if it has a `yield_stress`; `hardening` is its slope beyond that over plastic
-    strain. A fibre that is stretched beyond `fracture_strain` counts as broken.
+    relaxes. The curve, or the modulus, is then valid at `reference_time` after loading. It softens
+    on reloading if it has the numbers r, m (J/m^3) and beta of Ogden and Roxburgh. It yields,
+    instead of following a curve, if it has a `yield_stress`; `hardening` is its slope beyond the
+    yield stress over plastic strain. A fibre that is stretched beyond `fracture_strain` counts as
+    broken.
 
-    memory "measured": loss and softening are those that the record states, unless they are given.
+    memory "measured": loss and softening are taken from the record, unless they are given.
 
-    `bend` "fibres" is "section" with `fibres` points through the thickness in place of five.
+    `bend` "fibres" is "section" with `fibres` points through the thickness instead of five.
 
     `curve_strain`, `curve_stress` (k,) in Pa hold the record itself, so that a case needs no file.
     They are empty if neither stretching nor bending uses the curve. `uncertain`: key, low and high
     end of each number that is the record's and has a range there; and "compression" or "tension",
-    if the record does not measure it, with the share of the rule of Cauchy stress
-    (`sweep.scene.material`) that makes it soft, and that which makes it stiff.
+    if the record does not measure it, with the shares of the rule of Cauchy stress
+    (`sweep.scene.material`) that make it soft and stiff.
     """
 
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
@@ -122,7 +123,7 @@ class Material(Table):
 
     @property
     def inelasticity(self) -> str:
-        """What the walls do that springs do not: "relaxes, softens" and the like, or "none"."""
+        """Inelastic behaviour of the walls in words: "relaxes, softens" and the like, or "none"."""
         softens = self.softening_r is not None
         words = {"relaxes": self.relaxes, "softens": softens, "yields": self.yields}
         return ", ".join(word for word, true in words.items() if true) or "none"
@@ -134,14 +135,14 @@ class Material(Table):
 
     @property
     def through_fibres(self) -> bool:
-        """Whether bending goes by fibres through the thickness."""
+        """Whether bending is integrated over fibres through the thickness."""
         return self.bend in SECTIONS
 
 
 def material(values: Inputs | Pairs, where: str = "") -> Material:
     """The material of these values; where: why its walls are plates, in words, if they are.
 
-    `RecordError` if the file of a named one cannot be read.
+    Raises `RecordError` if the file of a named material cannot be read.
     """
     inputs = dict(values)
     complete = "curve_strain" in inputs
@@ -166,7 +167,7 @@ def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
 
 
 def _completed(own: Inputs) -> dict[str, Any]:
-    """The values with those of the record, and the defaults that follow from both."""
+    """The values, completed by the record, and the defaults that follow from both."""
     by_numbers = "modulus" in own and "name" not in own
     record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
     inputs = _with_memory(dict(own), record)
@@ -193,7 +194,7 @@ def _by_numbers(inputs: dict[str, Any]) -> dict[str, Any]:
 
 
 def _with_law(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The values with the law of bending; that of a linear material is linear."""
+    """The values with the law of bending, which is linear for a linear material."""
     linear = inputs.get("stretch", "nonlinear") == "linear"
     return {"bend": "linear", **inputs} if linear else inputs
 
@@ -230,7 +231,7 @@ def _check_softening(material: Material) -> None:
 
 
 def _check_law(material: Material) -> None:
-    """Refuse a law of stretching or bending without its curve, or beside another law."""
+    """Refuse a law of stretching or bending without its curve, or together with another law."""
     used = by_curve(material.stretch, material.bend)
     if material.yields:
         _check_plasticity(material)
@@ -253,7 +254,7 @@ def _check_that_it_rises(material: Material) -> None:
 
 
 def _check_plasticity(material: Material) -> None:
-    """Refuse a plastic material with other laws beside."""
+    """Refuse a plastic material with other laws."""
     if material.stretch != "linear":
         raise RefusedError(
             "material.stretch", material.stretch, '"linear" if yield_stress is given'
@@ -287,7 +288,7 @@ def _of_plates(material: Material, where: str) -> Material:
 
 
 def _with_memory(inputs: dict[str, Any], record: Record | None) -> dict[str, Any]:
-    """The given keys with the loss and softening of the record, where they are asked for."""
+    """The given keys with the loss and softening of the record, if they are requested."""
     if inputs.get("memory") != "measured":
         return inputs
     if record is None:
@@ -304,7 +305,7 @@ def _with_memory(inputs: dict[str, Any], record: Record | None) -> dict[str, Any
 def _uncertain(
     record: Record, own: Inputs, values: dict[str, Any]
 ) -> tuple[tuple[str, float, float], ...]:
-    """The ranges of the record's numbers that a material uses, without those that it is given, and
+    """The ranges of the record's numbers that a material uses, except numbers that are given, and
     of the branch of its curve that is not measured.
     """
     used = [key for key in record.ranges if key not in own]

@@ -32,7 +32,9 @@ class OfFile(Directed):
 
     @classmethod
     def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Self:
-        """The loading of a structure; what is at rest only with inertia is refused in statics."""
+        """The loading of a structure; a structure that is at rest only with inertia is refused in
+        statics.
+        """
         structure, still = body.structure, integrator in ("static", ARCS)
         assert structure is not None
         quasi_static = still or bool(inputs.get("quasi_static"))

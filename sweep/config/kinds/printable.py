@@ -6,19 +6,21 @@ from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import RefusedError
 from sweep.constants import TO_MM
 
-TOLERANCE = 0.05  # of a line: how far a wall may be from a whole number of them
+TOLERANCE = 0.05  # share of a line by which a wall may deviate from a whole number of lines
 ROUND_OFF = 1e-9
 
 
 def check_printable(lattice: Specimen) -> None:
-    """Refuse what does not print if the lattice is to be `printable`."""
+    """Refuse walls and gaps that do not print if the lattice must be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:
         raise RefusedError("lattice.printable", True, f"false, as it has {wrong}")
 
 
 def what_does_not_print(lattice: Specimen) -> str:
-    """Walls that are no whole number of lines, and gaps narrower than one, in words; else empty."""
+    """Walls that are no whole number of lines, and gaps narrower than a line, in words; else
+    empty.
+    """
     width, gap = lattice.line_printed, lattice.gap_printed
     walls = [thickness / width for thickness in lattice.walls_printed]
     uneven = [lines for lines in walls if abs(lines - max(1, round(lines))) > TOLERANCE]

@@ -19,23 +19,23 @@ from sweep.design.surfaces.names import BLOCK, SHEETS
 from sweep.numbers import at_least, at_most
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
-CELL_SIZE = 0.5  # of the height pressed: two periods
-THICKEST = 0.2  # of a period, about half of the clear width of a channel
+CELL_SIZE = 0.5  # share of the pressed height: two periods
+THICKEST = 0.2  # share of a period, about half of the clear width of a channel
 NARROW = "where walls are below a fifth of the period"
 S = TypeVar("S", bound="Surface")
-LEAST = 0.6  # of the period wanted
+LEAST = 0.6  # share of the wanted period
 MOST_NODES = 11  # 24 quads a period: finer than any study has needed
-MOST_QUADS = 20_000  # with six unknowns for each
+MOST_QUADS = 20_000  # each with six unknowns
 SIDES = ("width", "height", "depth")
-FINER = 1.7  # number of quads of a wall over that of as large a sheet: curves divide it
+FINER = 1.7  # quads of a wall / quads of a sheet of equal area: curves divide it
 
 
 class Surface(Specimen):
     """A periodic surface as a sheet, layers stacked along `depth`.
 
     A panel repeats without end along its sides: one period of it is computed, whose size does not
-    change. `period` (m) is that of the surface; the height pressed is a whole number of
-    `names.Cut.step` of it. The imperfection is drawn by its seed, 0 by default.
+    change. `period` (m): of the surface; the pressed height is a whole number of steps of
+    `names.Cut.step` periods. The imperfection is drawn by its seed, 0 by default.
     """
 
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
@@ -49,7 +49,7 @@ class Surface(Specimen):
     nodes_per_wall: Nodes = QUADS
 
     def inputs(self) -> dict[str, Any]:
-        """The values from which this follows: of height and depth the one pressed."""
+        """The values from which this follows: of height and depth only the pressed one."""
         lateral = "height" if self.pressed == ALONG else "depth"
         return {key: value for key, value in super().inputs().items() if key != lateral}
 
@@ -75,7 +75,7 @@ class Surface(Specimen):
 
     @property
     def sides(self) -> str:
-        """What its sides are, as the key of other lattices says it."""
+        """How its sides are tied, in the values of the key of other lattices."""
         return "periodic" if self.tied_sides else "free"
 
     def why_idle(self, key: str) -> str:
@@ -88,7 +88,7 @@ class Surface(Specimen):
 
     @property
     def pressed_height(self) -> float:
-        """The height that is pressed, m."""
+        """The pressed height, m."""
         return self.depth if self.pressed == ALONG else self.height
 
     @property
@@ -103,7 +103,7 @@ class Surface(Specimen):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Width and height over all, m."""
+        """Overall width and height, m."""
         return self.width + self.outline[0], self.height + self.outline[1]
 
     @property
@@ -120,7 +120,7 @@ class Surface(Specimen):
 
     @property
     def inside(self) -> float:
-        """Share of the box that is inside of perimeters."""
+        """Share of the box that is inside the perimeters."""
         (sides, caps), (width, height) = self.outline, (self.width, self.height)
         return (1.0 - sides / width) * (1.0 - caps / height)
 
@@ -155,7 +155,9 @@ class Surface(Specimen):
 
     @property
     def misfit(self) -> str:
-        """What a larger period mends: too many quads, or walls that are too thick; or nothing."""
+        """The fault that a larger period would correct: too many quads, or walls too thick; empty
+        if none.
+        """
         if self.elements > MOST_QUADS:
             return f"where the mesh has at most {MOST_QUADS:,} quads"
         return NARROW if self.wall_thickness >= THICKEST * self.period else ""
@@ -169,7 +171,7 @@ class Surface(Specimen):
 class Sheet(Surface):
     """A periodic minimal surface of one thickness.
 
-    `cell_size` is the period wanted; `mass`, that of what is computed, sets the wall thickness.
+    `cell_size` is the wanted period; `mass`, of the computed part, sets the wall thickness.
     """
 
     labels: ClassVar[tuple[str, ...]] = (*Specimen.labels, "cell_size")
@@ -208,7 +210,7 @@ class Sheet(Surface):
 
     @classmethod
     def sheet_clause(cls, inputs: Inputs) -> str:
-        """What makes walls of these values a sheet."""
+        """Why walls of these values are a sheet."""
         return f'lattice.kind is "{inputs["kind"]}"'
 
     def inputs(self) -> dict[str, Any]:
@@ -223,7 +225,9 @@ class Sheet(Surface):
 
 
 def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedError:
-    """The refusal of the period, at least this one (m), of the wall thickness, or of the mass."""
+    """The refusal of the period, of the wall thickness, or of the mass; least: the least period,
+    m.
+    """
     thick = {"mass", "wall_thickness"} & inputs.keys() and lattice.misfit == NARROW
     if "cell_size" in inputs and not thick and isfinite(least):
         allowed = f"at least {at_least(least)} m, {why}"
@@ -240,8 +244,8 @@ def widest(height: float, step: float) -> float:
 
 
 def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
-    """The least period wanted (m) of which `draft` makes a sheet without `misfit`, infinite if
-    there is none, and the misfit of lesser ones. made: one with a misfit; step: in periods.
+    """The least wanted period (m) for which `draft` makes a sheet without `misfit`, infinite if
+    there is none, and the misfit of smaller ones. made: a sheet with a misfit; step: in periods.
     """
     good, bad = 0, round(lattice.pressed_height / (step * lattice.period))  # steps
     why = lattice.misfit
@@ -253,7 +257,7 @@ def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[flo
 
 
 def pressed_height(inputs: Inputs, along: bool) -> float:
-    """The height that is pressed, m."""
+    """The pressed height, m."""
     key = "depth" if along else "height"
     height: float = inputs.get(key, Specimen.model_fields[key].default)
     return height
@@ -262,8 +266,8 @@ def pressed_height(inputs: Inputs, along: bool) -> float:
 def fitted(
     name: str, inputs: Inputs, along: bool, wanted: float, turned: bool = False
 ) -> dict[str, Any]:
-    """The sizes of a panel of the surface ``name`` with the period that fits its height, nearest to
-    the one ``wanted`` (m); turned: as of `Surface`.
+    """The sizes of a panel of the surface ``name``, with the period nearest to ``wanted`` (m) that
+    fits its height; turned: see `Surface`.
     """
     height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
     period = _period(height, cut.step, wanted)
@@ -278,7 +282,7 @@ def fitted(
 
 
 def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
-    """As `fitted`, of a block: all sides are whole numbers of `BLOCK` periods."""
+    """The sizes of a block, as in `fitted`; all sides are whole numbers of `BLOCK` periods."""
     height = pressed_height(inputs, along)
     period = _period(height, BLOCK, wanted)
     step = BLOCK * period
@@ -289,8 +293,8 @@ def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
 
 
 def _period(height: float, step: float, wanted: float) -> float:
-    """The period (m) nearest to the one ``wanted``, of which a height is a whole number of steps;
-    step: in periods.
+    """The period (m) nearest to ``wanted`` for which a height is a whole number of steps; step: in
+    periods.
     """
     return height / (step * max(round(height / (step * wanted)), 1))
 
@@ -298,7 +302,7 @@ def _period(height: float, step: float, wanted: float) -> float:
 def checked(lattice: S) -> S:
     """The sheet, if its mesh is neither too fine nor too coarse.
 
-    Keys of upright walls that it does not have are taken away.
+    Keys of upright walls that it does not have are dropped.
     """
     if not 1 <= lattice.nodes_per_wall <= MOST_NODES:
         allowed = f"1 to {MOST_NODES}, in half a period of a sheet"

@@ -51,7 +51,7 @@ ALONG_DEPTH = 0.0  # fill angle of lateral patterns, rad
 MOST_LINES = max(program.lines for program in PROGRAMS.values())  # side by side in a wall
 MASS_ERROR = 0.06  # of a drawing: filament of 1.75 mm, ± 0.05 mm, is as much heavier or lighter
 NEAR = 0.1  # shares tried instead of one that cannot be drawn
-SIZES = ("infill", "line_distance", "mass")  # one of which says how far apart the lines are
+SIZES = ("infill", "line_distance", "mass")  # keys, one of which sets how far apart the lines are
 UNKNOWN = {"infill": 0.5, "fill_distance": 1.0, "cells_x": 1, "cells_y": 1}  # until it is computed
 
 
@@ -63,7 +63,7 @@ class Sliced(WallLattice):
 
     `infill`, the `line_distance` of parallel walls, or the `mass` as extruded, sets
     `fill_distance`, and about how many cells fit. `fill_multiline`: number of lines in each wall.
-    line_width: of a line of mean thickness `line`, of which the `wall_thickness` is a multiple.
+    line_width: of a line with the mean thickness `line`; `wall_thickness` is a multiple of `line`.
     """
 
     because: ClassVar[str] = "lattice.slicer is given"
@@ -122,7 +122,9 @@ class Sliced(WallLattice):
         )
 
     def inputs(self) -> dict[str, Any]:
-        """The values from which this follows: not the share if it follows from another."""
+        """The values from which this follows, without the share if it follows from another
+        value.
+        """
         values, follows = super().inputs(), (self.mass, self.line_distance) != (None, None)
         return {k: v for k, v in values.items() if k != "infill"} if follows else values
 
@@ -151,18 +153,18 @@ class Sliced(WallLattice):
 
     @property
     def line(self) -> float:
-        """What one line fills, m."""
+        """Mean thickness of one line, m."""
         return line_of(self.slicer, self.line_width, self.layer_height)
 
     @property
     def lines(self) -> float:
-        """What the lines of one wall of the infill fill, side by side (m)."""
+        """Thickness of the lines of one wall of the infill, side by side (m)."""
         return self.fill_multiline * self.line
 
     @property
     def spread_line(self) -> float:
-        """What the lines fill that a share of infill counts for a wall (m): n times this over the
-        distance of parallel walls is the share.
+        """Mean thickness (m) of a wall as a share of infill counts it: the share is n times this
+        over the distance of parallel walls.
         """
         return spread_lines(self.slicer, self.fill_multiline) * self.line
 
@@ -182,12 +184,12 @@ class Sliced(WallLattice):
         return self.opening - (2.0 if self.printed_as.wall > 1.0 else 1.0) * self.lines
 
     def thicker(self, times: float) -> dict[str, Any]:
-        """What changes if wider lines are laid in the same places, perimeters as well."""
+        """The changes if wider lines are laid in the same places, including perimeters."""
         wider = self.line_width + (times - 1.0) * self.line
         return {"line_width": wider, "infill": times * self.infill}
 
     def check_standing(self, where: str) -> None:
-        """Refuse all, as lines cannot be pressed along the cells."""
+        """Refuse every lattice, as lines cannot be pressed along the cells."""
         raise RefusedError("lattice.slicer", self.slicer, f"none {where}: give kind and cells")
 
     @property
@@ -225,7 +227,7 @@ class Sliced(WallLattice):
 
 
 def line_width_of(inputs: Inputs) -> float:
-    """The width of a line (m): as given, or that of the slicer for the nozzle."""
+    """The width of a line (m): as given, or the slicer's default for the nozzle."""
     usual = PROGRAMS[inputs["slicer"]].nozzles * inputs.get("nozzle", NOZZLE)
     return float(inputs.get("line_width", usual))
 
@@ -237,7 +239,9 @@ def check_layer(layer: float, width: float) -> None:
 
 
 def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
-    """The share of infill, or that of the distance of lines, or of the mass; per_area: kg/m^2."""
+    """The share of infill, as given, or from the distance of lines, or from the mass; per_area:
+    kg/m^2.
+    """
     ways = [key for key in SIZES if inputs.get(key) is not None]
     if len(ways) > 1:
         allowed = f"none where lattice.{ways[0]} is given"
@@ -252,7 +256,7 @@ def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
 
 
 def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any]:
-    """What a share of infill sets; per_area: kg/m^2."""
+    """The values that a share of infill sets; per_area: kg/m^2."""
     most = _most_of(lattice)
     if share >= most * (1.0 - 1e-12):
         wide = "so that cells are twice as wide as their walls"
@@ -311,7 +315,7 @@ def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> Refuse
 
 
 def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
-    """The distance of lines of a share, and about how many cells fit."""
+    """The distance of lines at a share, and about how many cells fit."""
     distance = distance_of(lattice._pattern, share, lattice.spread_line)
     columns, rows = (max(1, round(size / distance)) for size in (lattice.width, lattice.height))
     if columns * rows > MAX_NODES:

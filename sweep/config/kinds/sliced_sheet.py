@@ -41,9 +41,9 @@ class SlicedSheet(Surface):
     """The infill "gyroid" or "tpmsd" of a slicer: of a panel, or of a block within `perimeters`.
 
     A line of mean thickness s, or several side by side, makes the sheet s |n_xy| thick, n its
-    normal, and at least as thick as a layer is high. `infill` is the share whose period fits the
-    height pressed, nearest to the one given. At a `fill_angle` of 45 degrees its axes lie along the
-    sides of the part, at 0 and 90 degrees between them.
+    normal, and at least as thick as a layer is high. `infill` is the share, nearest to the given
+    one, whose period fits the pressed height. At a `fill_angle` of 45 degrees its axes lie along
+    the sides of the part, at 0 and 90 degrees between them.
     """
 
     derived: ClassVar[tuple[str, ...]] = (*Surface.derived, "wall_thickness")
@@ -103,7 +103,7 @@ class SlicedSheet(Surface):
 
     @classmethod
     def sheet_clause(cls, inputs: Inputs) -> str:
-        """What makes walls of these values a sheet."""
+        """Why walls of these values are a sheet."""
         return f'lattice.pattern is "{inputs["pattern"]}"'
 
     @classmethod
@@ -113,7 +113,7 @@ class SlicedSheet(Surface):
         return {"sides": HELD} if clash else {}
 
     def inputs(self) -> dict[str, Any]:
-        """The values from which this follows: of a block all of its sides."""
+        """The values from which this follows, for a block including all of its sides."""
         sides = {} if self.tied_sides else {side: self.value(side) for side in SIDES}
         return super().inputs() | sides
 
@@ -126,7 +126,7 @@ class SlicedSheet(Surface):
 
     @property
     def tied_sides(self) -> bool:
-        """Whether its sides repeat: without perimeters."""
+        """Whether its sides repeat, as it has no perimeters."""
         return self.perimeters == 0
 
     @property
@@ -142,7 +142,7 @@ class SlicedSheet(Surface):
 
     @property
     def turned(self) -> bool:
-        """As of `Surface`."""
+        """See `Surface`."""
         return _is_turned(self.fill_angle, self.pressed == ALONG)
 
     @property
@@ -163,7 +163,7 @@ class SlicedSheet(Surface):
 
 
 def _pattern(inputs: Inputs) -> SheetPattern:
-    """The pattern of the slicer; refused is what it does not print."""
+    """The pattern of the slicer; refuses patterns that it does not print."""
     slicer, name = inputs["slicer"], inputs["pattern"]
     if slicer not in PROGRAMS:
         raise RefusedError("lattice.slicer", slicer, ", ".join(PROGRAMS))
@@ -186,7 +186,7 @@ def _is_turned(angle: float, along: bool) -> bool:
 
 
 def _angle(inputs: Inputs, pattern: SheetPattern, along: bool) -> float:
-    """The fill angle, rad; refused is one at which no period of the sheet fits the panel."""
+    """The fill angle, rad; refuses an angle at which no period of the sheet fits the panel."""
     angle: float = inputs.get("fill_angle", FILL_ANGLE)
     if not pattern.turns and not isclose(angle, FILL_ANGLE):
         allowed = f"none: waves of {inputs['slicer']} lie along the sides of the part"

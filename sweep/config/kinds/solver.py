@@ -1,4 +1,4 @@
-"""How the equations are solved: in time, quasi-statically, or along arcs of an equilibrium path."""
+"""The solution method: in time, quasi-statically, or along arcs of an equilibrium path."""
 
 from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
@@ -16,7 +16,7 @@ Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"
 
 
 class _Solver(Table):
-    """What all solvers have. joints: None along the cells. retry: `simulation.retries`."""
+    """The keys of all solvers. joints: None along the cells. retry: `simulation.retries`."""
 
     # Neither changes the results of a case that converges as it is.
     labels: ClassVar[tuple[str, ...]] = ("time_limit", "retry")
@@ -35,8 +35,8 @@ class _Solver(Table):
 class InTime(_Solver):
     """Steps of a motion. newmark: the trapezoidal rule.
 
-    `step_error`: error of a position allowed in a single step, which is a fraction of the time step
-    where needed. `load_steps`: of a platen that is driven, which set the time step.
+    `step_error`: allowed error of a position in a single step, which is a fraction of the time step
+    where needed. `load_steps`: of a driven platen, which set the time step.
     """
 
     because: ClassVar[str] = "solver.load_steps sets it"
@@ -50,8 +50,8 @@ class InTime(_Solver):
 class Static(_Solver):
     """Equilibria after steps of a load or a platen.
 
-    `accuracy`: error of the work that is allowed in a step, as a share of it; a step then spans up
-    to four of `load_steps` equal ones. Without it, steps are equal.
+    `accuracy`: allowed error of the work in a step, as a share of it; a step then spans up to four
+    of `load_steps` equal ones. Without it, steps are equal.
     """
 
     because: ClassVar[str] = "the crush is quasi-static"

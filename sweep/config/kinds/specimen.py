@@ -1,4 +1,4 @@
-"""What all specimens have: a box over centre lines, walls, a mesh and an imperfection."""
+"""The common part of all specimens: a box over centre lines, walls, a mesh and an imperfection."""
 
 from abc import abstractmethod
 from math import isclose, isnan
@@ -20,8 +20,8 @@ NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
 MAX_NODES = 50_000
 ENDLESS = 'if lattice.boundary is "periodic"'
 TIED = 'if lattice.sides is "periodic"'
-MOST_IMPERFECTION = 1.0  # of shells, in wall thicknesses
-MAX_ASPECT = 1000.0  # of the box; above it the computed areas lose their accuracy
+MOST_IMPERFECTION = 1.0  # largest imperfection of shells, in wall thicknesses
+MAX_ASPECT = 1000.0  # aspect ratio of the box above which the computed areas lose their accuracy
 
 Lines = Annotated[int, Field(ge=0, le=100)]
 Nodes = Annotated[int, Field(ge=0, le=1000)]
@@ -31,13 +31,13 @@ Imperfection = Annotated[float, Field(ge=0, le=100, json_schema_extra={"unit": "
 class Specimen(Table):
     """A specimen: its outer size over centre lines, and the mesh of its walls.
 
-    nozzle: width of a line where lines are not used otherwise. printable: what does not print is
-    refused. layers: quads up the height of a lattice that is pressed along its cells; None across
+    nozzle: width of a line if no line width is given. printable: refuse walls and gaps that do not
+    print. layers: quads up the height of a lattice that is pressed along its cells; None across
     them. symmetry "quarter": such a lattice is cut at its two mirror planes. imperfection_seed: of
     the shape of its imperfection; None: the shape in which equal walls buckle.
 
-    words: what `lattice.kind` may be. across: keys without effect where it is pressed across its
-    cells, with their values there. aperiodic: why no period of it is known, after its name.
+    words: allowed values of `lattice.kind`. across: keys without effect when it is pressed across
+    its cells, with their values there. aperiodic: why no period of it is known, after its name.
     """
 
     words: ClassVar[tuple[str, ...]] = ()
@@ -84,19 +84,19 @@ class Specimen(Table):
 
     @classmethod
     def idle(cls, inputs: Inputs) -> dict[str, str]:
-        """The given keys that this kind never has, each with the reason: told where it is refused,
-        so that no case says so.
+        """The given keys that this kind never has, each with the reason, for the message that
+        refuses it.
         """
         return {}
 
     @classmethod
     def sheet_clause(cls, inputs: Inputs) -> str:
-        """What makes walls of these values a sheet; empty if they are none."""
+        """Why walls of these values are a sheet; empty if they are none."""
         return ""
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
-        """Refuse a file that cannot be read; else sentences about what was read."""
+        """Refuse a file that cannot be read; else return sentences about its content."""
         return []
 
     @property
@@ -125,12 +125,12 @@ class Specimen(Table):
         return (self.value("nodes_per_wall") + 1,)
 
     def remeshed(self, pieces: tuple[int, ...]) -> dict[str, Any]:
-        """What changes with other numbers of `pieces`."""
+        """The changes for other numbers of `pieces`."""
         return {"nodes_per_wall": pieces[0] - 1}
 
     @property
     def wall_quads(self) -> Any:
-        """Number of quads along a whole wall that stands: (1,) for all walls, or (w,)."""
+        """Number of quads along a whole upright wall: (1,) for all walls, or (w,)."""
         return self.pieces
 
     def check_standing(self, where: str) -> None:
@@ -173,7 +173,7 @@ class Specimen(Table):
 
     @property
     def outer_size(self) -> tuple[float, float]:
-        """Width and height over all (m), with walls of mean thickness where there is no outline."""
+        """Overall width and height (m), with walls of mean thickness if there is no outline."""
         sides, caps = (outline or self.wall_thickness for outline in self.outline)
         return self.width + sides, self.height + caps
 
@@ -203,7 +203,7 @@ class WallLattice(Specimen):
         return self.opening - max(self.walls_printed)
 
     def thicker(self, times: float) -> dict[str, Any]:
-        """What changes if walls are laid so many `times` as thick in the same places."""
+        """The changes if walls are laid ``times`` as thick in the same places."""
         return {"wall_thickness": times * self.wall_thickness}
 
     @property
@@ -252,7 +252,7 @@ def check_proportion(specimen: Specimen) -> None:
 
 
 def check_size(specimen: WallLattice, inputs: Inputs, causes: tuple[str, ...]) -> None:
-    """Refuse a lattice of more than `MAX_NODES` nodes, by the greatest of the given keys."""
+    """Refuse a lattice of more than `MAX_NODES` nodes, and blame the greatest of the given keys."""
     joints, walls = specimen.counts
     nodes = joints + specimen.elements - walls
     if nodes > MAX_NODES:
@@ -269,7 +269,9 @@ def cause(specimen: Specimen, inputs: Inputs, keys: tuple[str, ...]) -> tuple[st
 
 
 def thickness_of(lattice: WallLattice, mass: float, inputs: Inputs, density: float) -> float:
-    """The wall thickness (m) of a mass (kg); refused if there is none, or another is given."""
+    """The wall thickness (m) for a mass (kg); refused if there is none, or if another one is
+    given.
+    """
     from sweep.design.sizing import thickness_for
 
     thickness, light, heavy = thickness_for(
@@ -283,14 +285,14 @@ def thickness_of(lattice: WallLattice, mass: float, inputs: Inputs, density: flo
 
 
 def check_thickness(thickness: float, inputs: Inputs) -> None:
-    """Refuse a wall thickness that is not the one (m) at the mass given."""
+    """Refuse a given wall thickness that differs from the one (m) for the given mass."""
     if not isclose(inputs.get("wall_thickness", thickness), thickness, rel_tol=1e-9):
         allowed = f"{thickness:.6g} m at the mass given; give one of them"
         raise RefusedError("lattice.wall_thickness", inputs["wall_thickness"], allowed)
 
 
 def check_imperfection(specimen: Specimen, where: str) -> None:
-    """Refuse a bow of shells that is no start of a buckle, but one itself."""
+    """Refuse an imperfection of shells so large that it is a buckle itself."""
     if specimen.imperfection > MOST_IMPERFECTION:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {where}"
         raise RefusedError("lattice.imperfection", specimen.imperfection, allowed)

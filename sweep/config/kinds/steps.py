@@ -18,7 +18,7 @@ from sweep.config.kinds.solver import (
 )
 from sweep.config.kinds.table import Inputs, Pairs, RefusedError, given_or, own_values
 
-BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # of a quasi-static crush without load_steps
+BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # for a quasi-static crush without load_steps
 BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
 ALONG = {"time_limit": 3600.0, "max_iterations": 300}  # where walls snap, 60 to 200 are common
 IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
@@ -31,9 +31,9 @@ def solver(
 
     A platen moves in `load_steps` equal steps, which set the time step of a crush in time; a
     quasi-static one moves in steps of an `accuracy` unless they are given. Along arcs, the default
-    arc length is the diagonal of the structure / `load_steps`. The default of
-    an impact is bdf2, whose error is a tenth of that of backward Euler with the same steps; with
-    contact by position it is backward Euler.
+    arc length is the diagonal of the structure / `load_steps`. The default integrator of an impact
+    is bdf2, whose error is a tenth of the error of backward Euler with the same steps; with contact
+    by position it is backward Euler.
     """
     settings = inputs = dict(values)
     if material.remembers and inputs.get("integrator") == ARCS:  # its unstable part is no motion
@@ -91,7 +91,8 @@ def _check_count(solver: Solver, loading: Loading, time_step: float | None) -> N
 
 
 def in_the_plane(solver: Solver, material: Material, loading: Loading, shells: bool) -> Solver:
-    """The solver of a lattice in the plane, with its joints; what its bending lacks is refused.
+    """The solver of a lattice in the plane, with its joints; refuses values that its bending does
+    not allow.
 
     Joints are solid for cubic elements of a lattice.
     """

@@ -1,8 +1,9 @@
-"""What presses a lattice, and what carries it: flat platens, or rigid profiles in their place.
+"""The striker or platen that presses a lattice, and the base that carries it: flat platens, or
+rigid profiles in their place.
 
 A striker that is not flat moves in y and acts on the whole depth of the lattice, as a line: in the
-plane a tooth is as long as the panel is deep. The lattice then stands on its base, which
-`loading.platen` is about.
+plane a tooth is as long as the panel is deep. The lattice then stands on its base, to which
+`loading.platen` refers.
 """
 
 from collections.abc import Iterator
@@ -23,7 +24,7 @@ Tip = Annotated[float, Field(ge=0, json_schema_extra={"unit": "m"})]
 Place = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1", "bare": True})]
 Radius = Annotated[float, Field(gt=0, le=10, json_schema_extra={"unit": "m"})]
 LEAST_ANGLE, MOST_ANGLE = pi / 18, 17 * pi / 18
-REACH = 4.0  # flanks are as long as the lattice is wide and high together, times this
+REACH = 4.0  # length of flanks / (width + height of the lattice)
 
 
 USUAL: dict[str, dict[str, float | None]] = {
@@ -33,7 +34,7 @@ USUAL: dict[str, dict[str, float | None]] = {
     "punch": {"striker_width": 10e-3, "striker_tip": 0.5e-3, "striker_at": 0.5},
     "ribs": {"base_span": None, "base_radius": 1e-3},
 }
-"""The kinds of strikers and bases, with their keys and usual numbers; None has to be given."""
+"""The kinds of strikers and bases, with their keys and usual numbers; None: no default."""
 UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
 SHAPED = ("striker", "base")
 _OF_KINDS = {key for keys in USUAL.values() for key in keys}
@@ -71,7 +72,7 @@ class Struck(Directed):
 
     @property
     def shape_columns(self) -> dict[str, str]:
-        """Striker and base in words, such as "round, 5 mm, at 50 %", of a results file."""
+        """Striker and base in words, such as "round, 5 mm, at 50 %", for a results file."""
         return {key: ", ".join(self._words(key)) for key in SHAPED}
 
     def _words(self, key: str) -> Iterator[str]:
@@ -116,7 +117,7 @@ def _numbers(key: str, inputs: Inputs) -> dict[str, float]:
 
 
 def struck(inputs: Inputs, width: float, unending: str) -> dict[str, Any]:
-    """These values of a loading, with those of the striker and the base complete.
+    """These values of a loading, with striker and base completed.
 
     Keys of other kinds of strikers are left out. width (m): of the lattice over centre lines.
     unending: the key that ties its sides, in words; empty if none does.

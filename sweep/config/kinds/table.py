@@ -1,4 +1,4 @@
-"""What the tables of a case have in common: types of values in SI, refusals, and canonical text."""
+"""The common part of all tables of a case: types of values in SI, refusals, and canonical text."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -18,7 +18,7 @@ Pairs = tuple[tuple[str, Any], ...]
 
 
 class Tables(TypedDict, total=False):
-    """The values of the tables of a case; None: its defaults."""
+    """The values of the tables of a case; None for the defaults of a table."""
 
     lattice: "Inputs | Table | None"
     material: "Inputs | Table | None"
@@ -63,11 +63,12 @@ class Table(BaseModel):
     """One table of a case, complete and in SI; its attributes are keys of the config.
 
     labels: keys that never enter an id. neutral: keys that enter it only with other values.
-    constants: what enters it beside the attributes. derived: attributes that follow from others.
+    constants: values that enter it in addition to the attributes. derived: attributes that follow
+    from others.
 
     sets: key -> the keys whose values follow from it, if it is given. replaces: key -> other keys
-    whose values a new one takes away. needs: key that may be left out -> why it is. fits: keys
-    whose values are the nearest that fit. because: why other keys have no effect.
+    whose values a new one drops. needs: key that may be left out -> the reason. fits: keys whose
+    values are the nearest that fit. because: why other keys have no effect.
     """
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
@@ -83,8 +84,8 @@ class Table(BaseModel):
 
     @classmethod
     def overridden_by(cls, key: str) -> set[str]:
-        """Keys that a new value of ``key`` overrides: those that it sets, those that set it, and
-        those that set one of the same.
+        """Keys that a new value of ``key`` overrides: keys that it sets, keys that set it, and keys
+        that set the same key.
         """
         own = {key, *cls.sets.get(key, ())}
         causes = {cause for cause, keys in cls.sets.items() if own & {cause, *keys}}
@@ -104,7 +105,7 @@ class Table(BaseModel):
         return self.needs.get(key, self.because)
 
     def implies(self, key: str, value: object) -> bool:
-        """Whether a value of a key that a kind need not have says what is so anyway."""
+        """Whether a value of a key that this kind does not have states what is the case anyway."""
         implied = {**self.neutral, **self.constants}
         return bool(implied.get(key, getattr(self, key, None)) == value)
 
@@ -138,7 +139,7 @@ def own_values(values: Inputs, model: type[Table]) -> dict[str, Any]:
 
 @cache
 def keys_of(model: type[BaseModel]) -> set[str]:
-    """The keys of a table or a case, one set for all of a kind: sets of their own take 1 kB."""
+    """The keys of a table or a case, one set for all of a kind: a set for each would take 1 kB."""
     return {*model.model_fields}
 
 

@@ -1,4 +1,4 @@
-"""A lattice that is pressed along its cells: numbers of quads, and what cannot stand upright."""
+"""A lattice that is pressed along its cells: numbers of quads, and refusals of unsuitable walls."""
 
 from typing import Any, TypeVar
 
@@ -9,7 +9,7 @@ from sweep.constants import TO_MM
 from sweep.numbers import at_least
 
 NODES = 5  # inside a wall: six quads across
-MOST_NODES = 20_000  # with six unknowns each
+MOST_NODES = 20_000  # each with six unknowns
 CAUSES = ("file", "cell_size", "infill", "cells_x", "cells_y", "nodes_per_wall", "layers", "depth")
 S = TypeVar("S", bound=Specimen)
 
@@ -55,7 +55,9 @@ def _check(lattice: Specimen) -> None:
 
 
 def _too_low(lattice: Specimen, thickest: float) -> RefusedError:
-    """The error of a height below that of one quad, the thickness of the thickest wall, m."""
+    """The error for a height below the height of one quad, the thickness of the thickest wall,
+    m.
+    """
     of_file = "depth" in lattice.derived
     least = f"{at_least(TO_MM * thickest)} mm" if of_file else f"{at_least(thickest)} m"
     allowed = f"at least the wall thickness, {least} here, {WHERE}"

@@ -1,3 +1,3 @@
-"""Files of materials: `material_file` reads the measured curve, `material_header` the numbers and
-sources in the comment lines above it.
+"""Reads files of materials: `material_file` the measured curve, `material_header` the numbers and
+sources in the comment lines above it; `plausibility` detects mistaken units.
 """

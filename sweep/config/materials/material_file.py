@@ -1,13 +1,13 @@
 """Material records: the tables in `configs/materials/`, which are in SI.
 
 A record is a csv file. Its comment lines hold the source and, one per line, `# key: value` for
-`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; `reference_time_s`, the time after
-loading for which the curve holds if the material relaxes; and the measured `loss`, `softening_r`,
-`softening_m_Pa` and `softening_beta`, which act where a config asks for them. Any of them may have
-a range, and most another unit (`material_header`). The columns `strain,stress_Pa` follow, or
-`strain_percent` and `stress_MPa` and the like
-(nominal, tension positive, strains increasing; the origin is implied and may be left out).
-Rows of negative strain, if there are any, are the material's own compression branch.
+`density_kg_m3`, `poisson` and, optionally, `modulus_Pa`; `reference_time_s`, the time after loading
+for which the curve holds if the material relaxes; and the measured `loss`, `softening_r`,
+`softening_m_Pa` and `softening_beta`, which are used if a config requests them. Any of them may
+have a range, and most may have another unit (`material_header`). The columns `strain,stress_Pa`
+follow, or `strain_percent` and `stress_MPa` and the like (nominal, tension positive, strains
+increasing; the origin is implied and may be left out). Rows of negative strain, if there are any,
+are the material's own compression branch.
 
 A plastic that yields has `yield_stress_Pa` instead of columns, a `modulus_Pa`, and optionally
 `hardening_Pa` and `fracture_strain`.
@@ -39,10 +39,10 @@ Numbers = tuple[float, ...]
 FOLDER = Path(__file__).parents[3] / "configs" / "materials"
 STRAINS = with_units("strain", STRAIN_UNITS)
 STRESSES = with_units("stress", STRESS_UNITS)
-STRETCH = "stretch"  # a head in place of the strain: 1 + strain
+STRETCH = "stretch"  # a head instead of the strain: 1 + strain
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
-REFERENCE_TIME = 1.0  # s; of a record that states none
-SECANT = (0.01, 0.04)  # strains of the secant that is the modulus of a curve
+REFERENCE_TIME = 1.0  # s; for a record that states none
+SECANT = (0.01, 0.04)  # strains of the secant that defines the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
 PLASTICITY = ("yield_stress", "hardening", "fracture_strain")
 LIMITS = {
@@ -52,7 +52,7 @@ LIMITS = {
     "softening_r": (1.0, inf, "above 1"),
 }
 """Numbers of a header and both ends of their ranges: above, at most, in words."""
-RANGE_ALONE = ("modulus", "friction")  # of which a range may be stated without a number
+RANGE_ALONE = ("modulus", "friction")  # numbers for which a range may be stated alone
 
 
 class RecordError(MisfitError):
@@ -68,8 +68,8 @@ class Record:
     """One material: nominal strain (k,), nominal stress (k,) in Pa, and its numbers in SI.
 
     memory: measured loss and softening, by the keys of a case. plasticity: numbers of a material
-    that yields, which has no curve; else empty. ranges: low and high end of every
-    number that has a range, by the same keys. comments: the text of the header.
+    that yields, which has no curve; else empty. ranges: low and high end of every number that has a
+    range, by the same keys. comments: the text of the header.
     """
 
     name: str
@@ -86,7 +86,7 @@ class Record:
 
     @property
     def derived(self) -> Literal["compression", "tension"] | None:
-        """The branch of the curve that is no measurement: which the file does not have, or calls an
+        """The branch of the curve that is not measured: the file does not have it, or calls it an
         assumption.
         """
         if self.strain and self.strain[0] >= 0.0:
@@ -250,8 +250,9 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
 def not_rising(strain: Numbers, stress: Numbers) -> float | None:
     """The first strain from which the stress of a curve does not rise; None if it rises throughout.
 
-    Beyond its ends a curve goes on as a shape-preserving cubic ends: level, if its last secant is
-    so much flatter than the one before that a parabola through the last three points would fall.
+    Beyond its ends a curve continues with the end slope of a shape-preserving cubic: level, if its
+    last secant is so much flatter than the previous one that a parabola through the last three
+    points would fall.
     """
     pairs = list(zip(strain, stress, strict=True))
     below = [(e, s) for e, s in pairs if e < 0.0]

@@ -3,11 +3,11 @@
     # poisson: 0.48
     # poisson: 0.48 (0.45 .. 0.48)       and the range in which it may lie
     # modulus_Pa: 67e6 +- 6e6            the same, for a range around the number
-    # modulus_Pa: 19e6 .. 27e6           a range alone; the number is that of the curve
+    # modulus_Pa: 19e6 .. 27e6           a range alone; the number follows from the curve
     # density_g_cm3: 1.21                in another unit, which the key names
     # Density [A]: of another grade.     a comment; [Q] quoted, [D] derived, [A] assumed
 
-A comment goes on in the next line if that begins with "#  ".
+A comment continues in the next line if that begins with "#  ".
 """
 
 import re
@@ -117,11 +117,11 @@ def comments(lines: list[str]) -> tuple[str, ...]:
 
 
 def source(texts: tuple[str, ...]) -> str:
-    """The source in a few words: what the comment "Source:" says up to its first colon."""
+    """The source in a few words: the comment "Source:" up to its first colon."""
     stated_source = next((text for text in texts if text.startswith("Source:")), "")
     return stated_source.removeprefix("Source:").split(":")[0].strip()
 
 
 def assumed(texts: tuple[str, ...]) -> tuple[str, ...]:
-    """What the comments call an assumption, such as "Poisson's ratio"."""
+    """The quantities that the comments call an assumption, such as "Poisson's ratio"."""
     return tuple(match[1].strip() for text in texts for match in _ASSUMED.finditer(text))

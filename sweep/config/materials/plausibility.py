@@ -1,8 +1,9 @@
-"""What no printed material has, and what was probably meant: one check for curves, configs, fits.
+"""Finds implausible numbers of a material, and the unit that was probably meant: one check for
+curves, configs and fits.
 
-A unit that was mistaken changes a number by a power of ten, without a fault that a simulation would
-show: a modulus of 19 Pa is one of 19 MPa, a density of 1.2 kg/m3 one of 1.2 g/cm3, a strain of 15
-one of 15 %. The ranges are wide: from gels to steel, from foamed filament to tungsten.
+A mistaken unit changes a number by a power of ten, without a fault that a simulation would show: a
+modulus of 19 Pa is one of 19 MPa, a density of 1.2 kg/m3 one of 1.2 g/cm3, a strain of 15 one of 15
+%. The ranges are wide: from gels to steel, from foamed filament to tungsten.
 """
 
 from collections.abc import Sequence
@@ -10,10 +11,10 @@ from typing import NamedTuple
 
 
 class Range(NamedTuple):
-    """What is printed, from low to high in SI, and in words.
+    """The range of printed materials, from low to high in SI, and in words.
 
-    units: other units that may be meant, with their sizes in SI. usual: among these numbers one is
-    sought that may be meant.
+    units: other units that may be meant, with their sizes in SI. usual: range in which a number in
+    another unit is sought.
     """
 
     low: float
@@ -32,7 +33,7 @@ RANGES = {
 }
 """By the key of a material; curve_modulus: slope of a curve, whose unit only a head states."""
 MOST_STRAIN = 10.0  # printed TPU breaks at 5 to 8
-FIRST_STRAIN = 0.5  # greatest first strain of a curve: its modulus is that at some percent
+FIRST_STRAIN = 0.5  # greatest first strain of a curve: its modulus is taken at some percent
 
 
 def suspicion(key: str, value: float) -> str | None:

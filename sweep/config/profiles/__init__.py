@@ -1,1 +1,3 @@
-"""Profiles of slicers: the file, its settings, and what they mean for a lattice."""
+"""Reads profiles of slicers: `settings` reads the file, `profile` translates it into keys of a
+lattice.
+"""

@@ -1,9 +1,9 @@
-"""What a slicer's profile says of a lattice, as keys of a config with their units.
+"""Translates a slicer's profile into keys of [lattice], with their units.
 
 Widths, as the slicers' sources compute them (libslic3r, Flow.cpp): 0 means the width for all lines,
-and if that is 0 too, 1.125 nozzles; a percentage is one of the layer height in PrusaSlicer, of the
-nozzle in SuperSlicer, OrcaSlicer and Bambu Studio. (The newest PrusaSlicer takes the nozzle and the
-layer height together where both are 0.)
+and if that is 0 too, 1.125 nozzles; a percentage refers to the layer height in PrusaSlicer, to the
+nozzle in SuperSlicer, OrcaSlicer and Bambu Studio. (If both are 0, the newest PrusaSlicer uses the
+nozzle and the layer height together.)
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -54,8 +54,8 @@ ORCA = Names(
     "fill_multiline",
 )
 NOZZLES = "nozzle_diameter"
-LONGEST = 60  # characters of a value that is told
-SPACING = "infill_extrusion_spacing"  # of SuperSlicer, in place of the width
+LONGEST = 60  # most characters of a value in a sentence
+SPACING = "infill_extrusion_spacing"  # SuperSlicer's key, in place of the width
 LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
     "prusa": {
         "infill_every_layers": ("1",),
@@ -100,8 +100,8 @@ WALL_WIDTHS = ("perimeter_extrusion_width", "external_perimeter_extrusion_width"
 
 
 class Profile(NamedTuple):
-    """A profile. values: keys of [lattice], as a config writes them. notes: sentences about what
-    was taken over, what was not stated, and what was left out.
+    """A profile. values: keys of [lattice], as a config writes them. notes: sentences about
+    settings that were adopted, missing or left out.
     """
 
     values: dict[str, Any]
@@ -167,7 +167,7 @@ class _Translation:
 
     @property
     def automatic(self) -> bool:
-        """Whether the width of lines is said to be what the slicer takes."""
+        """Whether the profile leaves the width of lines to the slicer."""
         said = [self._said(name) for name in self.names.widths]
         return any(said) and all(text in ("", "0") for text in said)
 
@@ -202,7 +202,7 @@ class _Translation:
             return None
 
     def _width(self, own: str, usual: str, nozzle: float, layer: float) -> float | None:
-        """The width of a line, m; None if nothing is said of it."""
+        """The width of a line, m; None if it is not stated."""
         of = layer if self.settings.program == "prusa" else nozzle
         for name in (own, usual):
             if (width := self._read(name, lambda text: _width_of(text, of))) and width > 0.0:
@@ -210,7 +210,7 @@ class _Translation:
         return WIDTH_PER_NOZZLE * nozzle if self.automatic else None
 
     def _spacing(self, nozzle: float) -> float | None:
-        """The distance of lines that fill all, of which SuperSlicer has one of the two."""
+        """The distance of lines at full infill, one of SuperSlicer's two ways to give the width."""
         if self._said(self.names.widths[0]) not in ("", "0"):
             return None
         spacing = self._read(SPACING, lambda text: _width_of(text, nozzle))
@@ -226,7 +226,7 @@ def _number(text: str) -> float:
 
 
 def _length(text: str) -> float:
-    """A length above 0 in m, of millimetres."""
+    """A length above 0 in m, from millimetres."""
     number = _number(text)
     if number <= 0.0:
         raise ValueError(text)
@@ -242,19 +242,21 @@ def _count(text: str) -> int:
 
 
 def _percentage(text: str) -> float:
-    """Per cent: of "15%", and of "15", as JSON may have it; of "0.15" of an old Slic3r too."""
+    """A number in per cent: from "15%", and from "15", as JSON may have it; from "0.15" of an old
+    Slic3r too.
+    """
     number = _number(text.removesuffix("%"))
     return in_unit(number, "%") if "%" not in text and 0.0 < number < 1.0 else number
 
 
 def _width_of(text: str, of: float) -> float:
-    """A width in m, of millimetres, or of per cent of another (m)."""
+    """A width in m, from millimetres, or from per cent of another width (m)."""
     number = _number(text.removesuffix("%"))
     return to_si(number, "%") * of if text.endswith("%") else to_si(number, "mm")
 
 
 def _quantity(value: float | None, unit: str) -> str | None:
-    """A number as a config writes it; lengths are in m, others as they are."""
+    """A number as a config writes it; lengths are converted from m, others unchanged."""
     if value is None:
         return None
     return f"{in_unit(value, unit) if unit == 'mm' else value:.10g} {unit}"

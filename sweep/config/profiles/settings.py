@@ -1,9 +1,9 @@
 """The settings of a slicer's profile by their names in that slicer, as text.
 
-Read are the .ini of PrusaSlicer and SuperSlicer, flat or a bundle of several presets, the .json of
-OrcaSlicer and Bambu Studio, and the project inside a .3mf of either. Profiles come from anywhere:
-only so many bytes are unpacked, no path of an archive is used, and a parent is looked for by its
-bare name, beside the profile alone.
+It reads the .ini of PrusaSlicer and SuperSlicer, flat or a bundle of several presets, the .json of
+OrcaSlicer and Bambu Studio, and the project inside a .3mf of either. Profiles may come from
+anywhere: a limited number of bytes is unpacked, no path of an archive is used, and a parent is
+looked for only by its bare name, in the folder of the profile.
 """
 
 import json
@@ -21,7 +21,7 @@ NEEDED = (
     "a profile: .ini of PrusaSlicer or SuperSlicer, .json of OrcaSlicer or Bambu Studio, or a .3mf "
     "project of these"
 )
-MOST_BYTES = 8_000_000  # of the settings of a project; those of one printer take 100 kB
+MOST_BYTES = 8_000_000  # most bytes of the settings of a project; one printer takes 100 kB
 MOST_ARCHIVE = 512_000_000  # bytes of a .3mf
 MOST_ENTRIES = 100_000
 INSIDE = {
@@ -31,7 +31,7 @@ INSIDE = {
 }
 """Where OrcaSlicer and Bambu Studio, PrusaSlicer and SuperSlicer keep the settings of a project."""
 OF_SUPERSLICER = {"infill_extrusion_spacing", "infill_dense", "fill_smooth_width"}
-GENERATIONS = 12  # of parents
+GENERATIONS = 12  # most generations of parents
 BROKEN = (zipfile.BadZipFile, zlib.error, RuntimeError, OSError, EOFError, ValueError, LookupError)
 OF_CURA = (
     'of Cura, most of whose values are formulas of the program; write slicer = "cura" with '
@@ -43,8 +43,8 @@ CHOOSE = "name one behind a #, as in profile.ini#NAME, or export it alone (File 
 class Settings(NamedTuple):
     """Settings by their names. program: "prusa", "superslicer" or "orca".
 
-    missing: the name of a parent that is not there, from which others would follow; or empty.
-    project: whether they are of a project, whose objects may have others.
+    missing: the name of a missing parent, which would set others; or empty. project: whether they
+    belong to a project, whose objects may have others.
     """
 
     program: str
@@ -54,8 +54,8 @@ class Settings(NamedTuple):
 
 
 def read_settings(path: Path, preset: str = "") -> Settings:
-    """The settings of a profile; preset: which print profile of a bundle. `MisfitError` says what
-    is wrong with a file.
+    """The settings of a profile; preset: which print profile of a bundle. Raises `MisfitError` with
+    the fault of a file.
     """
     if _is_archive(path):
         name, text = _of_project(path)
@@ -72,7 +72,7 @@ def read_settings(path: Path, preset: str = "") -> Settings:
 
 
 def _is_archive(path: Path) -> bool:
-    """Whether a file is a ZIP, as a .3mf is; other files are read as text, or refused as that."""
+    """Whether a file is a ZIP, as a .3mf is; other files are read, or refused, as text."""
     try:
         with path.open("rb") as file:
             return file.read(4) == b"PK\x03\x04"
@@ -105,8 +105,8 @@ def _of_project(path: Path) -> tuple[str, str]:
 
 
 def _of_json(text: str, path: Path | None, children: tuple[str, ...]) -> Settings:
-    """The settings of a JSON profile over those of its parents beside it; path: none in a project,
-    which has all of its settings.
+    """The settings of a JSON profile over the settings of its parents in the same folder; path:
+    None in a project, which has all of its settings.
     """
     try:
         document = json.loads(text)
@@ -128,7 +128,7 @@ def _of_json(text: str, path: Path | None, children: tuple[str, ...]) -> Setting
 
 
 def _beside(path: Path, name: str) -> Path | None:
-    """The profile of a name in the folder of another one; None if there is none."""
+    """The profile with a name in the folder of another one; None if there is none."""
     if Path(name).name != name or "\\" in name or "\0" in name:
         return None
     beside = path.with_name(f"{name}.json")
@@ -136,7 +136,9 @@ def _beside(path: Path, name: str) -> Path | None:
 
 
 def _text(value: Any) -> str | None:
-    """A value as text, those of several extruders between commas; None for an empty list."""
+    """A value as text, with the values of several extruders between commas; None for an empty
+    list.
+    """
     if isinstance(value, list):
         texts = [str(item).strip() for item in value if isinstance(item, str | int | float)]
         return ",".join(texts) if texts else None
@@ -184,13 +186,13 @@ def _sections(text: str) -> dict[tuple[str, str], dict[str, str]]:
 
 
 def _is_superslicer(text: str, sections: Mapping[Any, Mapping[str, str]]) -> bool:
-    """Whether SuperSlicer wrote an .ini, in which a percentage of a width is of the nozzle."""
+    """Whether SuperSlicer wrote an .ini, in which a percentage of a width refers to the nozzle."""
     own = any(not OF_SUPERSLICER.isdisjoint(section) for section in sections.values())
     return own or "superslicer" in text[:300].lower()
 
 
 def _chosen(name: str, prints: Mapping[str, Any]) -> str:
-    """The name of the print profile that is meant."""
+    """The name of the requested print profile."""
     if name in prints:
         return name
     visible = _visible(prints)
@@ -203,14 +205,16 @@ def _chosen(name: str, prints: Mapping[str, Any]) -> str:
 
 
 def _visible(presets: Iterable[str]) -> list[str]:
-    """The presets that a slicer shows: not those in asterisks, which others inherit from."""
+    """The presets that a slicer shows; presets in asterisks, from which others inherit, are
+    hidden.
+    """
     return [name for name in presets if not (name.startswith("*") and name.endswith("*"))]
 
 
 def _inherited(
     name: str, presets: Mapping[str, Mapping[str, str]], children: tuple[str, ...]
 ) -> dict[str, str]:
-    """The settings of a preset of a bundle over those of its parents, of which later ones win."""
+    """The settings of a preset of a bundle over the settings of its parents; later parents win."""
     if name in children or len(children) == GENERATIONS:
         raise MisfitError(f'its preset "{name}" has itself as a parent')
     own = presets[name]

@@ -13,9 +13,9 @@ def examples() -> list[str]:
 
 
 def find_config(name: str | PathLike[str]) -> Path:
-    """The file at this path, or with this name and the end .toml, or else the example.
+    """The file at this path, or with this name and the ending .toml, or else the example.
 
-    The name of a results file stands for that of its config.
+    The name of a results file stands for its config.
     """
     path = Path(name)
     if path.is_file() and path.suffix != ".h5":

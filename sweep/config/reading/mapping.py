@@ -1,4 +1,4 @@
-"""A config that is a dict of Python, brought into the form of a TOML document."""
+"""Converts a config that is a Python dict into the form of a TOML document."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
@@ -15,8 +15,8 @@ NESTED = (*TABLES, *QUESTION)
 def document_of(mapping: Mapping[str, Any]) -> dict[str, Any]:
     """The document of a mapping, which may name keys by dots: {"lattice.kind": "hex"}.
 
-    Arrays, tuples and ranges become lists, numbers of NumPy those of Python, paths text. A key that
-    is no text, or that two spellings set, is a `ConfigError`.
+    Arrays, tuples and ranges become lists, numbers of NumPy numbers of Python, paths text. A key
+    that is no text, or that two spellings set, raises a `ConfigError`.
     """
     document: dict[str, Any] = {}
     for name, value in mapping.items():

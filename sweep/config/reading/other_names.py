@@ -100,7 +100,7 @@ KEYS = {
 
 
 def present_choice(key: str, raw: Any) -> Any:
-    """The choice that a word means for a key, in capitals or not; other values are left."""
+    """The choice that a word means for a key, regardless of case; other values are unchanged."""
     if not isinstance(raw, str) or key not in CHOICES:
         return raw
     words, word = CHOICES[key], raw.lower()

@@ -85,7 +85,7 @@ class Reader:
         )
 
     def _recipe(self, document: dict[str, Any]) -> Recipe:
-        """The values that a document writes, and those of profiles that it does not write."""
+        """The values in a document, and values of profiles that it does not give itself."""
         document, one, several = _without_profiles(document)
         keys = _mentioned(document)
         words = keys.get("lattice.kind", ())
@@ -106,7 +106,7 @@ class Reader:
         )
 
     def trusts(self, fault: Fault) -> bool:
-        """False if this fault of a case may be a consequence of a fault found before."""
+        """False if this fault of a case may be a consequence of an earlier fault."""
         depends_on = {
             "lattice": {"lattice"},
             "material": {"material"},
@@ -156,7 +156,7 @@ class Reader:
         return base
 
     def _profile(self, raw: Any, stated: set[str]) -> Values:
-        """What the profile of a slicer says of the keys that the document does not state."""
+        """The values of a slicer's profile for keys that the document does not give."""
         if not isinstance(raw, str):
             self._refuse(PROFILE, raw, f"no path; needed: {NEEDED}")
             return {}
@@ -210,7 +210,7 @@ class Reader:
         return left | lists
 
     def _question(self, document: dict[str, Any], table: str) -> dict[str, Any]:
-        """The values of a table that asks something of the results."""
+        """The values of a table that poses a question about the results."""
         section = self._section(document, table)
         read = {field: self._value(f"{table}.{field}", raw) for field, raw in section.items()}
         return {field: written.value for field, written in read.items() if written}
@@ -258,7 +258,7 @@ class Reader:
         return tied if len({len(values) for values in tied.values()}) == 1 else {}
 
     def _search(self, document: dict[str, Any]) -> dict[str, Interval | Choice]:
-        """What a search may choose: keys with an interval, or with a list of values."""
+        """The values that a search may choose: keys with an interval, or with a list of values."""
         section = _flat(self._section(document, "search"))
         for other in ("grid", "zip", "exclude") if section else ():
             if document.get(other):
@@ -391,8 +391,8 @@ def is_range(value: object) -> bool:
 
 
 def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, Any]:
-    """A document without profiles of slicers, the one in [lattice] and those in [grid]; None where
-    there is none.
+    """A document without profiles of slicers, the profile in [lattice] and the profiles in [grid];
+    None if there is none.
     """
     kept = dict(document)
     taken: list[Any] = [None, None]
@@ -406,7 +406,7 @@ def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, An
 
 
 def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
-    """The keys of [lattice], and those that vary, with all values of a document; dotted."""
+    """The keys of [lattice], and keys that vary, with all values of a document; dotted."""
     ties = document.get("zip")
     tables = [{"lattice": document.get("lattice")}, document.get("grid"), document.get("search")]
     keys: dict[str, list[Any]] = {}
@@ -417,8 +417,8 @@ def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:
-    """Whether a document states a key of a profile, or another that replaces it: a distance of
-    lines replaces the share of infill, and cells that are drawn replace the pattern.
+    """Whether a document gives a key of a profile, or another that replaces it: a distance of lines
+    replaces the share of infill, and drawn cells replace the pattern.
     """
     others = ("mass", "line_distance") if key == "infill" else ()
     drawn = key in OF_A_PATTERN and "lattice.kind" in stated

@@ -1,4 +1,4 @@
-"""Text and rows of a user's file; what cannot be read is said in our own words."""
+"""Reads text and rows of a user's file; faults are reported in our own words."""
 
 import csv
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
@@ -8,12 +8,12 @@ from pathlib import Path
 from sweep.config.faults import MisfitError
 from sweep.numbers import text_in
 
-MOST_BYTES = 64_000_000  # of a file of another program
-WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # of Excel, new and old
+MOST_BYTES = 64_000_000  # most bytes of a file of another program
+WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of Excel files, new and old
 
 
 def text_of(path: Path, needed: str) -> str:
-    """The text of a file in UTF-8. needed: the file that would do, in words."""
+    """The text of a file in UTF-8. needed: the kind of file that is needed, in words."""
     try:
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -57,7 +57,7 @@ def foreign_text(path: Path, needed: str) -> str:
 
 
 def _codings(content: bytes) -> tuple[str, ...]:
-    """The codings in which a content may be text. Latin letters in UTF-16 have an empty byte."""
+    """The encodings that the content may have. Latin letters in UTF-16 have an empty byte."""
     if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
         return ("utf-16",)
     start = content[:200]

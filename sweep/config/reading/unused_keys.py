@@ -19,7 +19,7 @@ from sweep.config.materials.material_file import locate, read_record
 from sweep.config.structures.structure import Structure
 
 STILL = "the crush is quasi-static"
-SIDES = ("sides", "width")  # of sheets
+SIDES = ("sides", "width")  # keys of sheets
 DRIVEN = ("solver.load_steps", "solver.accuracy")
 CHOICE = {
     "lattice": "kind",
@@ -47,7 +47,7 @@ def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case
 
 
 def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
-    """A clause that says what has no effect, and why; empty if the key has its full effect."""
+    """A clause that says which part of a value has no effect, and why; empty if all of it has."""
     if key == "lattice.file" and case.lattice.loaded:
         return _unused_part(case.lattice.loaded, case)
     why = why_unused(key, given, case)
@@ -55,7 +55,7 @@ def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
 
 
 def _needed(key: str, why: str, case: Case) -> str:
-    """A clause that says which kinds of a table take a key; empty if that of the case does."""
+    """A clause that says which kinds of a table take a key; empty if the kind of the case does."""
     table, name = key.split(".")
     if why == STILL:
         moves = case.loading.driven and not case.lattice.endless
@@ -117,8 +117,8 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
     label; contact "auto" becomes the barrier, a "drop" an impact with gravity; the name of a file
-    is that without its folder; the share of a sheet, and the sides of a block, are the nearest that
-    fit.
+    is stored without its folder; the share of a sheet, and the sides of a block, are the nearest
+    that fit.
     """
     table, name = key.split(".")
     if name in (kind := getattr(case, table)).fits:

@@ -1,4 +1,5 @@
-"""Whether a structure is a mechanism, which can move without resistance and has no statics.
+"""Finds out whether a structure is a mechanism, which can move without resistance and has no
+statics.
 
 Rigid walls that share a node without a pin form one rigid body. Pins, supports, prescribed moves
 and springs constrain the bodies. A motion that all of these constraints allow costs no energy.
@@ -13,8 +14,8 @@ from sweep.config.structures.structure import Structure, pieces_of
 
 Floats = NDArray[np.float64]
 
-LOOSE = 1e-9  # of the greatest eigenvalue: an eigenvalue below it is zero
-MOST = 1500  # bodies; a structure of more bodies is not checked here
+LOOSE = 1e-9  # share of the greatest eigenvalue below which an eigenvalue is zero
+MOST = 1500  # most bodies; a structure of more is not checked here
 
 
 def find_mechanism(structure: Structure) -> str:
@@ -45,7 +46,7 @@ def find_mechanism(structure: Structure) -> str:
 
 
 def _bodies(structure: Structure) -> list[int]:
-    """Number of the body of every wall: of walls that share a node without a pin."""
+    """Number of the body of every wall; walls that share a node without a pin are one body."""
     at: dict[int, int] = {}
     ends = [(k, node) for k, wall in enumerate(structure.walls) for node in wall]
     pairs = [(at.setdefault(node, k), k) for k, node in ends if node not in structure.pins]
@@ -53,7 +54,7 @@ def _bodies(structure: Structure) -> list[int]:
 
 
 def _constraints(structure: Structure, body: list[int], points: Floats) -> Floats:
-    """Motions that are prevented: rows (c, 3 bodies) over three unknowns of each body."""
+    """Prevented motions: rows (c, 3 bodies) over three unknowns of each body."""
     n = 3 * (max(body) + 1)
     meeting: dict[int, list[int]] = {}
     for k, wall in enumerate(structure.walls):

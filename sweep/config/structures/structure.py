@@ -21,7 +21,7 @@ BESIDE_WALLS = (
 
 
 class Part(BaseModel):
-    """A part of a structure; its keys are those of the file."""
+    """A part of a structure; its keys are keys of the file."""
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
 
@@ -57,7 +57,7 @@ class Prescribed(Part):
 
 
 class PointMass(Part):
-    """A mass at a node, in addition to that of the walls."""
+    """A mass at a node, in addition to the mass of the walls."""
 
     node: Node
     mass_g: Annotated[float, Field(ge=0)]
@@ -98,7 +98,7 @@ class Structure(Part):
         return given if isinstance(given, tuple) else (given,) * len(self.walls)
 
     def with_thickness(self, mean_mm: float) -> "Structure":
-        """The structure with all walls thicker by one factor, so that their mean is `mean_mm`."""
+        """The structure with all walls thickened by one factor, so that their mean is `mean_mm`."""
         each = self.thickness_mm
         factor = mean_mm * len(each) / sum(each)
         alike = min(each) == max(each)
@@ -138,7 +138,9 @@ class Structure(Part):
 
 
 def pieces_of(count: int, pairs: Any) -> list[int]:
-    """The number of the piece of each of ``count`` things, of which pairs (p, 2) hold together."""
+    """The number of the connected piece of each of ``count`` items; pairs (p, 2) connect two of
+    them.
+    """
     import numpy as np
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components

@@ -21,7 +21,7 @@ from sweep.config.structures.structure import (
 )
 
 MAX_ELEMENTS = 50_000
-TOUCHING = 1e-9  # of half a thickness: round-off
+TOUCHING = 1e-9  # share of half a thickness: round-off
 _PARTS = (Structure, Support, Load, Prescribed, PointMass, SpringPart)
 _EITHER = {"wall_thickness_mm", "subdivide", "initial_velocity_mm_s"}
 _KEYS = list(dict.fromkeys(key for part in _PARTS for key in part.model_fields))
@@ -39,7 +39,9 @@ class StructureError(MisfitError):
 
 
 def read_structure(path: Path, check: Callable[..., Iterator[str]] | None = None) -> Structure:
-    """Read and check a file; `StructureError` holds all faults. check: `faults`, or others."""
+    """Read and check a file; `StructureError` holds all faults. check: `faults`, or another
+    check.
+    """
     try:
         text = text_of(path, "a JSON file")
         _check_object(text)
@@ -71,7 +73,9 @@ def _check_object(text: str) -> None:
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:
-    """One line for each fault of form; a value of two allowed forms gets that of the closer one."""
+    """One line for each fault of form; a value with two allowed forms gets the fault of the closer
+    one.
+    """
     closest: dict[object, tuple[int, str]] = {}
     errors = error.errors()
     inside = {wrong["loc"][:depth] for wrong in errors for depth in range(len(wrong["loc"]))}
@@ -124,7 +128,7 @@ def faults(structure: Structure) -> Iterator[str]:
 
 
 def faults_of_lists(structure: Structure) -> Iterator[str]:
-    """The faults of its lists alone, of a structure whose walls may cross."""
+    """The faults of the lists of a structure alone, as its walls may cross."""
     unknown = list(_unknown_nodes(structure))
     yield from unknown or _lists(structure)
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from sweep.design.infill import Drawing
 
 STAGGERED = True
-RISE = 0.75**0.5  # of a regular triangle of side 1
+RISE = 0.75**0.5  # height of a regular triangle of side 1
 HOURGLASS = [(0, 0), (1, 0), (0.5, RISE), (1, 2 * RISE), (0, 2 * RISE), (0.5, RISE), (0, 0)]
 TIES = ([(1, 0), (2, 0)], [(1, 2 * RISE), (2, 2 * RISE)])
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 ORIENTED = True
 STAGGERED = True
-HALF = 0.75**0.5  # of the width of a cell whose inclined walls have length 1
+HALF = 0.75**0.5  # half of the width of a cell whose inclined walls have length 1
 CELL = [(0, 0), (HALF, 0.5), (2 * HALF, 0), (2 * HALF, 2), (HALF, 1.5), (0, 2), (0, 0)]
 
 

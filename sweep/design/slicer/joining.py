@@ -1,9 +1,10 @@
-"""Lines of infill joined to the outline that the perimeters of a slicer draw.
+"""Joins lines of infill to the outline that the perimeters of a slicer draw.
 
-The outline is a rectangle that never moves: its corners stay, and joints move along its sides.
-Where less than a line is open between a joint of the infill and the outline, the joint comes to the
-outline; places on the outline that are as near to one another become one. Such places may follow
-each other round the whole outline, so that the distance of parallel lines limits what becomes one.
+The outline is a rectangle that never moves: its corners stay, and joints move along its sides. If
+the opening between a joint of the infill and the outline is less than a line, the joint is moved to
+the outline; places on the outline that are as near to one another become one. Such places may
+follow each other round the whole outline, so that the distance of parallel lines limits which
+become one.
 """
 
 import numpy as np
@@ -18,7 +19,7 @@ def joined(lines: Floats, box: Floats, least: float, apart: float) -> tuple[Floa
     """Joints (j, 2) and walls (w, 2) of lines (s, 2, 2) in a box and of its outline; all in m.
 
     No wall of the infill that ends on the outline is shorter than ``least``, and no piece of the
-    outline, but where joints as far from one another as ``apart`` would become one.
+    outline, except where joints as far from one another as ``apart`` would become one.
     """
     least, apart = (1.0 - TOLERANCE) * least, min(apart, box.min())
     ends = with_outline(lines, box, [True, True])
@@ -33,10 +34,10 @@ def joined(lines: Floats, box: Floats, least: float, apart: float) -> tuple[Floa
 
 
 def _placed(points: Floats, short: Indices, box: Floats, apart: float) -> Floats:
-    """The points, with the ends of ``short`` walls (k, 2) at one place.
+    """The points, with the ends of each of the ``short`` walls (k, 2) at one place.
 
-    From groups as wide as ``apart`` joints of the infill come to the outline one by one; when none
-    of them is left, the longest walls of such groups stay.
+    In groups as wide as ``apart`` joints of the infill are moved to the outline one by one; when
+    none of them is left, the longest walls of such groups stay.
     """
     inner, outer = np.concatenate([short, short[:, ::-1]]).T
     group, wide = _groups(points, short, box, apart)
@@ -55,8 +56,8 @@ def _placed(points: Floats, short: Indices, box: Floats, apart: float) -> Floats
 
 
 def _groups(points: Floats, short: Indices, box: Floats, apart: float) -> tuple[Indices, Mask]:
-    """The group of every point, those that ``short`` walls connect, and whether its joints on the
-    outline are as far from one another as ``apart``, in width or height.
+    """The group of every point, connected by ``short`` walls, and whether its joints on the outline
+    are as far from one another as ``apart``, in width or height.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -72,9 +73,9 @@ def _groups(points: Floats, short: Indices, box: Floats, apart: float) -> tuple[
 
 
 def _middles(points: Floats, box: Floats, owner: Indices, member: Indices) -> Floats:
-    """The middle of the points ``member`` (k,) of each ``owner`` (k,), (n, 2); NaN without one.
+    """The middle of the points ``member`` (k,) of each ``owner`` (k,), (n, 2); NaN without a point.
 
-    It is at a corner of the box or on a side if one of the points is there; of points on two sides
+    It is at a corner of the box or on a side if one of the points is there; for points on two sides
     it is the corner between them.
     """
     fixed = ((points == 0.0) | (points == box)).sum(axis=1)[member]  # 2: a corner, 1: on a side
@@ -96,7 +97,7 @@ def _middles(points: Floats, box: Floats, owner: Indices, member: Indices) -> Fl
 def _framed(ends: Floats, box: Floats, least: float) -> Floats:
     """The walls of the infill among walls (w, 2, 2), and the outline that they end on.
 
-    Left out are walls that became points, and those shorter than ``least`` across a corner. Joints
+    Walls that became points are left out, and walls shorter than ``least`` across a corner. Joints
     of the outline at which no wall ends any more stay if its pieces are not shorter than that.
     """
     along = ((ends[:, 0] == ends[:, 1]) & ((ends[:, 0] == 0.0) | (ends[:, 0] == box))).any(axis=1)

@@ -1,7 +1,7 @@
 """The network that a slicer prints: infill within a box of perimeters, and its extruded area.
 
-A joint of the pattern is in the middle of the box, or a cell of the honeycomb; slicers place the
-pattern otherwise.
+A joint of the pattern, or a cell of the honeycomb, is in the middle of the box; slicers place the
+pattern elsewhere.
 """
 
 from functools import lru_cache
@@ -23,7 +23,7 @@ from sweep.design.network import Network
 from sweep.design.slicer.joining import joined
 from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of
 
-LEAST_SHARE = 0.01  # of infill, tried for a mass
+LEAST_SHARE = 0.01  # least share of infill tried for a mass
 CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once
 
 
@@ -44,14 +44,15 @@ def build_sliced(geometry: Geometry) -> Network:
 
 
 def extruded_area(geometry: Geometry) -> float:
-    """What is extruded / depth, m^2: lines of infill, crossings twice, and perimeters."""
+    """Extruded volume / depth, m^2: lines of infill, crossings twice, and perimeters."""
     (width, height), (sides, caps) = geometry.box, geometry.outline
     lines = infill(_sliced(geometry), geometry.box)
     return _area(geometry, lines) + 2.0 * (sides * height + caps * width)
 
 
 def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
-    """What would be extruded if the lines lay as the walls of a network, over what is extruded.
+    """The volume that would be extruded if the lines lay as the walls of a network, over the
+    extruded volume.
 
     0 if the network is not as large as its box.
     """
@@ -67,7 +68,7 @@ def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
 
 
 def _area(geometry: Geometry, lines: Floats) -> float:
-    """What is extruded along the parts of lines (s, 2, 2) that are infill / depth, m^2."""
+    """Volume extruded along the parts of lines (s, 2, 2) that are infill / depth, m^2."""
     sliced = _sliced(geometry)
     inset = np.array(sliced.inset)
     inside = clipped(lines - inset, geometry.box - 2.0 * inset, [True, True])

@@ -1,14 +1,14 @@
-"""Infills as slicers print them: the table of slicers, of their patterns, of families like them.
+"""Infills as slicers print them: the table of slicers, of their patterns, and of matching families.
 
 A new pattern is a row of `PATTERNS` and its names in `PROGRAMS`; a new slicer is a row of these.
 
-A line of width w and height h has rounded sides. PrusaSlicer and its children lay lines at a
+A line of width w and height h has rounded sides. PrusaSlicer and its derivatives lay lines at a
 distance s = w - h (1 - pi/4), so that a line fills h s; Cura lays them w apart and extrudes w h.
 With a share r of infill, the parallel lines of a pattern are at a distance of n s / r, where n is
 the number of its directions; from flat to flat a hexagon of the honeycomb measures 2 s / r. Walls
 of m lines side by side are m s thick. OrcaSlicer (`fill_multiline`) lays them m times as far apart,
-so that the share stays; Cura (`infill_multiplier`) leaves their distance, so that the share that is
-extruded is m r.
+so that the share stays the same; Cura (`infill_multiplier`) does not change their distance, so that
+the extruded share is m r.
 
 In a layer of honeycomb the walls of one direction are printed twice, side by side, and each layer
 is turned by 60 degrees: a wall is 2 s, s, s thick in turn, its mean thickness is 4 s / 3, its mean
@@ -44,10 +44,10 @@ class Pattern(NamedTuple):
     x r / s, with a share r of infill. side: the unit of the family over that distance. opening:
     clear width of the narrowest cell over that distance. turn: of the family's drawing at a fill
     angle of 0, rad. middle: of the drawing, in the unit of the family. wall: mean thickness over s;
-    gyration: radius of gyration of the section over that of a rectangle of the mean thickness.
-    corners: per share of infill, what paths that cut corners save of a wall / s. multiline: whether
-    walls may be several lines. slopes: angles of its walls from the print axis, rad, if its axis
-    lies in the layers.
+    gyration: radius of gyration of the section over the value of a rectangle of the mean thickness.
+    corners: thickness / s that paths save in the mean by cutting corners, per share of infill.
+    multiline: whether walls may be several lines. slopes: angles of its walls from the print axis,
+    rad, if its axis lies in the layers.
     """
 
     family: str
@@ -118,8 +118,9 @@ PATTERNS = {
 class SheetPattern(NamedTuple):
     """A pattern whose lines follow, in each layer, a sheet of `design.surfaces`.
 
-    sheet: its name. period: that of the sheet x r / s, with a share r of infill and lines s. turns:
-    whether the fill angle turns it; else, and at 45 degrees, its axes lie along those of the part.
+    sheet: its name. period: of the sheet x r / s, with a share r of infill and lines s. turns:
+    whether the fill angle turns it; if not, and at 45 degrees, its axes lie along the axes of the
+    part.
     """
 
     sheet: str
@@ -130,11 +131,11 @@ class SheetPattern(NamedTuple):
 class Program(NamedTuple):
     """A slicer.
 
-    title: its name for people. patterns: those that it prints as prisms, its own name -> the name
-    in `PATTERNS`. sheets: those that it prints as sheets, by its own name. rounded: whether it
-    counts lines with round sides. nozzles: width of a line by default. lines: the most that it lays
-    side by side in a wall. spreads: whether walls of several lines are further apart, so that the
-    share of infill stays. reads: whether it reads settings from a .3mf.
+    title: its name for people. patterns: patterns that it prints as prisms, its own name -> the
+    name in `PATTERNS`. sheets: patterns that it prints as sheets, by its own name. rounded: whether
+    it counts lines with round sides. nozzles: default width of a line, in nozzles. lines: the most
+    that it lays side by side in a wall. spreads: whether walls of several lines are further apart,
+    so that the share of infill stays the same. reads: whether it reads settings from a .3mf.
     """
 
     title: str
@@ -209,10 +210,10 @@ def family_of(name: str) -> str:
 
 
 class Likeness(NamedTuple):
-    """A pattern of PrusaSlicer that a family of `design.infill` looks like.
+    """A pattern of PrusaSlicer that matches a family of `design.infill`.
 
     angle: fill angle at which it lies as the family is drawn, rad. unit: of the pattern's family in
-    the unit of this one.
+    the unit of this family.
     """
 
     pattern: str
@@ -272,7 +273,7 @@ NO_PRISMS = {
 
 
 def bare(name: str) -> str:
-    """A name in small letters, without blanks, dashes and underscores."""
+    """A name in lower case, without blanks, dashes and underscores."""
     return "".join(letter for letter in name.lower() if letter not in " -_")
 
 
@@ -280,8 +281,8 @@ class Sliced(NamedTuple):
     """How an infill is laid; lengths in m.
 
     pattern: as in `PATTERNS`. distance: of its parallel walls. angle: of the first ones from the
-    width, rad. line: m s, what the lines of one wall fill. inset: where they end within the sides
-    of the box, and within its bottom and top.
+    width, rad. line: m s, thickness of the lines of one wall. inset: where they end within the
+    sides of the box, and within its bottom and top.
     """
 
     pattern: str
@@ -297,17 +298,17 @@ class Sliced(NamedTuple):
 
 
 def line_of(slicer: str, width: float, height: float) -> float:
-    """What a line of this width and height fills in the mean (m): s, or w for Cura."""
+    """Mean thickness (m) of a line of this width and height: s, or w for Cura."""
     return width - height * ROUNDED if PROGRAMS[slicer].rounded else width
 
 
 def width_of(slicer: str, line: float, height: float) -> float:
-    """Width (m) of a line that fills this much in the mean: the inverse of `line_of`."""
+    """Width (m) of a line with this mean thickness: the inverse of `line_of`."""
     return line + height * ROUNDED if PROGRAMS[slicer].rounded else line
 
 
 def distance_of(pattern: str, share: float, line: float) -> float:
-    """Distance (m) of the parallel walls of a pattern; line: what the lines of a wall fill."""
+    """Distance (m) of the parallel walls of a pattern; line: thickness of the lines of a wall."""
     return PATTERNS[pattern].spacing * line / share
 
 
@@ -317,7 +318,7 @@ def share_of(pattern: str, distance: float, line: float) -> float:
 
 
 def spread_lines(slicer: str, lines: int) -> int:
-    """By how much walls of several lines are further apart than those of one."""
+    """How many times further apart walls of several lines are than walls of one line."""
     return lines if PROGRAMS[slicer].spreads else 1
 
 

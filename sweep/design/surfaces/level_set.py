@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 class LevelSet(NamedTuple):
-    """value: (n,) at phases (n, 3); gradient: (n, 3) there."""
+    """value: (n,) at phases (n, 3); gradient: (n, 3) at these phases."""
 
     value: Callable[[Floats], Floats]
     gradient: Callable[[Floats], Floats]

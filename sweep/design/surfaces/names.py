@@ -1,4 +1,4 @@
-"""The sheets that can be printed: how much surface they have, and where a panel may be cut.
+"""The sheets that can be printed: their area, and where a panel may be cut.
 
 A panel ends where the surface meets its faces steeply, so that the sheet can be held there: at
 whole numbers of `Cut.step` from `Cut.start`. No numpy here, as every config reads this.
@@ -25,10 +25,10 @@ class SheetName(NamedTuple):
     """A sheet. In a period, from a net of 24 quads: area, in units of the squared period; steep:
     mean of |n_xy|, n its unit normal.
 
-    straight: a panel that is pressed along one of the axes of the surface, which are all alike.
-    turned: pressed along (1, 1, 0), the other axes of the panel are (1, -1, 0) and z. corner: of a
-    block of whole halves of a period along these axes, in periods: all of its faces meet the
-    surface steeply, and its corners are far from it.
+    straight: a panel that is pressed along one of the axes of the surface, which are all
+    equivalent. turned: pressed along (1, 1, 0), the other axes of the panel are (1, -1, 0) and z.
+    corner: of a block of whole halves of a period along these axes, in periods: all of its faces
+    meet the surface steeply, and its corners are far from it.
     """
 
     area: float

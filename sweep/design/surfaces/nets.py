@@ -3,13 +3,13 @@
 A grid of cells covers the box. Every cell that the surface passes through has one node, every edge
 of the grid that the surface cuts one quad between the four cells round it (S. Gibson, Constrained
 elastic surface nets, 1998). The nodes then move along the surface towards the means of their
-neighbours. So there are quads only, of nearly equal size.
+neighbours. All faces are therefore quads, of nearly equal size.
 
 A panel repeats along x and y, and ends at the planes z = 0 and z = height; a block ends at all six
 faces of its box. The cells of the outer layers are centred on the faces where a box ends, and their
-nodes are moved along the surface to the curves in which it meets these.
+nodes are moved along the surface to the curves in which it meets these faces.
 
-A face may be a wall. Then a grid of quads covers it, whose nodes are those of the surface where
+A face may be a wall. Then a grid of quads covers it, which shares the nodes of the surface where
 both meet: edges of the grid that leave the box have quads too, so that three labels have one net.
 """
 
@@ -24,13 +24,13 @@ from sweep.design.surfaces.level_set import Floats, LevelSet
 
 Ints = NDArray[np.int64]
 
-ROUNDS = 30  # of smoothing
+ROUNDS = 30  # rounds of smoothing
 STRIDE = 0.5  # share of the way to the mean of the neighbours, in a round
 NEWTON = 4  # steps back to the surface after a move
 LONGEST = 0.3  # such a step, in cells
 GOOD, GOOD_BESIDE_WALLS = 0.3, 0.15  # `Net.quality`; quads beside a curve are half as wide
 MORE = sorted(product(range(3), repeat=3), key=sum)  # cells
-PLACES = tuple(product((0.13, 0.63), repeat=2))  # of the box, in cells
+PLACES = tuple(product((0.13, 0.63), repeat=2))  # places of the box that are tried, in cells
 AROUND = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])  # cells round an edge, from the last of these
 
 
@@ -40,7 +40,7 @@ class Box:
 
     size (3,): along x, y and z, m. phase (3, 3): phases by coordinates in 1/m; its columns are
     orthogonal. origin (3,): phases at the corner of the box. walls: axes across which its faces are
-    walls; None of a panel, whose x and y are whole periods.
+    walls; None for a panel, whose x and y are whole periods.
     """
 
     surface: LevelSet
@@ -120,7 +120,7 @@ class Net:
     @cached_property
     def quality(self) -> float:
         """The least, over all corners, of the area of its two sides over the squared mean side: 1
-        in a net of squares, negative where a quad is not convex.
+        in a net of squares, negative if a quad is not convex.
         """
         ahead = np.roll(self.corners, -1, axis=1) - self.corners
         areas = np.cross(np.roll(ahead, 1, axis=1), ahead)
@@ -136,7 +136,7 @@ class Net:
 
     @cached_property
     def area(self) -> Floats:
-        """Area of each quad, of the triangles between its sides and its centre, (m,) m^2."""
+        """Area of each quad, from the triangles between its sides and its centre, (m,) m^2."""
         centre = self.corners.mean(axis=1, keepdims=True)
         arms = self.corners - centre
         parts = np.cross(arms, np.roll(arms, -1, axis=1))
@@ -146,9 +146,9 @@ class Net:
 def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
     """The first net of good quads, else the best one, on a grid of about so many cells.
 
-    How a grid lies on the surface decides which quads meet at a node, and so how slender some of
-    them are. Nothing else changes if the box of a panel moves along x and y; up to two more cells
-    along each axis are tried, too.
+    The position of the grid on the surface decides which quads meet at a node, and so how slender
+    some of them are. The box of a panel may move along x and y without any other change; up to two
+    more cells along each axis are tried, too.
     """
     best, good = None, GOOD if box.walls is None else GOOD_BESIDE_WALLS
     for more in MORE:
@@ -188,7 +188,7 @@ def _padded(net: Net, side: Ints) -> Net:
     """The net with a row of quads on both sides of each curve in which the surface meets a wall.
 
     Without these, a quad with three corners on such a curve would become a triangle. side (m,): on
-    which side of the surface a quad of a wall is, -1 or 1; 0 of the surface.
+    which side of the surface a quad of a wall is, -1 or 1; 0 for quads of the surface.
     """
     n, first = len(net.points), int((side == 0).sum())
     old, side, wall = net.quads[first:], side[first:], net.wall[first:]
@@ -259,7 +259,7 @@ def _unit(vectors: Floats) -> Floats:
 
 
 def _smoothed(net: Net, cell: float) -> Net:
-    """The net with its nodes evenly on the surface and the walls; cell: its size in m."""
+    """The net with its nodes spread evenly on the surface and the walls; cell: its size in m."""
     one, two, way = _sides(net)
     n = len(net.points)
     outer = np.column_stack([net.face != 0, net.on_surface])
@@ -275,7 +275,9 @@ def _smoothed(net: Net, cell: float) -> Net:
 
 
 def _sides(net: Net) -> tuple[Ints, Ints, Floats]:
-    """Both ways along each side of a quad: from node, to node, and shift of the latter in m."""
+    """Both directions along each side of a quad: from node, to node, and shift of the latter in
+    m.
+    """
     one, two = net.quads, np.roll(net.quads, -1, axis=1)
     shift = np.roll(net.shift, -1, axis=1) - net.shift
     both = np.concatenate([

@@ -9,14 +9,14 @@ from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import Box, Net, best_net
 
 DIAGONAL = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, np.sqrt(2.0)], [1.0, 1.0, 0.0]]) / np.sqrt(2.0)
-"""Axes x, y, z of a box that is turned, in those of the surface, row by row."""
+"""Axes x, y, z of a turned box, in the axes of the surface, row by row."""
 
 
 @lru_cache(maxsize=16)
 def net_of(name: str, turned: bool, period: float, height: float, quads: int) -> Net:
-    """The net of a sheet of `names.SHEETS`, of ``quads`` a period.
+    """The net of a sheet of `names.SHEETS`, with ``quads`` per period.
 
-    turned: as `SheetName.cut` takes it. period, height: m. Along z of the net the sheet is pressed.
+    turned: see `SheetName.cut`. period, height: m. The sheet is pressed along z of the net.
     """
     cut = SHEETS[name].cut(turned)
     size = np.array([cut.across * period, cut.along * period, height])
@@ -31,9 +31,9 @@ def net_of(name: str, turned: bool, period: float, height: float, quads: int) ->
 def net_of_block(
     name: str, period: float, size: tuple[float, float, float], walls: tuple[int, int], quads: int
 ) -> Net:
-    """The net of a block, of ``quads`` a period, with walls across two axes.
+    """The net of a block, with ``quads`` per period, with walls across two axes.
 
-    period, size: m; along z of the net the sheet is pressed.
+    period, size: m; the sheet is pressed along z of the net.
     """
     phase = 2.0 * np.pi / period * np.eye(3)
     origin = 2.0 * np.pi * np.array(SHEETS[name].corner)

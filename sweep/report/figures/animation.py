@@ -1,4 +1,4 @@
-"""A moving picture of a case: its stored shapes one after another, beside the force so far."""
+"""An animation of a case: its stored shapes one after another, beside the force so far."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
 SIZE = (8.0, 4.2)  # inches
 PLACES = {"left": 0.02, "right": 0.97, "bottom": 0.14, "top": 0.84, "wspace": 0.25}
 DPI, COLOURS = 80, 128
-STEP, REST = 120, 1200  # ms that a shape and the last one are shown
+STEP, REST = 120, 1200  # ms for which a shape and the last one are shown
 
 
 def write_gif(
     path: Path, row: Mapping[str, Any], frames: Mapping[str, Any], history: DataFrame
 ) -> None:
-    """Write the animation of a case, which repeats for ever."""
+    """Write the animation of a case, which repeats forever."""
     from PIL import Image
 
     frames = piece(standing(frames), row)
@@ -47,7 +47,9 @@ def write_gif(
 
 
 def standing(frames: Mapping[str, Any]) -> dict[str, Any]:
-    """The shapes up to the first that is lifted off: later ones would make all others small."""
+    """The shapes up to the first one that has lifted off: later ones would make all others
+    small.
+    """
     height = frames["position_m"][..., -1]  # the last coordinate is upwards
     lifted = height.min(axis=1) - height[0].min() > FLOWN * np.ptp(height[0])
     count = int(np.append(lifted, True).argmax())
@@ -62,7 +64,9 @@ def moment(
     history: DataFrame,
     k: int,
 ) -> None:
-    """Draw shape number ``k`` on the left, and on the right the force, or the reactions, then."""
+    """Draw shape number ``k`` on the left, and on the right the force, or the reactions, at that
+    time.
+    """
     left, right = figure.subplots(1, 2, gridspec_kw=PLACES)
     figure.suptitle(headline(row), x=0.01, ha="left", fontsize="medium")
     case_plots.one_shape(left, frames, k)
@@ -82,7 +86,7 @@ def _rendered(figure: Figure) -> BytesIO:
 
 
 def _force(ax: Axes, history: DataFrame, last: int) -> None:
-    """The whole curve in grey, what has happened in blue, and a dot at the shape that is shown."""
+    """The whole curve in grey, the part so far in blue, and a dot at the present shape."""
     strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     ax.plot(strain, force, color=case_plots.GRID, lw=2.0)
     ax.plot(strain[: last + 1], force[: last + 1], color=case_plots.BLUE, lw=2.0)
@@ -92,7 +96,7 @@ def _force(ax: Axes, history: DataFrame, last: int) -> None:
 
 
 def _reactions(ax: Axes, row: Mapping[str, Any], history: DataFrame, last: int) -> None:
-    """The reactions of a custom structure, and a line at the shape that is shown."""
+    """The reactions of a custom structure, and a line at the present shape."""
     probe_reactions(ax, history, row)
     ax.set_title("", loc="left")
     place = history["load_factor"] if "load_factor" in history else in_unit(history["time_s"], "ms")

@@ -1,4 +1,4 @@
-"""Picture of what the base of a case feels: its greatest pressure on a patch."""
+"""Picture of the load on the base of a case: its greatest pressure on a patch."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Pictures of a case: force, energies, shapes; and functions shared by all pictures.
 
 The functions draw into the figures or axes of their arguments. Lengths are in mm. The colours of
-Okabe and Ito can be distinguished without telling red from green.
+Okabe and Ito can be distinguished without distinguishing red from green.
 """
 
 from __future__ import annotations
@@ -53,15 +53,15 @@ COLORS = dict(zip(PARTS, (BLUE, SKY, ORANGE, YELLOW, VERMILION, PURPLE, GREY), s
 PANEL, GAP = 1.9, 0.1  # inches: longer side of the picture of a shape; gap between two pictures
 ENTRY, SIGN = 0.22, 0.6  # inches: height of an entry of a legend; width of its sign
 LETTER, LINE = 0.075, 0.2  # inches: width of a letter of a title; height of a line
-FITS = 0.97  # of the planned scale of shapes: what the layout leaves them
+FITS = 0.97  # share of the planned scale of shapes that the layout leaves them
 POWER = "$\\mathdefault{10^{"  # in labels of log axes
-SAME_ENERGY = 0.03  # relative difference of an area and the energy that it stands for
+SAME_ENERGY = 0.03  # relative difference of an area and the energy that it represents
 TICKS = 3  # least number of labels of a log axis
 ROUND = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))  # x powers of ten
 
 
 class Literal(Figure):
-    """A figure that shows names as they are written: in them, a dollar sign begins no formula."""
+    """A figure that shows names literally: a dollar sign in them does not begin a formula."""
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw it."""
@@ -94,8 +94,8 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     """Force on the top over strain: loading, unloading, and the work below the curve as an area.
 
     history : from `read_history`; row : of the case in the summary. A dead load appears and
-    disappears within one step. Between loose platens it falls by more than the rows of nodes come
-    closer, as it presses the contact of both: then the absorbed energy is not the area.
+    disappears within one step. Between loose platens its travel exceeds the approach of the rows of
+    nodes, as it compresses both contacts: then the absorbed energy is not the area.
     """
     strain, force = in_unit(history["strain"], "%"), history["reaction_top_N"]
     turn = released = last_loaded(history, row)
@@ -143,7 +143,7 @@ def _below(history: DataFrame, dead: bool) -> float:
 
 
 def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
-    """The mean force until densification, with the energy; the area below is that energy.
+    """The mean force until densification, with the energy as the area below it.
 
     If the efficiency still rises at full stroke, there is no densification.
     """
@@ -160,7 +160,7 @@ def _until_densification(ax: Axes, row: Mapping[str, Any]) -> None:
 
 
 def _energy(joules: float, row: Mapping[str, Any]) -> str:
-    """An energy of a case, in all and per gram."""
+    """An energy of a case, in total and per gram."""
     grams = row["mass_g"] if np.isnan(row["printed_mass_g"]) else row["printed_mass_g"]
     return f"{energy_text(joules)}, {three_digits(joules / grams)} J/g"
 
@@ -220,7 +220,7 @@ def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
 
 
 def _view_of_plates(frames: Mapping[str, Any], chosen: list[int]) -> View:
-    """The same of plates, as the camera sees them; ground: height of the lower platen."""
+    """The view of plates from the camera; ground: height of the lower platen."""
     points = in_unit(np.asarray(frames["position_m"][chosen], float), "mm")
     margin = 0.03 * float(np.ptp(points[0], axis=0).max())
     plates = [
@@ -240,7 +240,7 @@ def _extent(frames: Mapping[str, Any]) -> np.ndarray:
 
 
 def shapes_scale(frames: Mapping[str, Any], release: float | None = None) -> float:
-    """Inches of a picture for a millimetre of its shapes."""
+    """Scale of the shapes of a picture, inches / mm."""
     view = _view(frames, list(dict(shots(frames, release))))
     return PANEL / max(view.right - view.left, view.top - view.below)
 
@@ -251,7 +251,7 @@ def shapes_size(
     release: float | None = None,
     scale: float | None = None,
 ) -> tuple[float, float]:
-    """Width and height (inches) of a figure that the shapes fill; scale: of `shapes_scale`."""
+    """Width and height (inches) of a figure that the shapes fill; scale: from `shapes_scale`."""
     chosen = dict(shots(frames, release))
     view = _view(frames, list(chosen))
     width, height = view.right - view.left, view.top - view.below
@@ -289,8 +289,8 @@ def one_shape(ax: Axes, frames: Mapping[str, Any], number: int) -> None:
 
 
 def _shape(ax: Axes, view: View, frames: Mapping[str, Any], position: Any, plate: Any) -> None:
-    """Walls of their true thickness, and the platens or what is in their place; position (n, 2) and
-    plate (2,) in mm.
+    """Walls of their true thickness, and the platens or the profiles in their place; position (n,
+    2) and plate (2,) in mm.
     """
     if "quads" in frames:
         _plates(ax, view, frames, position, plate)
@@ -351,7 +351,7 @@ def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
 
 
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
-    """Six shapes of each of several cases, one case below another, all to one scale.
+    """Six shapes of each of several cases, one case below another, all at the same scale.
 
     cases : title -> frames. The size of the figure is set.
     """
@@ -367,7 +367,7 @@ def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def _to_scale(scale: float) -> Callable[[Axes, Any], Bbox]:
-    """A locator that draws axes to a scale (inches / mm), in the middle of their place."""
+    """A locator that draws axes at a scale (inches / mm), in the middle of their place."""
 
     def box(ax: Axes, _: Any) -> Bbox:
         place, pixels = ax.get_position(original=True), np.array(ax.figure.bbox.size)

@@ -28,7 +28,7 @@ DESIGN = [
     *("height_m", "depth_m", "material", "platen"),
 ]
 LEVELS = 2000  # stresses at which an envelope is drawn
-MARGIN = 0.8  # of the first value in view: start of an axis
+MARGIN = 0.8  # share of the first value in view: start of an axis
 SHOWN = 30.0  # greatest / least value of an axis, seen from its interesting end
 BEST: dict[str, Any] = {"s": 34.0, "edgecolor": "white", "lw": 0.6, "zorder": 3}
 RING: dict[str, Any] = {"facecolor": "none", "zorder": 4}
@@ -39,9 +39,9 @@ MOST = {"marker": "", "label": "envelope: most energy"}
 def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Crush]) -> None:
     """Energy per volume over greatest stress, a panel per scene and a curve per design.
 
-    Both are divided by the modulus of the material, if that of every design is known. The sign is
-    at the shoulder, the greatest energy / stress. The dotted line is the most energy that any of
-    the designs absorbs below a stress. crushes : by case id.
+    Both are divided by the modulus of the material, if the modulus of every design is known. The
+    marker is at the shoulder, the greatest energy / stress. The dotted line is the most energy that
+    any of the designs absorbs below a stress. crushes : by case id.
     """
     look, related = looks(designs), bool((designs["material_modulus_Pa"] > 0.0).all())
     for ax, rows in scene_axes(fig, designs):
@@ -71,8 +71,8 @@ def cushion_diagram(
 ) -> None:
     """Greatest deceleration over static stress of drops from a height (m), a panel per scene.
 
-    The sign is at the least deceleration. falls : impacts in the results, of `drops`; rings are
-    those of a design of the panel from this height.
+    The marker is at the least deceleration. falls : impacts in the results, from `drops`; rings
+    mark drops of a design of the panel from this height.
     """
     look, rings = looks(designs), False
     near = falls[dropped_from(falls, drop_height)]
@@ -140,7 +140,9 @@ def _scaled(crush: Crush, row: Series, related: bool) -> Crush:
 
 
 def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | None) -> None:
-    """The curve of a design, as thick as its walls, dashed if doubtful, with its sign at a row."""
+    """The curve of a design, as thick as its walls, dashed if doubtful, with its marker at a
+    row.
+    """
     style = look.of(row)
     dashes = "--" if doubtful(row).item() else "-"
     width = look.width(row["wall_thickness_m"].item())
@@ -150,12 +152,14 @@ def _curve(ax: Axes, x: Any, y: Any, look: Looks, row: DataFrame, marked: int | 
 
 
 def _rings(ax: Axes, x: Any, y: Any, style: dict[str, Any]) -> None:
-    """Impacts of a design as open signs, twice as large as those of its walls in the legend."""
+    """Impacts of a design as open markers, twice as large as the markers of its walls in the
+    legend.
+    """
     area = float(style["s"][0])
     look = {"s": 2.0 * area, "lw": THIN * area**0.5, "marker": style["marker"]}
     ax.scatter(x, y, edgecolor=style["c"][0], **RING, **look)
 
 
 def _entry(words: str) -> dict[str, Any]:
-    """An entry of the legend for what signs mark."""
+    """An entry of the legend for the meaning of markers."""
     return PLAIN | {"label": f"sign: {words}", "marker": ""}

@@ -35,24 +35,24 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-TITLE = 72  # letters in a line above a panel
+TITLE = 72  # most letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
 FRONT = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
 RING = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "label": "best"}
 HEAVY = {"ls": "", "marker": "o", "ms": 6.0, "color": GREY, "label": "above all budgets"}
-PALE = 0.45  # of the colour of a design that is not on the Pareto front
+PALE = 0.45  # share of its colour that a design off the Pareto front keeps
 VARIANT = [
     "lattice_kind",
     "cells_x",
     "cells_y",
     "material",
     "direction",
-]  # constant along a line of trends
+]  # keys that are constant along a line of trends
 SHAPED = "lattice.", "material."  # keys of a design
 THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
 """Keys of a design that set the thickness of its walls."""
-NARROW, MARGIN = 1.2, 0.1  # of the axis of mass: least ratio of its ends; margin at either end
-ENDS = 0.1, 10.0  # of a value: limits of its error bar, since a log axis has no zero
+NARROW, MARGIN = 1.2, 0.1  # axis of mass: least ratio of its ends; margin at either end
+ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis has no zero
 
 
 def design_map(fig: Figure, ranking: Ranking) -> None:
@@ -135,7 +135,7 @@ def has_trends(designs: DataFrame) -> bool:
 
 
 def _in_lines(words: str) -> str:
-    """A title whose lines end behind commas."""
+    """A title with line breaks after commas."""
     one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
     wrapper = TextWrapper(
         TITLE, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
@@ -152,7 +152,7 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs of one sign as dots; open if doubtful."""
+    """Designs with one marker as dots; open if doubtful."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]

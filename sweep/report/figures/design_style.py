@@ -1,9 +1,9 @@
 """Designs in charts: their style, their merit, and the winners of budgets.
 
-The same in every panel: size = wall thickness; open and dashed = doubtful. Of several patterns the
-colour stands for what has most choices among pattern, material and direction, the sign for the next
-of them, or for the same if the others do not vary. Of one pattern the colour stands for the cells,
-and for the direction if that varies, the sign for the material.
+The style is the same in every panel: size = wall thickness; open and dashed = doubtful. With
+several patterns the colour shows whichever of pattern, material and direction has most values, the
+marker the next of them, or the same one if the others do not vary. With one pattern the colour
+shows the cells, and the direction if it varies, and the marker the material.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 WORDS = {"lattice_kind": "pattern", "material": "material", "direction": "pressed"}
 HUES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#5a5a5a")
-"""Colours that a colour-blind reader tells apart (M. Okabe and K. Ito, 2008), and two more."""
+"""Colours that a colour-blind reader can distinguish (M. Okabe and K. Ito, 2008), and two more."""
 SIGNS = "o^sDvP*Xh<>pd"
 OF_FAMILY = {"circle": "o", "triangle": "^", "square": "s", "diamond": "D", "hex": "h"}
 OF_FAMILY |= {"kagome": "*"}
 SIZES = 5  # greatest number of wall thicknesses in a legend
-AREAS = (15.0, 75.0)  # points^2: sign of the thinnest and of the thickest wall
-THIN = 0.2  # points of a line / diameter of the sign of a design
+AREAS = (15.0, 75.0)  # points^2: marker of the thinnest and of the thickest wall
+THIN = 0.2  # points of a line / diameter of the marker of a design
 LINE = {"ls": "-", "marker": ""}
 PLAIN = {"ls": "", "marker": "o", "ms": 6.0, "color": "#8a8a8a"}
 
@@ -59,7 +59,7 @@ class Looks(NamedTuple):
     doubtful: bool
 
     def of(self, points: DataFrame) -> dict[str, Any]:
-        """Keywords of a scatter plot for designs of one sign."""
+        """Keyword arguments of a scatter plot for designs with one marker."""
         return {
             "c": [self.colors[values] for values in _rows(points, self.tint)],
             "s": points["wall_thickness_m"].map(self.areas).to_numpy(),
@@ -73,10 +73,11 @@ class Looks(NamedTuple):
     def legend(
         self, walls: bool = True, barred: bool = False, lines: bool = False
     ) -> list[dict[str, Any]]:
-        """Keywords of an empty line for each entry of a legend; groups that vary have a heading.
+        """Keyword arguments of an empty line for each entry of a legend; groups that vary have a
+        heading.
 
         walls: with wall thicknesses; barred: with an entry for error bars; lines: designs are lines
-        whose width is that of the walls.
+        whose width shows their walls.
         """
         noun = WORDS[self.sign]
         signs: dict[str, dict[str, Any]] = {n: {"marker": s} for n, s in self.signs.items()}
@@ -132,7 +133,7 @@ def _rows(designs: DataFrame, names: list[str]) -> Iterator[tuple[Any, ...]]:
 
 
 def _signs(names: list[str]) -> dict[str, str]:
-    """A sign for each name, similar to the pattern of this name if possible."""
+    """A marker for each name, similar to the pattern of this name if possible."""
     families = {name: family_of(name) for name in names}
     alike = {name: OF_FAMILY[kind] for name, kind in families.items() if kind in OF_FAMILY}
     spare = cycle(sign for sign in SIGNS if sign not in alike.values())
@@ -182,14 +183,14 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
 
 
 def until(ranking: Ranking) -> str:
-    """Where the usable energy ends, on a line of its own."""
+    """The end of the usable energy, on a line of its own."""
     return f"\n{ranking.until}"
 
 
 def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
     """Words, mass and merit of the best design of one scene within each budget.
 
-    Without budgets, those of the first design. A design that cannot be trusted is never the best.
+    Without budgets, only for the first design. A doubtful design is never the best.
     """
     mass, energy = ranking.mass, ranking.energy
     front, (name, _) = rows[rows["pareto"]].sort_values(mass), _compared(rows, energy)
@@ -234,7 +235,7 @@ def _words(won: DataFrame, among: DataFrame, ranking: Ranking, name: str) -> str
 
 
 def _of_panel(won: DataFrame) -> str:
-    """The force of a panel beside that of a specimen; "" without a panel."""
+    """The force of a panel beside the force of a specimen; "" without a panel."""
     if "panel_force_N" not in won:
         return ""
     return f", {three_digits(won['panel_force_N'].item())} N on the panel"
@@ -253,12 +254,14 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
 
 
 def _colors(tint: list[str], count: int) -> list[str]:
-    """Colours that differ for words, or as few as that; from dark to light for numbers and many."""
+    """Distinct colours for words, if there are as few; from dark to light for numbers and for
+    many.
+    """
     return list(HUES[:count]) if tint[0] in WORDS and count <= len(HUES) else _ramp(count)
 
 
 def faded(color: str, share: float) -> str:
-    """A colour mixed with white, of which it keeps a ``share``."""
+    """A colour mixed with white, keeping a ``share`` of itself."""
     channels = (int(color[at : at + 2], 16) for at in (1, 3, 5))
     return "#" + "".join(f"{round(share * c + (1.0 - share) * 255.0):02x}" for c in channels)
 

@@ -1,4 +1,4 @@
-"""Plates as drawings of lines: their plan."""
+"""Draws plates as lines: their plan."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-LEVEL = 1e-6  # of the height: nodes no farther apart have one height
+LEVEL = 1e-6  # share of the height within which nodes have one height
 
 
 def plan(frames: Mapping[str, Any]) -> dict[str, Any]:

@@ -23,7 +23,7 @@ NEAR = -0.1, 0.1  # strain
 
 
 def material_curves(figure: Figure, curves: Mapping[str, Curve]) -> None:
-    """Nominal stress over nominal strain, compression and tension; the middle of it enlarged.
+    """Nominal stress over nominal strain, compression and tension, with an enlarged middle.
 
     curves: strain (k,) and stress (k,) in Pa by the names of the materials.
     """
@@ -65,7 +65,7 @@ def coupon_fit(figure: Figure, record: Curve, model: Curve, title: str) -> None:
 
 
 def _cross(ax: Axes) -> None:
-    """Axes through the origin, and what they show."""
+    """Axes through the origin, with their labels."""
     ax.axhline(0.0, color="black", lw=0.6)
     ax.axvline(0.0, color="black", lw=0.6)
     ax.set(xlabel="nominal strain", ylabel="nominal stress, MPa")

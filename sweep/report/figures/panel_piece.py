@@ -1,7 +1,7 @@
 """A piece of a panel that repeats without end, cut out along planes that are upright at rest.
 
-The period that is stored ends along the sides of its quads. Here quads are cut where they pass
-through the sides of a period; what is cut moves with its quad. Such periods fit side by side.
+The stored period ends along the sides of its quads. Here quads are cut where they pass through the
+sides of a period; the parts move with their quad. Such periods fit side by side.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-START = 0.618  # of a period, along both sides: sheets are cut into few parts, no wall along it
+START = 0.618  # of a period, along both sides: cuts sheets into few parts, and no wall along it
 SHIFTS = np.array(list(product(range(-1, 3), repeat=2)))  # periods in which a quad may be cut
 SAME = 1e-9  # m: corners no farther apart at rest are one node
 
 
 def piece(frames: Mapping[str, Any], row: Mapping[str, Any], times: int = 2) -> Mapping[str, Any]:
-    """The shapes of so many periods along both sides; as they are if nothing repeats.
+    """The shapes of ``times`` periods along both sides; unchanged if nothing repeats.
 
     frames, row : of a case, as `read_frames` and the summary have them.
     """
@@ -47,7 +47,9 @@ def piece(frames: Mapping[str, Any], row: Mapping[str, Any], times: int = 2) -> 
 
 
 def places(row: Mapping[str, Any], times: int = 2) -> Floats:
-    """How far so many periods along both sides are moved, (k, 2) m; not at all if none repeats."""
+    """How far ``times`` periods along both sides are moved, (k, 2) m; not at all if none
+    repeats.
+    """
     if not row["sides"].startswith(TIED_SIDES):
         return np.zeros((1, 2))
     return np.array(list(product(range(times), repeat=2))) * _period(row)
@@ -61,7 +63,7 @@ def _period(row: Mapping[str, Any]) -> Floats:
 def _cut(
     position: Floats, quads: NDArray[np.int64], period: Floats
 ) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
-    """Positions (f, n, 3) and quads (m, 4) of one period (2,), and the quads (m,) of which they are
+    """Positions (f, n, 3) and quads (m, 4) of one period (2,), and the original quads (m,) of these
     parts.
     """
     plan, room = position[0, quads, :2] - START * period, SHIFTS * period
@@ -81,14 +83,14 @@ def _cut(
 
 
 def _meets(plan: Floats, period: Floats) -> NDArray[np.bool_]:
-    """Which quads (m, 4, 2) are not beside the rectangle from 0 to ``period``."""
+    """Which quads (m, 4, 2) overlap the rectangle from 0 to ``period``."""
     beside = np.all(plan <= 0.0, axis=1) | np.all(plan >= period, axis=1)
     return np.asarray(~beside.any(axis=1))
 
 
 def _inside(corners: Floats, period: Floats) -> Floats:
-    """The part of a quad (4, 2) in that rectangle: weights (k, 4) of the corners for each of its
-    own (I. Sutherland and G. Hodgman, Reentrant polygon clipping, 1974).
+    """The part of a quad (4, 2) in that rectangle: weights (k, 4) of the corners of the quad for
+    each corner of the part (I. Sutherland and G. Hodgman, Reentrant polygon clipping, 1974).
     """
     weights = np.eye(4)
     for axis, side in product((0, 1), (0, 1)):
@@ -105,6 +107,6 @@ def _inside(corners: Floats, period: Floats) -> Floats:
 
 
 def _quads(polygon: Floats) -> Iterator[Floats]:
-    """The quads (4, c) of a convex polygon (k, c); a triangle has one corner twice."""
+    """The quads (4, c) of a convex polygon (k, c); for a triangle one corner occurs twice."""
     for k in range(1, len(polygon) - 1, 2):
         yield polygon[[0, k, k + 1, min(k + 2, len(polygon) - 1)]]

@@ -28,7 +28,7 @@ ROW, DRAWN_ROW = 0.25, 0.5  # inches for a bar, without and with a drawing
 WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing as wide as high
 WIDEST = 2.5  # widths over heights of a drawing as high as its row; wider ones are drawn smaller
 PAD = 3.0  # points between the drawings and the names
-LETTERS = 46  # of a line of a name beside a drawing
+LETTERS = 46  # most letters of a line of a name beside a drawing
 
 
 def pattern_bars(

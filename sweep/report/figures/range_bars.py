@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ROW, WIDTH, MARGIN = 0.3, 9.0, 1.2  # inches: height of a row, width, height without rows
-THIN = 0.004  # of the measured value: least width of a bar that is drawn
+THIN = 0.004  # share of the measured value: least width of a bar
 
 
 def size(comparisons: Sequence[Comparison]) -> tuple[float, float]:
@@ -21,7 +21,8 @@ def size(comparisons: Sequence[Comparison]) -> tuple[float, float]:
 
 
 def range_bars(ax: Axes, comparisons: Sequence[Comparison]) -> None:
-    """A bar for each prediction / middle of the measured range; those outside in another colour.
+    """A bar for each prediction / middle of the measured range; predictions outside in another
+    colour.
 
     Rows without a prediction or a measured value are left out.
     """

@@ -1,7 +1,7 @@
 """Plates as a camera sees them: corners of quads on the screen, from back to front, and shades.
 
 The view is orthographic, from above and aside, so that lengths along the screen's horizontal are
-true and one looks into the cells.
+true and the cells are open to view.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # of the camera, from the x axis and up
-LIGHT = np.array([-0.25, -0.65, 0.75])  # towards the light, left above the camera
+AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # camera, from the x axis and up
+LIGHT = np.array([-0.25, -0.65, 0.75])  # direction towards the light, left above the camera
 LIGHT /= np.linalg.norm(LIGHT)
-AMBIENT = 0.25  # shade of a face that turns its side to the light
+AMBIENT = 0.25  # shade of a face parallel to the light
 COLOURS = ("#16283c", "#2b4c6f", "#7fa3c7", "#dfe9f3")  # of shades from 0 to 1
 
 
@@ -72,7 +72,9 @@ def ring(box: Floats, margin: float) -> Floats:
 
 
 def cut_open(frames: Mapping[str, Any]) -> dict[str, Any]:
-    """The shapes without the quads that are before the middle at rest, as the camera sees it."""
+    """The shapes without the quads that lie in front of the middle at rest, as seen by the
+    camera.
+    """
     middle = np.asarray(frames["position_m"][0], float)[frames["quads"]].mean(axis=1)
     _, near = seen(middle * [1.0, 1.0, 0.0])
     behind = near <= 0.5 * (near.min() + near.max())

@@ -1,4 +1,4 @@
-"""Chooses what is drawn of a case: its shapes, with captions, and its energies."""
+"""Chooses the contents of the pictures of a case: its shapes, with captions, and its energies."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ PARTS = {
 }
 """Columns of a history that add up to the work done, in words."""
 
-NEGLIGIBLE = 0.005  # of the work: smaller energies are not drawn
+NEGLIGIBLE = 0.005  # share of the work below which energies are not drawn
 SHAPES = 6
-TITLE = 80  # letters in a line of a title
+TITLE = 80  # most letters in a line of a title
 RELEASED = 0.01  # below this strain a specimen counts as released
 ROUND_OFF = 1e-12
-FLOWN = 0.5  # of its height: a specimen that is lifted farther is not drawn
+FLOWN = 0.5  # share of its height: a specimen lifted farther is not drawn
 
 
 def headline(row: Mapping[str, Any]) -> str:
@@ -86,8 +86,8 @@ def turns(history: DataFrame, row: Mapping[str, Any]) -> dict[int, str]:
 
 
 def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
-    """Rows of a crush at which the platen reaches its full stroke, leaves it after a pause, if any,
-    and is back up, or as far up as it comes; of every cycle.
+    """Rows of a crush at which the platen reaches its full stroke, leaves it, after a pause if
+    there is one, and has moved back up, or up as far as it goes; for every cycle.
     """
     strain = history["strain"].to_numpy()
     top = np.flatnonzero(strain >= (1.0 - ROUND_OFF) * np.nanmax(strain))
@@ -106,9 +106,10 @@ def parts_of(history: DataFrame) -> dict[str, str]:
 
 
 def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
-    """What the energies of a case add up to (J), in words, and the `parts_of` it, none negative.
+    """The sum of the energies of a case (J), in words, and its `parts_of`, none negative.
 
-    That is the work done; what time integration has gained is no part of the work, but added to it.
+    The sum is the work done; energy gained by time integration is no part of the work, but added to
+    it.
     """
     parts, total = parts_of(history), MODES[row["loading_mode"]].total
     gain = -np.minimum(history[INTEGRATOR], 0.0)
@@ -158,8 +159,8 @@ def _even(strain: NDArray[np.float64], count: int) -> list[int]:
 
 
 def _last_standing(position: NDArray[np.float64], turn: int) -> list[int]:
-    """The last frame after `turn` with the specimen not lifted off, if any; position (f, n, 2), or
-    (f, n, 3) of plates: the last coordinate is upwards.
+    """The last frame after `turn` in which the specimen has not lifted off, if any; position (f, n,
+    2), or (f, n, 3) for plates: the last coordinate is upwards.
     """
     height = np.ptp(position[0, :, -1])
     lift = position[turn + 1 :, :, -1].min(1) - position[0, :, -1].min()

@@ -1,4 +1,6 @@
-"""The data of a page: designs with what ranks them, curves, shapes, failures, origin."""
+"""Collects the data of a page: designs with the values that rank them, curves, shapes, failures,
+origin.
+"""
 
 from __future__ import annotations
 
@@ -60,9 +62,9 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-POINTS = 60  # of a curve
+POINTS = 60  # most points of a curve
 LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
-LEAST_POINTS = 12  # of a curve in a page of many cases
+LEAST_POINTS = 12  # most points of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
@@ -85,10 +87,10 @@ def first_ranking(summary: DataFrame, question: Question) -> Ranking:
 def page_data(
     file: str, summary: DataFrame, question: Question, ranking: Ranking | None = None
 ) -> dict[str, Any]:
-    """All that a page shows, for JSON; numbers that rank designs keep all their digits.
+    """All data of a page, for JSON; numbers that rank designs keep all their digits.
 
-    question : what the page starts with; budget (kg) and panel (m) are lists or None. ranking :
-    its `first_ranking`, where there is one already.
+    question : the question with which the page starts; budget (kg) and panel (m) are lists or None.
+    ranking : its `first_ranking`, if it exists already.
     """
     heads = list(design_text(loaded(summary), summary))
     counted = _counted(needed_columns(summary, OF_SCENES))
@@ -152,12 +154,12 @@ def page_data(
 
 
 def _by_id(parts: Iterable[DataFrame]) -> dict[str, Series]:
-    """The rows of these parts of a summary by their ids."""
+    """The rows of several parts of a summary by their ids."""
     return {row["case_id"]: row for part in parts for _, row in part.iterrows()}
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
-    """What may be required, of which loadings, in which unit and words."""
+    """The possible requirements, with their loadings, units and words."""
     return {
         name: {**measure._asdict(), "limit": measure.limit, "far": measure.far}
         for name, measure in MEASURES.items()
@@ -166,7 +168,7 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 def _counted(summary: DataFrame) -> list[Counted]:
     """Energies that are known for all cases: until packed, and up to the forces of the columns,
-    with only the columns that differ between forces, and those that selections need.
+    with only the columns that differ between forces, and the columns that selections need.
     """
     texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
     until_packed = Counted(None, *merits(summary, Question()))
@@ -183,7 +185,7 @@ def _up_to(force: float, summary: DataFrame) -> Counted:
 def _cases(
     counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
 ) -> dict[str, dict[str, Any]]:
-    """What ranks every case of these scenes, and what its row of the table says, by its id."""
+    """The ranking data of every case of these scenes, and its row of the table, by its id."""
     cases, ends = {}, end_columns(counted[0].names.energy)
     for number, part in enumerate(scenes):
         if part.empty:
@@ -254,7 +256,7 @@ def _measures(rows: DataFrame) -> dict[str, Series]:
 
 
 def _scene(rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
-    """What the page says of a scene; kept: the rows of the designs that it holds."""
+    """The data of a scene; kept: the rows of the designs on the page."""
     mode, least = mode_of(rows), compared(rows)
     return {
         "label": scene_label(rows),
@@ -276,7 +278,7 @@ def _energy(counted: Counted) -> dict[str, Any]:
 
 
 def _asked_first(ranking: Ranking) -> list[str]:
-    """Ids of the winners of the ranking that the page starts with, and of the nearest designs."""
+    """Ids of the winners of the first ranking of the page, and of the nearest designs."""
     groups = ranking.table.groupby(["scene", "budget_g"], dropna=False, sort=False)
     winners = groups.head(TOP_OF_A_BUDGET).sort_values("place", kind="stable")["case_id"]
     nearest = [
@@ -297,7 +299,7 @@ class _Stored:
         self._room = {"drawings": DRAWINGS, "shapes": SHAPES}
 
     def take(self, case: StoredRun, row: Series) -> dict[str, Any]:
-        """What the page shows of a case; `row`: of the summary."""
+        """The curves and shapes of a case on the page; `row`: of the summary."""
         history, frames = case.history, case.frames
         more: dict[str, Any] = {}
         if len(history) > 1:
@@ -311,14 +313,14 @@ class _Stored:
         return more
 
     def so_far(self, case: StoredRun, row: Series) -> dict[str, Any]:
-        """What ranks a case that stopped: its curve until then."""
+        """The data that rank a case that stopped: its curve until then."""
         if len(case.history) < 2 or not MODES[row["loading_mode"]].driven:
             return {}
         curve, stairs = self._curve(case.history, row), self._stairs(case.history, row)
         return {"curve": curve, "stairs": stairs}
 
     def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
-        """Abscissa and ordinate of the curve of a case, as `curve_of` says."""
+        """Abscissa and ordinate of the curve of a case, as in `curve_of`."""
         return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
 
     def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
@@ -330,7 +332,7 @@ class _Stored:
         return {"label": label, "total": words, "parts": names, "values": values}
 
     def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Greatest pressure (kPa) on a patch of the base over the path, where there is one."""
+        """Greatest pressure (kPa) on a patch of the base over the path, if there is one."""
         pressure = in_unit(history["base_pressure_Pa"], "kPa")
         if not pressure.max() > 0.0:
             return {}
@@ -348,7 +350,7 @@ class _Stored:
         return [numbers(column, 7) for column in thin]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
-        """Number of the drawing of a shape at rest, which may be that of an earlier case."""
+        """Number of the drawing of a shape at rest, which an earlier case may share."""
         frames = plan(frames) if "quads" in frames else frames
         at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
         thickness = frames["edge_thickness_m"].astype(float)
@@ -373,7 +375,9 @@ class _Stored:
             self.shapes[case.case_id] = moving
 
     def _fits(self, what: str, length: int) -> bool:
-        """True if there is still room; no later and shorter one is taken after one that fails."""
+        """True if there is still room; after one that does not fit, no shorter one is taken
+        either.
+        """
         self._room[what] -= length
         return self._room[what] >= 0
 
@@ -389,7 +393,9 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
 
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:
-    """Force (N) over strain (%); strain over time (ms) of a dead load, whose force is constant."""
+    """Force (N) over strain (%); strain over time (ms) under a dead load, whose force is
+    constant.
+    """
     x, y = (in_unit(history[axis.column], axis.unit) for axis in MODES[row["loading_mode"]].curve)
     return x, y
 
@@ -404,7 +410,7 @@ def _forces(
 
 
 def _failures(summary: DataFrame) -> Iterator[dict[str, str]]:
-    """The first cases that did not converge: design, scene, how it ended and why."""
+    """The first cases that did not converge: design, scene, status and message."""
     failed = summary[summary["status"] != Status.CONVERGED][:FAILURES]
     for rows in by_scene(failed) if len(failed) else []:
         label = scene_label(rows)
@@ -420,7 +426,7 @@ def _config(about: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]]:
-    """Where the numbers come from, as pairs of words."""
+    """Origin of the numbers, as pairs of words."""
     versions = summary["model_version"].value_counts().sort_index().items()
     packages = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
     model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)

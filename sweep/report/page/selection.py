@@ -1,15 +1,15 @@
-"""Which designs a page of many holds, and what the others reach at most.
+"""Selects the designs that a page of many holds, and bounds the values of the others.
 
 A page of up to `MOST` designs holds all. Of more, it holds those that have one of the first places
 within some budget, per gram or per area of a panel, until densification or up to a force of the
 columns; the best below some limit of a requirement; and a sample of the others.
 
-The designs that it leaves out are in groups. A group is a design that no page shows: the least mass
-of its members, their greatest energies, their least force and so on. No member can have a better
-value than the group for any question, nor miss a requirement that the group meets. So the page
-knows which places are certain (`certainty` in rank.js). The members are grouped twice, once by mass
-alone and once by all that limits them, and the lower of both bounds counts; within a budget, also
-that of the front of the designs that are left out.
+The remaining designs are represented by groups. A group is a design that no page shows: the least
+mass of its members, their greatest energies, their least force and so on. No member can have a
+better value than the group for any question, nor miss a requirement that the group meets. So the
+page knows which places are certain (`certainty` in rank.js). The members are grouped twice, once by
+mass alone and once by all limited values, and the lower of both bounds counts; within a budget,
+also the bound from the front of the designs that are left out.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     Indices = NDArray[np.int64]
 
 MOST = 300  # designs
-SAMPLE = 50  # of these, from all the others
+SAMPLE = 50  # number of these that are sampled from all the others
 SCENES = 40
 PLACES = 15  # within a budget
-LIMITED = 8  # of those that are the best below some limit of a requirement
+LIMITED = 8  # number of designs that are the best below some limit of a requirement
 STOPPED, LEAST_STOPPED = 60, 10  # unfinished cases in all scenes; of each at least
 GROUPS = 256  # in all scenes
 LIMITS = {
@@ -58,7 +58,9 @@ SELECTED_BY = frozenset(
 
 
 class Counted(NamedTuple):
-    """Energy up to an allowed force (N; None: until packed), and the rows with what is compared."""
+    """Energy up to an allowed force (N; None: until packed), and the rows with the compared
+    columns.
+    """
 
     force: float | None
     rows: DataFrame
@@ -86,7 +88,7 @@ def select_designs(
 
 
 def select_stopped(rows: DataFrame, names: Compared, scenes: int) -> DataFrame:
-    """The rows of stopped cases of one of the scenes that reached the most, for some budget."""
+    """The rows of stopped cases in one of the scenes that reached the most, for some budget."""
     most = max(STOPPED // scenes, LEAST_STOPPED)
     if len(rows) <= most:
         return rows
@@ -116,7 +118,7 @@ def layers(limited: Floats, merit: Floats, most: int) -> Iterator[Indices]:
 
 
 def _layered(counted: Sequence[Counted], rows: DataFrame) -> Iterator[Iterator[list[str]]]:
-    """Ids of the best designs of a scene by one of its merits after another, in layers."""
+    """Ids of the best designs of a scene by each of its merits in turn, in layers."""
     for name in (counted[0].names.mass, "peak_force_N"):  # ends of the sliders
         values = rows[name].to_numpy(float)
         for ends in (values, -values):
@@ -148,7 +150,9 @@ def _ids(part: DataFrame, limited: Floats, merit: Floats, most: int) -> Iterator
 
 
 def _merits(part: DataFrame, names: Compared) -> list[Floats]:
-    """What is to be great: energy, and energy per gram; or what is compared instead, negative."""
+    """The values to be maximised: energy, and energy per gram; or the negative of the column
+    compared instead.
+    """
     least = compared(part) if len(part) else None
     columns = [names.energy, names.per_gram] if least is None else [least]
     sign = 1.0 if least is None else -1.0
@@ -158,9 +162,10 @@ def _merits(part: DataFrame, names: Compared) -> list[Floats]:
 def group_others(
     counted: Sequence[Counted], rows: DataFrame, ids: Iterable[str], scenes: int
 ) -> list[list[dict[str, Any]]]:
-    """The groups of the designs of a scene that the page leaves out, twice; none if it has all.
+    """The groups of the designs of a scene that are not on the page, by both groupings; none if all
+    are.
 
-    ids : of the designs that it holds. scenes : their number.
+    ids : of the designs on the page. scenes : number of scenes.
     """
     rows = rows[~rows["case_id"].isin([*ids]) & rows[counted[0].names.mass].notna()]
     if rows.empty:
@@ -182,8 +187,8 @@ def group_others(
 def front_of_others(
     counted: Sequence[Counted], rows: DataFrame, ids: Iterable[str]
 ) -> list[list[list[float]]]:
-    """The best designs to be trusted that the page leaves out, within every budget: their masses
-    and energies, for each kind of energy; where something else is compared, the negative of that.
+    """The best trusted designs within every budget that are not on the page: their masses and
+    energies, for each kind of energy; if something else is compared, the negative of it.
     """
     rows = rows[~rows["case_id"].isin([*ids])]
     fronts = []
@@ -197,7 +202,7 @@ def front_of_others(
 
 
 def _split(rows: Indices, axes: Floats, count: int, turn: int = 0) -> list[Indices]:
-    """Rows in about ``count`` groups of alike ones: halved at the medians of the axes in turn."""
+    """Rows in about ``count`` groups of similar ones: halved at the medians of the axes in turn."""
     if count < 2 or len(rows) < 2:
         return [rows]
     order = rows[np.argsort(axes[rows, turn % axes.shape[1]], kind="stable")]
@@ -207,10 +212,10 @@ def _split(rows: Indices, axes: Floats, count: int, turn: int = 0) -> list[Indic
 
 
 def _values(counted: Sequence[Counted], rows: DataFrame) -> dict[str, Floats]:
-    """What bounds the designs, row by row.
+    """The values that bound the designs, row by row.
 
-    "any" is of all designs, "sound" only of those that are to be trusted: where the energy is
-    "counted" up to a force of the columns, and "below" it.
+    "any" covers all designs, "sound" only the trusted ones: where the energy is "counted" up to a
+    force of the columns, and "below" it.
     """
     names, least = counted[0].names, compared(rows)
     columns = LIMITS | {"mass": names.mass, "stroke": "counted_stroke_m", "depth": "depth_m"}
@@ -256,7 +261,7 @@ def _corner(of: dict[str, Floats], forces: Sequence[float]) -> dict[str, Any]:
         "ends": [None, None],
         "within": None,
         "strokes": [_least(of["stroke"]), *(0 for _ in forces)],
-        "curve": [[0], [0]],  # no stroke: that of a member is read from a curve
+        "curve": [[0], [0]],  # no stroke: a member has it from its curve
         "height": 0,
     }
 
@@ -272,8 +277,8 @@ def _least(values: Floats) -> float | None:
 
 
 def _stairs(forces: Sequence[float], most: Sequence[float | None]) -> list[list[float]] | None:
-    """Force (N) and work (J) as steps: up to each of the forces the work is at most that done when
-    it is exceeded; beyond the last one, the work of the whole crush.
+    """Force (N) and work (J) as steps: up to each of the forces the work is at most the work done
+    when it is exceeded; beyond the last one, the work of the whole crush.
     """
     if None in most:
         return None

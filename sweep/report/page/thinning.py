@@ -1,4 +1,4 @@
-"""Curves with few points: those that matter most for their shape."""
+"""Reduces curves to the few points that matter most for their shape."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     Gap = Callable[[Floats, Floats, Floats], Floats]
 
 TINY = np.finfo(float).tiny
-LEAST_WORK = 1e-3  # of all work: below, an error counts relative to this work
-ALIKE = 0.5  # of the greatest distance: points so far away are added in the same round
+LEAST_WORK = 1e-3  # share of all work: below, an error counts relative to this work
+ALIKE = 0.5  # share of the greatest distance: points so far away are added in the same round
 
 
 def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None = None) -> list[int]:
     """Indices of points (n, k) whose polyline stays close to all of them.
 
     The points farthest from their chords are added until there are ``most`` points or none is
-    farther away than ``tolerance`` (Ramer 1972, the greatest distances first). `gap`: what counts
-    as the distance, of points from start and end of their chords; Euclid's if it is not given.
+    farther away than ``tolerance`` (Ramer 1972, the greatest distances first). `gap`: the distance
+    of points from start and end of their chords; Euclidean if it is not given.
     """
     if len(points) < 3:
         return list(range(len(points)))
@@ -59,7 +59,7 @@ def _distances(points: Floats, start: Floats, end: Floats) -> Floats:
 
 
 def _dot(one: Floats, other: Floats) -> Floats:
-    """Products (n,) of vectors (n, k) of few components, which `sum` would add up slowly."""
+    """Products (n,) of vectors (n, k) with few components, which `sum` would add up slowly."""
     return np.einsum("ij,ij->i", one, other)
 
 
@@ -96,8 +96,8 @@ def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:
 def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
     """Greatest force so far (N) over the work done (J), (rows + dips,) each.
 
-    The work that is done until a force is exceeded is the last one at which these stairs are not
-    above it. Where the force rises again after a dip, a point is added at its former height.
+    The work done until a force is exceeded is the last one at which these stairs are not above it.
+    Where the force rises again after a dip, a point is added at its former height.
     """
     highest = np.maximum.accumulate(force)
     again = np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
@@ -111,7 +111,9 @@ def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
 
 
 def work_until(limit: float, highest: Floats, work: Floats) -> float:
-    """Work (J) at which stairs of `force_stairs` first exceed a force (N); all if they never do."""
+    """Work (J) at which stairs from `force_stairs` first exceed a force (N); all if they never
+    do.
+    """
     over = np.flatnonzero(highest > limit)
     if not len(over):
         return float(work[-1])
@@ -123,7 +125,9 @@ def work_until(limit: float, highest: Floats, work: Floats) -> float:
 
 
 def thin_stairs(force: Floats, work: Floats, most: int) -> tuple[Floats, Floats]:
-    """At most ``most`` points of `force_stairs`, those that give the work best, relatively."""
+    """At most ``most`` points of `force_stairs`, chosen for the least relative error of the
+    work.
+    """
     highest, done = force_stairs(force, work)
     kept = thinned(np.column_stack([highest**2, done]), most, gap=_work_gaps)
     return highest[kept], done[kept]

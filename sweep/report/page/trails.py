@@ -1,4 +1,4 @@
-"""Walls of a shape as few long polylines, or as faces, and shapes as short text."""
+"""Stores walls of a shape as few long polylines, or as faces, and shapes as short text."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-STRAIGHT = 0.03  # of the wall thickness: nodes nearer to a straight wall are not drawn
+STRAIGHT = 0.03  # share of the wall thickness: nodes nearer to a straight wall are not drawn
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it
 GRID = 65535  # steps of a coordinate of a frame
 FRAMES = 24
-PLATEN = 0.05  # of the width of plates: by how much their platens are wider
+PLATEN = 0.05  # share of the width of plates by which their platens are wider
 
 
 class Trail(NamedTuple):
@@ -69,7 +69,7 @@ def _pairs(
 
 
 def _straightest(arms: Sequence[tuple[int, int]], away: Floats) -> Iterator[tuple[int, int]]:
-    """Disjoint pairs of the arms of a node, those that differ least from a straight line first.
+    """Disjoint pairs of the arms of a node, the straightest pair first.
 
     arms: (element, side); away (m, 2): directions of the elements.
     """
@@ -119,14 +119,14 @@ def drawing(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> di
 
 
 def _path(points: Sequence[Sequence[int]]) -> str:
-    """An SVG path with steps relative to the point before."""
+    """An SVG path with steps relative to the previous point."""
     x, y = points[0]
     steps = (f"{c - a} {d - b}" for (a, b), (c, d) in pairwise(points))
     return f"M{x} {y}l{' '.join(steps)}"
 
 
 def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, Any]:
-    """Some frames of a case: trails of nodes, and what `_moving` has.
+    """Some frames of a case: trails of nodes, and the data of `_moving`.
 
     frames : from `read_frames`. forces : of every frame (N), None if unknown.
     """
@@ -141,7 +141,7 @@ def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, 
 
 
 def moving_faces(frames: Mapping[str, Any], forces: Sequence[Any], laid: Floats) -> dict[str, Any]:
-    """The same of plates: nodes of their quads, and how `shaded.faces` sees them. laid (k, 2): how
+    """Some frames of plates: nodes of their quads, as `shaded.faces` draws them. laid (k, 2): how
     far the pieces that are drawn side by side are moved along x and y, m.
     """
     used, quads = np.unique(frames["quads"], return_inverse=True)
@@ -187,8 +187,8 @@ def _points(outline: Floats) -> list[list[float]]:
 
 
 def _shown(strain: Floats) -> list[int]:
-    """At most `FRAMES` numbers of frames: the first, the last and those where the motion turns at
-    its greatest strain; others evenly spaced between them.
+    """At most `FRAMES` numbers of frames: the first, the last and the turning point at the greatest
+    strain; the others evenly spaced between them.
     """
     last = len(strain) - 1
     if last < FRAMES:

@@ -37,7 +37,7 @@ LEFT_OUT = (
 
 
 def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> Path:
-    """Write the page of a results file; `question`: of `page_data`."""
+    """Write the page of a results file; `question`: as in `page_data`."""
     ranking = first_ranking(summary, question)
     text = page(page_data(file, summary, question, ranking), tables(summary, ranking))
     out.parent.mkdir(parents=True, exist_ok=True)
@@ -47,7 +47,7 @@ def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> 
 
 
 def page(data: Mapping[str, Any], static: str) -> str:
-    """The whole page; `static`: what is shown where scripts do not run, as HTML."""
+    """The whole page; `static`: HTML that is shown where scripts do not run."""
     script = "\n".join(['"use strict";', *map(_read, PROGRAM)])
     digest = b64encode(sha256(script.encode()).digest()).decode()
     done = counted(data["total"], "case")
@@ -92,13 +92,13 @@ def _read(name: str) -> str:
 
 
 def _of_the_program(data: Mapping[str, Any]) -> dict[str, Any]:
-    """What the program needs: all but what the page says in HTML."""
+    """The data for the program: all that the page does not state in HTML."""
     needed = {name: value for name, value in data.items() if name not in IN_HTML}
     return needed | {"parts": list(PARTS.values())}
 
 
 def _as_script(data: Mapping[str, Any]) -> str:
-    """JSON that cannot end the script in which it stands."""
+    """JSON that cannot end the script that contains it."""
     text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=True)
     for letter in "<>&":
         text = text.replace(letter, f"\\u{ord(letter):04x}")
@@ -106,8 +106,8 @@ def _as_script(data: Mapping[str, Any]) -> str:
 
 
 def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> str:
-    """The cases that did not converge, with their sentences; "" if there is none. failed: number of
-    all of them, of which the page may have only the first.
+    """The cases that did not converge, with their messages; "" if there is none. failed: their
+    total number, of which the page may have only the first.
     """
     rows = [
         f"<tr>{cells([each['case_id'], each['label'], each['scene'], each['status']])}"

@@ -1,5 +1,6 @@
-"""Tables as text: a `sheet` is one table, of rankings (`sheets`), accuracy, materials or searches.
+"""Writes tables as text: a `sheet` is one table, of rankings (`sheets`), accuracy, materials or
+searches.
 
-`design_text` describes designs, `legend` what marks and heads mean, `requirement_notes` what
-requirements exclude; `markdown` writes any sheet as Markdown.
+`design_text` describes designs, `legend` explains marks and heads, `requirement_notes` says which
+designs requirements exclude; `markdown` writes any sheet as Markdown, `html` as HTML.
 """

@@ -28,7 +28,7 @@ from sweep.result import Status
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
-WIDTH = 100  # of a line below a table
+WIDTH = 100  # letters of a line below a table
 LEAST_SHOWN = 1e-5  # relative error; smaller ones are shown as "<" this value
 MARKS = """\
 *: on the front: no setting as cheap has a smaller greatest error. peak: of the stored rows. path:
@@ -94,7 +94,9 @@ def _reference(study: Study) -> str:
 
 
 def _cheapest(study: Study, target: float) -> Iterator[str]:
-    """The cheapest settings below a target: in all measures known so well, and in energy alone."""
+    """The cheapest settings below a target: in all measures that are known well enough, and in
+    energy alone.
+    """
     names = [name for name in study.resolved if study.references[name].doubt < target]
     if not names:
         yield f"Errors below {percents(target)} are not resolved: the reference is too uncertain."

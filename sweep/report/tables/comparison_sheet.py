@@ -38,7 +38,7 @@ def comparison_sheet(comparisons: Iterable[Comparison]) -> Sheet:
 
 
 def span(values: Range | None) -> str:
-    """A range in three digits: "0.0661..0.0903"; a single number if both ends look alike."""
+    """A range in three digits: "0.0661..0.0903"; a single number if both ends are the same text."""
     if values is None:
         return NOTHING
     low, high = (significant(value, 3) for value in values)

@@ -16,7 +16,7 @@ from sweep.ranking.scenes import ASSUMPTIONS, scene_label
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-ID = 4  # letters of an id in a sentence, if no other id begins so
+ID = 4  # least letters of an id in a sentence
 WAYS = {"in_plane": "across", ALONG: "along"}
 """How a lattice is pressed, by the column `direction`: across its cells or along them."""
 LAYERED = "delamination of printed layers is not modelled"
@@ -155,9 +155,10 @@ def _with_noun(head: str, text: str) -> str:
 
 
 def _sizes_vary(among: DataFrame, name: str) -> bool:
-    """Whether a length differs between designs by more than what follows from other columns.
+    """Whether a length differs between designs by more than follows from other columns.
 
-    Along the cells `depth_m` is the plan's over all: its centre lines and a wall, or an outline.
+    Along the cells `depth_m` is the overall depth of the plan: its centre lines and a wall, or an
+    outline.
     """
     if name != "depth_m" or "direction" not in among:
         return _varies(among, name)

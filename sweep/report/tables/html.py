@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 def html_table(sheet: Sheet, pictures: Mapping[str, str] | None = None) -> str:
     """A table with its title and notes.
 
-    pictures: SVG by the id of a case, of `Sheet.cases`; with any, the first column shows them.
+    pictures: SVG by the id of a case, from `Sheet.cases`; if given, the first column shows them.
     """
     title = f"<h3>{escape(sheet.title)}</h3>" if sheet.title else ""
     drawn = [(pictures or {}).get(case_id, "") for case_id in sheet.cases]
@@ -34,5 +34,5 @@ def cells(texts: Iterable[str]) -> str:
 
 
 def paragraphs(lines: Iterable[str]) -> str:
-    """Lines of quiet text, a paragraph each."""
+    """Lines of subdued text, a paragraph each."""
     return "".join(f'<p class="quiet">{escape(line)}</p>' for line in lines)

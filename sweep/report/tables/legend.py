@@ -1,4 +1,4 @@
-"""The marks in tables of a ranking, and what marks and heads of columns mean."""
+"""The marks in tables of a ranking, and the meaning of marks and heads of columns."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-LONG_SPAN = 0.1  # of strain
+LONG_SPAN = 0.1  # span of strain
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
 CRUSHED = """\
 {noun}: energy absorbed {until}; J/g is of it.
@@ -114,7 +114,7 @@ def legend(ranking: Ranking) -> str:
 
 
 def _notes(ranking: Ranking) -> list[str]:
-    """The meaning of what only some tables have: another mass, and marks."""
+    """Explanations that only some tables need: of another mass, and of marks."""
     table = ranking.table
     crushed = table[has(table, "driven")]
     densified = crushed["densification_strain"].notna()
@@ -140,7 +140,7 @@ def densifies_twice(rows: DataFrame) -> Series:
 
 
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
-    """What the columns mean that a table has for one kind of loading, whatever is asked."""
+    """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
     period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
     shaped = [SHAPED] if _is_shaped(rows) else []
@@ -148,7 +148,7 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
 
 
 def _first_loading(rows: DataFrame) -> list[str]:
-    """What holds of walls that are shells; nothing if there are none."""
+    """A note on walls that are modelled as shells; nothing if there are none."""
     sheet, along = rows["lattice_kind"].map(is_sheet), rows["direction"] == ALONG
     cells = ["along the cells"] if (along & ~sheet).any() else []
     named = " and ".join([*cells, *(["of sheets"] if sheet.any() else [])])
@@ -174,14 +174,14 @@ def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
 
 
 def _not_densified(rows: DataFrame) -> list[str]:
-    """What stands in place of the strain where a crush ends too early; nothing if none does."""
+    """The text in place of the strain where a crush ends too early; nothing if none does."""
     crushed = rows[has(rows, "driven")]
     ends = crushed["peak_strain"][crushed["densification_strain"].isna()].dropna()
     return [] if ends.empty else [NOT_DENSIFIED.format(tenths(ends.iloc[0]))]
 
 
 def _losses(rows: DataFrame) -> str:
-    """Where the energy goes that is not returned: into the material, or anywhere else."""
+    """Where the energy that is not returned goes: into the material, or anywhere else."""
     elastic = rows["material_memory"] == "none"
     if elastic.all():
         return ELASTIC

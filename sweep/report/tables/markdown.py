@@ -35,5 +35,5 @@ def _markdown(sheet: Sheet) -> str:
 
 
 def _cell(text: str) -> str:
-    """A text that ends no cell and begins no tag."""
+    """A text made safe: it ends no cell and begins no tag."""
     return TAG.sub("&lt;", text.replace("\n", " ").replace("|", "\\|"))

@@ -61,7 +61,7 @@ def _first_word(text: str) -> str:
 
 
 def _with_range(record: Record, key: str) -> str:
-    """A number of a material and how far it may lie from that, as text."""
+    """A number of a material and its range, as text."""
     value = _value(record, key)
     if value is None:
         return NOTHING

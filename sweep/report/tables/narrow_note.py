@@ -1,4 +1,4 @@
-"""What a ranking of patterns says about narrow lattices: in the terminal, the page and files."""
+"""A note on narrow lattices in rankings of patterns: for the terminal, the page and files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ OF_THREE = {
 
 
 def narrow_note(patterns: Collection[str]) -> Iterator[str]:
-    """What is known of narrow lattices of these patterns; nothing if there is none."""
+    """The known effect of narrow lattices on these patterns; nothing if there are none."""
     if not patterns:
         return
     gains = [

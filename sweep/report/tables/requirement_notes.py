@@ -1,4 +1,4 @@
-"""Sentences on what was required of the designs, and on how many of them fail each requirement."""
+"""Sentences on the requirements, and on how many designs fail each of them."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ FELT = {
     "base kPa": ("max_base_pressure", "peak_base_pressure_Pa"),
     "target g0": ("max_target_acceleration", "peak_target_acceleration_m_per_s2"),
 }
-"""Columns of what the base feels: the requirement and the column of results that show them."""
-WIDTH = 100  # letters in a line
+"""Columns on the load of the base, each with its requirement and its column of results."""
+WIDTH = 100  # most letters in a line
 DISTRUST = "marked {}: do not trust it"
 
 
@@ -52,7 +52,7 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
 
 
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
-    """What is required of these kinds of loading in one sentence; empty if it is nothing."""
+    """The requirements for these kinds of loading in one sentence; empty if there are none."""
     kinds = set(modes)
     own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].asked_of)}
     limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
@@ -60,7 +60,7 @@ def required(ranking: Ranking, modes: Iterable[str]) -> str:
 
 
 def of_one(rows: DataFrame) -> str:
-    """What masses and forces are of: the part that is printed, a specimen of a tiled panel, or a
+    """To what masses and forces refer: the printed part, a specimen of a tiled panel, or a
     period.
     """
     if len(rows) and is_period(rows).all():
@@ -69,7 +69,7 @@ def of_one(rows: DataFrame) -> str:
 
 
 def of_which(ranking: Ranking) -> str:
-    """What an allowed force and requirements are of."""
+    """To what an allowed force and requirements refer."""
     tiled = "panel_specimens" in ranking.table
     return f"a {ranking.per}" if tiled or ranking.per == "panel" else "the part"
 
@@ -82,7 +82,8 @@ def titled(title: str, ranking: Ranking) -> str:
 def requirement_notes(
     scene: str, ranking: Ranking, named: Callable[[DataFrame], str]
 ) -> Iterator[str]:
-    """Sentences about the requirements in one scene: what they are, who fails, what is nearest.
+    """Sentences about the requirements in one scene: their limits, the designs that fail, the
+    nearest design.
 
     named: the id and the design of a row, in words.
     """
@@ -101,7 +102,7 @@ def requirement_notes(
 def _of_budgets(
     outcomes: Sequence[Outcome], ranking: Ranking, named: Callable[[DataFrame], str]
 ) -> Iterator[str]:
-    """The counts of each budget with a design, then what most of them have in common."""
+    """The counts of each budget with a design, then the statements that most of them share."""
     counted = [outcome for outcome in outcomes if outcome.designs]
     for outcome in counted:
         yield _counts(outcome)
@@ -124,7 +125,7 @@ def _of_budgets(
 
 
 def _end(ranking: Ranking) -> str:
-    """Where the energy of a crush is counted to its end."""
+    """The point up to which the energy of a crush is counted, in words."""
     return "the allowed force was reached" if ranking.limited else "densification"
 
 
@@ -148,7 +149,9 @@ def _counts(outcome: Outcome) -> str:
 def _nearest(
     alike: Sequence[Outcome], limits: Mapping[str, float], named: Callable[[DataFrame], str]
 ) -> Iterator[str]:
-    """The nearest design of some budgets, what it misses, and what no design fulfils at all."""
+    """The nearest design of some budgets, the requirements that it misses, and those that no design
+    fulfils.
+    """
     outcome, row = alike[-1], alike[-1].nearest
     if row.empty:
         return
@@ -166,7 +169,9 @@ def _nearest(
 
 
 def _miss(name: str, outcome: Outcome, early: bool) -> str:
-    """What the nearest design has of a requirement, and by how much this is too much or little."""
+    """The value of the nearest design for a requirement, and by how much it is too large or too
+    small.
+    """
     measure, share = MEASURES[name], percentage(outcome.misses[name])
     value = quantity(name, outcome.missed[name])
     if early and name == "min_absorbed":
@@ -198,7 +203,7 @@ def _rectangle(outcome: Outcome) -> Iterator[str]:
 
 
 def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    """Columns of what is required, or sorted by, that a table does not have by itself.
+    """Columns of required or sorted quantities that a table does not have by itself.
 
     A limit of the force shows the stroke that stays below it.
     """
@@ -217,25 +222,25 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 
 
 def column_notes(ranking: Ranking) -> list[str]:
-    """What the columns of `requirement_columns` are."""
+    """Explanations of the columns of `requirement_columns`."""
     scenes = [rows for _, rows in ranking.table.groupby("scene", sort=False)]
     shown = {head for rows in scenes for head in requirement_columns(rows, ranking)}
     return [line for head, line in COLUMN_NOTES.items() if head in shown]
 
 
 def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
-    """Whether the designs of one scene are asked for a requirement."""
+    """Whether a requirement applies to the designs of one scene."""
     return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].asked_of
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:
-    """The force of the panel, where there is one."""
+    """The force of the panel, if there is one."""
     paneled = "panel_force_N" in rows
     return {"panel N": numerals(rows["panel_force_N"])} if paneled else {}
 
 
 def panel_size(rows: DataFrame) -> dict[str, Series]:
-    """The true lengths of the panel, where there is one."""
+    """The true lengths of the panel, if there is one."""
     if "panel_specimens" not in rows:
         return {}
     lengths = (in_unit(rows[f"panel_{side}_m"], "mm") for side in ("width", "depth"))
@@ -244,7 +249,7 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
 
 
 def panel_note(rows: DataFrame) -> list[str]:
-    """How many specimens a panel has, and what strikes them; none without a panel."""
+    """The number of specimens in a panel, and what strikes them; none without a panel."""
     if "panel_specimens" not in rows or has(rows, "dead").all():
         return []
     whole = is_period(rows)

@@ -21,12 +21,12 @@ ABOUT = (
     "estimate: one cell, scaled by mass; not a result, and in no ranking. full: the whole model; "
     f"{NOTHING}: not run, or it failed."
 )
-FEWEST = 3  # designs whose order is stated
+FEWEST = 3  # number of designs whose order is stated
 
 
 def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) -> Iterator[Sheet]:
     """A sheet for each scene and budget. summary: rows of the whole models; question: arguments of
-    `rank`, of which requirements are left out, as they are asked of the whole models.
+    `rank`, without requirements, as they apply to the whole models.
     """
     table = answer(estimates, question._replace(top=None, require=None)).table
     finished = loaded(summary)
@@ -51,14 +51,16 @@ def screen_sheets(estimates: DataFrame, summary: DataFrame, question: Question) 
 
 
 def _values(estimate: float, full: float) -> list[str]:
-    """The texts of an estimate, of the value of the whole model if it is known, and their ratio."""
+    """The texts of an estimate, of the value of the whole model if it is known, and of their
+    ratio.
+    """
     if isnan(full):
         return [three_digits(estimate), NOTHING, NOTHING]
     return [three_digits(value) for value in (estimate, full, full / estimate)]
 
 
 def _agreement(estimate: Series, full: Series) -> Iterator[str]:
-    """How well estimates agree with whole models, of the designs that have both."""
+    """How well estimates agree with whole models, for the designs that have both."""
     both = full.notna()
     if not both.any():
         return

@@ -24,7 +24,7 @@ AGAIN = """\
 fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and
 of a quarter and four times the imperfection, one change at a time. {}: least and greatest of
 these. Near duplicates are left out: the same choices, and sizes within 5 % of a better design."""
-NARROW = 0.8  # of its value: a design that keeps less stands on a narrow peak
+NARROW = 0.8  # share of its value: a design that keeps less lies on a narrow peak
 FRONT = """\
 This is the front of the designs that were evaluated; the search itself sought only {}.
 From the best design on, a row is left out if both of its values are within {:.0f} % of those of the
@@ -64,7 +64,7 @@ def _masses(spread: Spread) -> Series:
 
 
 def _again(values: Series) -> list[str]:
-    """A design's value on the fine mesh, and its lowest and highest one with their corners."""
+    """A design's value on the fine mesh, and its lowest and highest value with their corners."""
     others = values.drop(AS_GIVEN)
     corners = ends(others)
     if corners is None:
@@ -74,7 +74,7 @@ def _again(values: Series) -> list[str]:
 
 
 def _verdict(spread: Spread) -> Iterator[str]:
-    """Sentences about how far the value of the first design may be trusted."""
+    """Sentences about how reliable the value of the first design is."""
     worst, values = spread.worst, spread.at_corners[AS_GIVEN]
     kept = worst / values
     if spread.failed:
@@ -92,7 +92,7 @@ def _verdict(spread: Spread) -> Iterator[str]:
 
 
 def _limits_missed(spread: Spread) -> Iterator[str]:
-    """A sentence for each limit and corner at which designs do not keep the limit."""
+    """A sentence for each limit and corner at which designs exceed the limit."""
     excess: dict[tuple[str, str], list[str]] = {}
     for place, corner, what in spread.missed:
         excess.setdefault((what, corner), []).append(str(place))
@@ -112,9 +112,9 @@ def _where(spread: Spread) -> str:
 
 
 def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
-    """The designs that come nearest to all requirements; missed: of `Assessment`, by id.
+    """The designs that come nearest to all requirements; missed: from `Assessment`, by id.
 
-    ranking: of all designs, whatever is required.
+    ranking: of all designs, regardless of requirements.
     """
     rows = ranking.table.set_index("case_id", drop=False).loc[list(missed)]
     shares = Series(list(missed.values()), rows.index)
@@ -137,7 +137,7 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
 
 
 def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
-    """The Pareto front of two columns: that of the ranking, and another one."""
+    """The Pareto front of two columns: the column of the ranking, and another one."""
     column = "" if rows.empty else str(rows["ranked_by"].iloc[0])
     shown = dict.fromkeys([other, column])
     columns = {

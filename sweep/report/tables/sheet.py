@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 
 class Sheet(NamedTuple):
     """A table of text. opens: rows that begin a section. notes: lines below the table. spare: heads
-    of columns that a narrow terminal may leave out, the first one first; elsewhere: what has them.
-    cases: ids of the designs in the rows, where each row is one.
+    of columns that a narrow terminal may leave out, the first one first; elsewhere: which output
+    still has them. cases: ids of the designs in the rows, if each row is one.
     """
 
     title: str

@@ -112,7 +112,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
 
 
 def _open(placed: DataFrame) -> Iterator[str]:
-    """That a crush which ended before the allowed force was reached may lead."""
+    """A note that a crush which ended before the allowed force was reached may lead."""
     if (placed["ends_early"] & (placed["place"] > 1)).any():
         yield OPEN
 
@@ -136,7 +136,7 @@ def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> 
 
 
 def _places(rows: DataFrame) -> Series:
-    """Places with the marks of ties, of the Pareto front, and of doubtful results."""
+    """Places with the marks for ties, for the Pareto front, and for doubtful results."""
     places = rows["place"].astype(str)
     if "tied" in rows:
         places += rows["tied"].map({True: "="}).fillna("")
@@ -144,7 +144,7 @@ def _places(rows: DataFrame) -> Series:
 
 
 def _passed_over(rows: DataFrame, unit: str) -> Iterator[str]:
-    """A sentence for each budget whose first place a design has that others exceed by value."""
+    """A sentence for each budget whose first design is exceeded by doubtful ones in value."""
     for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
         count = int(shown["passed_over"].iloc[0])
         within = f"Up to {shown['up_to'].iloc[0]} {unit}: " if "up_to" in rows else ""
@@ -235,7 +235,7 @@ def _under_load(rows: DataFrame) -> dict[str, Series]:
 
 
 def impact_text(rows: DataFrame) -> dict[str, Series]:
-    """Columns about an impact."""
+    """Columns on an impact."""
     return {
         "force N": numerals(rows["peak_force_N"]),
         **panel_column(rows),
@@ -258,7 +258,7 @@ def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
 
 
 def crush_text(rows: DataFrame) -> dict[str, Series]:
-    """Columns about the whole crush."""
+    """Columns on the whole crush."""
     densified = rows["densification_strain"].notna() | rows["peak_strain"].isna()
     unsure = is_unsure(rows).map({True: "~", False: ""})
     low, high = (rows[name].map(tenths) for name in end_columns("densification_strain"))

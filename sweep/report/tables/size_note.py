@@ -1,4 +1,4 @@
-"""What a ranking says of parts of unlike size, whose energies and forces are of each part."""
+"""A note for rankings of parts of different size, as energies and forces refer to each part."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 SIDES = ["width_m", "height_m", "depth_m"]
-SAME = 0.01  # of a side
-WIDTH = 80  # letters in a line
+SAME = 0.01  # relative difference of a side
+WIDTH = 80  # most letters in a line
 UNLIKE = "The parts differ in size, from {} to {} mm: energy, force and mass are of each as it is."
 
 
 def size_note(rows: DataFrame) -> Iterator[str]:
-    """The smallest and the greatest of the parts of one scene; nothing if all are alike.
+    """The smallest and the greatest of the parts of one scene; nothing if all have the same size.
 
     Periods are no parts, and specimens of a panel are counted so that they fill it.
     """

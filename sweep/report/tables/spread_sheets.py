@@ -38,7 +38,7 @@ def spread_sheets(spreads: Iterable[Spread], summary: DataFrame) -> Iterator[She
 
 
 def _differing(rows: DataFrame, summary: DataFrame) -> dict[str, Series]:
-    """The columns that describe the designs, without those in which all shown ones are equal."""
+    """The columns that describe the designs, without columns in which all shown ones are equal."""
     columns = design_text(rows, summary) or {"material": rows["material"].astype(str)}
     return {head: text for head, text in columns.items() if len(set(text)) > 1} or columns
 
@@ -65,7 +65,7 @@ def _row(spread: Spread, k: int, design: list[str]) -> list[str]:
 
 
 def _order(spread: Spread, labels: list[str]) -> Iterator[str]:
-    """Sentences about the order of the designs, and about what is missing."""
+    """Sentences about the order of the designs, and about missing values."""
     swaps = spread.swaps
     others = {name: labels[spread.first(name)] for name in swaps if spread.first(name) != 0}
     if spread.at_corners.columns.size == 1:

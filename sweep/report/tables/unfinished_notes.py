@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MOST = 5  # cases that are named for each scene
+MOST = 5  # most cases that are named for each scene
 MORE = "{} more unfinished cases could have had a place: crumple status lists them."
 
 
 def unfinished_notes(rows: DataFrame, named: Callable[[DataFrame], str]) -> Iterator[str]:
     """A sentence for each of the first `MOST` cases, and one with the number of the others.
 
-    rows: of `Ranking.unfinished`, of one scene. named: the id and the design of a row, in words.
+    rows: from `Ranking.unfinished`, of one scene. named: the id and the design of a row, in words.
     """
     cases = each_once(rows)
     for at in cases.index[:MOST]:
@@ -53,7 +53,9 @@ def each_once(rows: DataFrame) -> DataFrame:
 
 
 def place_text(row: Series) -> str:
-    """The least or the best possible place of a stopped case, by what it had reached, in words."""
+    """The least or the best possible place of a stopped case, by the values it had reached, in
+    words.
+    """
     budget = f" up to {budget_text(row['budget_g'])}" if row["budget_g"] > 0.0 else ""
     if np.isnan(row["least_place"]):
         return f"could have had place {row['best_place']}{budget}"

@@ -1,8 +1,9 @@
 """Error bars: every design is simulated again on a coarser mesh, and again with longer steps.
 
-These two companions are ordinary cases, in a results file of their own beside that of the sweep:
-`armor.companions.h5` beside `armor.h5`. With half the elements or half the steps they cost less
-than the design. h, H: size of an element or a step of the design and of the companion, r = H / h:
+These two companions are ordinary cases, in a results file of their own beside the results of the
+sweep: `armor.companions.h5` beside `armor.h5`. With half the elements or half the steps they cost
+less than the design. h, H: size of an element or a step of the design and of the companion, r = H /
+h:
 
     error = sum (change^2 + usual^2)^(1/2) / |r - 1|,    change = value - companion's value
     correction = sum change / (r^p - 1)
@@ -55,7 +56,9 @@ HEADLINE = (
     "stroke_left_m",
     "rebound_share",
 )
-"""Columns with an error bar, besides the energies up to allowed forces and those of cycles."""
+"""Columns with an error bar, besides the energies up to allowed forces and the energies of
+cycles.
+"""
 
 FOLLOWING = (
     *("lost_energy_J", "lost_share", "lost_energy_J_per_g", "second_cycle_share"),
@@ -68,7 +71,9 @@ Rows = Mapping[str, Mapping[str, Any]]
 
 
 class Companion(NamedTuple):
-    """A case, the ratio H / h to the size of the design, and the order p of the correction."""
+    """A case, the ratio H / h of its size to the size of the design, and the order p of the
+    correction.
+    """
 
     case: Case
     ratio: float
@@ -86,8 +91,8 @@ class Companion(NamedTuple):
 
 
 def companions(design: Case) -> list[Companion]:
-    """The design with half the elements per wall, and with half the steps; with twice as many where
-    there is a single one.
+    """The design with half the elements per wall, and with half the steps; with twice as many if
+    there is only one.
     """
     before, count = design.lattice.pieces, design.solver.load_steps
     meshed = refined(design, elements=0.5 if min(before) > 1 else 2.0)
@@ -113,7 +118,7 @@ def _labelled(case: Case) -> Case:
 def companions_beside(
     designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
 ) -> dict[str, Case]:
-    """Companions of all designs by their id, without those that are cases of the sweep itself."""
+    """Companions of all designs by their id, except those that are cases of the sweep itself."""
     by_id = {c.case.case_id: c.case for design in designs for c in companions(design)}
     there = finished_ids(out, rerun._replace(failed=False)) | {case.case_id for case in designs}
     return {case_id: case for case_id, case in by_id.items() if case_id not in there}
@@ -129,8 +134,8 @@ def add_error_bars(
 ) -> int:
     """Compute error bars of the converged designs of a sweep; return how many designs have none.
 
-    Runs the missing companions. The error of a design is NaN if a companion failed or is of another
-    version of the model. The arguments are those of `run_sweep`.
+    Runs the missing companions. The error of a design is NaN if a companion failed or was computed
+    by another version of the model. The arguments are the same as for `run_sweep`.
     """
     config = sweep_of(sweep)
     cases = config.cases
@@ -153,8 +158,8 @@ def add_error_bars(
 def error_bars(design: Case, rows: Rows) -> dict[str, float]:
     """Error and correction columns of a design; `rows`: all rows of converged cases.
 
-    NaN if a companion is missing or of another version of the model. The peak force of a sudden
-    load belongs to a wave: it grows as steps get shorter, and has no error bar.
+    NaN if a companion is missing or was computed by another version of the model. The peak force of
+    a sudden load belongs to a wave: it grows as steps get shorter, and has no error bar.
     """
     own = rows[design.case_id]
     unsettled = PEAKS if isinstance(design.loading, DeadLoad) else ()
@@ -183,15 +188,17 @@ def _has_bar(name: str) -> bool:
 
 
 def _median_share(change: Mapping[str, float], own: Mapping[str, Any]) -> float:
-    """Median of the changes as shares of the values, where both are known; 0 without any."""
+    """Median of the changes as shares of the values, over columns with both; 0 if there are
+    none.
+    """
     shares = [abs(change[name] / own[name]) for name in change if own[name] != 0.0]
     numbers = [share for share in shares if isfinite(share)]
     return median(numbers) if numbers else 0.0
 
 
 def _comparable(file: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
-    """Rows of the loaded cases of a results file, by their id, but for those of a retry: its steps
-    or its imperfection are not those of which a companion has twice as many.
+    """Rows of the loaded cases of a results file, by their id. Retries are left out: their steps or
+    their imperfection differ from the numbers that a companion halves.
     """
     rows = loaded(read_summary(file))
     rows = rows[rows["retry"] == ""].to_dict("records")

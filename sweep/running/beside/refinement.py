@@ -1,4 +1,4 @@
-"""A case with more or fewer elements and steps; nothing else of it changes."""
+"""Makes a case with more or fewer elements and steps, and no other change."""
 
 from typing import Any
 
@@ -11,9 +11,9 @@ ROUND_OFF = 1e-9
 
 
 def refined(case: Case, elements: float = 1.0, steps: float = 1.0) -> Case:
-    """The case with so many times the elements of every wall, and so many times the steps.
+    """The case with ``elements`` times the elements of every wall, and ``steps`` times the steps.
 
-    Numbers are rounded down, to one at least.
+    Numbers are rounded down, to at least one.
     """
     other_mesh = {} if elements == 1.0 else mesh(case.lattice, elements)
     other_steps = {} if steps == 1.0 else _steps(case.solver, steps)
@@ -25,7 +25,9 @@ def refined(case: Case, elements: float = 1.0, steps: float = 1.0) -> Case:
 
 
 def mesh(lattice: Lattice, times: float) -> dict[str, Any]:
-    """What changes in a lattice with `times` the elements: its walls, and its layers of quads."""
+    """The changes of a lattice with `times` the elements: of its walls, and of its layers of
+    quads.
+    """
     before = lattice.pieces
     after = tuple(_times(count, times) for count in before)
     change = lattice.remeshed(after)
@@ -36,15 +38,15 @@ def mesh(lattice: Lattice, times: float) -> dict[str, Any]:
 
 
 def layers(lattice: Lattice, count: int, thicker: float = 1.0) -> dict[str, int]:
-    """Layers of quads of plates whose walls are so many times as thick: at most as many as leave
-    quads as high as walls are thick.
+    """Layers of quads of plates with walls ``thicker`` times as thick, at most so many that quads
+    are as high as walls are thick.
     """
     most = most_layers(thicker * lattice.network.wall_thickness, lattice.depth)
     return {"layers": max(min(count, most), 1)}
 
 
 def _steps(solver: Solver, times: float) -> dict[str, Any]:
-    """What changes in a solver with `times` the steps.
+    """The changes of a solver with `times` the steps.
 
     The error of one step grows with its length to the power order + 1 of the integrator.
     """

@@ -1,4 +1,6 @@
-"""Cases that accompany a sweep: run into a results file of their own, beside that of the sweep."""
+"""Runs cases that accompany a sweep, into a results file of their own beside the results of the
+sweep.
+"""
 
 import os
 from collections.abc import Mapping
@@ -30,7 +32,9 @@ def file_beside(
 
 
 def run_beside(cases: Mapping[str, Case], beside: Path, what: str, how: How) -> None:
-    """Run the cases, by id, that `beside` does not hold; what: the beginning of a message."""
+    """Run the cases, by id, that the file `beside` does not contain; what: the beginning of a
+    message.
+    """
     if cases.keys() - finished_ids(beside, how.rerun):
         announce(f"{what}, in {beside}")
         run_sweep(list(cases.values()), beside, *how)

@@ -2,13 +2,14 @@
 
 The unit column is a tube of one cell of the same width, height, walls, mesh and loading. Its
 energies, forces and mass are scaled by the ratio of the masses of the design and of the column, its
-stresses by that of the relative densities; strains and energies per gram are those of the column.
-A tube has no neighbours that hold its walls, and no cells that fold against one another: it absorbs
+stresses by the ratio of the relative densities; strains and energies per gram are not scaled. A
+tube has no neighbours that hold its walls, and no cells that fold against one another: it absorbs
 less than its share of the design, by a factor that depends on the infill. So the best designs are
 chosen within each infill, not between infills.
 
-Columns are ordinary cases, in a results file of their own beside that of the sweep, so that they
-are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values in it are not scaled.
+Columns are ordinary cases, in a results file of their own beside the results of the sweep, so that
+they are no designs of its ranking: `armor.screen.h5` beside `armor.h5`. The values in it are not
+scaled.
 """
 
 import os
@@ -39,7 +40,9 @@ ONE = 1, 1
 
 
 def has_column(design: Case) -> bool:
-    """Whether one cell stands for a design: a crush along several equal cells without outline."""
+    """Whether one cell can represent a design: a crush along several equal cells without
+    outline.
+    """
     lattice, crushed = design.lattice, isinstance(design.loading, Crush)
     if not (isinstance(lattice, Cells) and crushed and design.along) or lattice.tied_sides:
         return False
@@ -50,8 +53,8 @@ def has_column(design: Case) -> bool:
 def unit_column(design: Case) -> Case:
     """One cell of a design, as high as the design, with its walls and its mesh.
 
-    A quarter of it is computed where that is so of the design, and the cell allows it. Energies up
-    to allowed forces are left out, since the column reaches these forces later.
+    Only a quarter of it is computed if only a quarter of the design is, and the cell allows it.
+    Energies up to allowed forces are left out, since the column reaches these forces later.
     """
     lattice = design.lattice
     assert isinstance(lattice, Cells)
@@ -76,7 +79,7 @@ def run_columns(
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> DataFrame:
-    """Run the missing columns of designs; return `estimates`. Arguments as of `run_sweep`."""
+    """Run the missing columns of designs; return `estimates`. Arguments as for `run_sweep`."""
     columns = {design.case_id: unit_column(design) for design in designs}
     alone = {column.case_id: column for column in columns.values()}
     beside = file_beside(out, "screen")
@@ -94,7 +97,9 @@ def run_columns(
 
 
 def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
-    """The row of a design as its column (`row`) estimates it; id and labels are the design's."""
+    """The row of a design, estimated from its column (`row`), with the id and labels of the
+    design.
+    """
     whole = design.lattice
     areas = [lattice.network.printed_area for lattice in (whole, cell)]
     boxes = [lattice.outer_size[0] * lattice.outer_size[1] for lattice in (whole, cell)]
@@ -114,9 +119,10 @@ def _scaled(row: dict[str, Any], design: Case, cell: Lattice) -> dict[str, Any]:
 
 
 def best_of(estimates: DataFrame, question: Question, count: int) -> list[str]:
-    """Ids of the `count` best estimates of each infill, scene and budget of a ranking.
+    """Ids of the `count` best estimates for each infill, scene and budget of a ranking.
 
-    If none of an infill meets the requirements, its best without: the whole model decides.
+    If no design of an infill meets the requirements, the best ones regardless of them: the full
+    model decides.
     """
     best: list[str] = []
     for _, alike in estimates.groupby("lattice_kind", sort=False):

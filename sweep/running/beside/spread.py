@@ -1,13 +1,13 @@
 """The spread of the best designs: each simulated again at both ends of every uncertain number.
 
-Uncertain are the numbers of a material whose file states a range (`config.material_header`), as far
-as the config does not give them itself, the branch of its curve that is derived from the other one,
-by two rules, and the friction. One number at a time is at an end of its range; the shape of the
-specimen stays. A modulus scales the whole curve. Along the cells, a lattice also has other
-imperfections, as there are many ways to fold.
+The uncertain numbers are those for which the file of a material states a range
+(`config.material_header`), unless the config gives them itself; the branch of its curve that is
+derived from the other one, by two rules; and the friction. One number at a time is at an end of its
+range; the shape of the specimen stays the same. A modulus scales the whole curve. A lattice pressed
+along its cells is also simulated with other imperfections, as there are many ways to fold.
 
-These corners are ordinary cases, in a results file of their own beside that of the sweep, so that
-they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
+These corners are ordinary cases, in a results file of their own beside the results of the sweep, so
+that they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
 """
 
 import os
@@ -30,11 +30,11 @@ FRICTION = (
 )  # of TPU on TPU or steel, assumed: no source gives it (configs/materials/README.md)
 BRANCHES = {"compression": with_compression, "tension": with_tension}
 BEST = 5  # designs of a ranking
-SEEDS = 1, 2, 3  # of other imperfections of a lattice that is pressed along its cells
+SEEDS = 1, 2, 3  # seeds of other imperfections of a lattice that is pressed along its cells
 
 
 class Corner(NamedTuple):
-    """A case with a number at an end of its range; `name`: what, such as "friction 0.9"."""
+    """A case with a number at an end of its range; `name` says which, such as "friction 0.9"."""
 
     name: str
     case: Case
@@ -46,7 +46,9 @@ class Corner(NamedTuple):
 
 
 def corners(design: Case) -> list[Corner]:
-    """The corners of a design that differ from it. A friction that the sweep varies stays."""
+    """The corners of a design that differ from it. A friction that the sweep varies is not
+    changed.
+    """
     ranges = {name: (low, high) for name, low, high in design.material.uncertain}
     if design.material.plane == "stress":
         ranges.pop("poisson", None)
@@ -64,21 +66,21 @@ def corners(design: Case) -> list[Corner]:
 
 
 def _bowed(design: Case, seed: int) -> Case:
-    """The design with an imperfection that a seed draws."""
+    """The design with an imperfection drawn by a seed."""
     labels = {"lattice.imperfection_seed": seed}
     return design.changed(labels, lattice={"imperfection_seed": seed, "mass": None})
 
 
 def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
-    """Both ends of a range with what they are called: friction by its value, as it is the same of
-    all materials.
+    """Both ends of a range with their names: friction by its value, as it is the same for all
+    materials.
     """
     words = [f"{value:g}" for value in ends] if name == "friction" else ["low", "high"]
     return zip(words, ends, strict=True)
 
 
 def _moved(design: Case, name: str, value: float) -> Case:
-    """The design with another value of an uncertain number, which labels it."""
+    """The design with another value of an uncertain number, and a label for it."""
     if name == "friction":
         return design.changed({"contact.friction": value}, contact={"friction": value})
     walls = {"mass": None}  # they stay
@@ -87,7 +89,7 @@ def _moved(design: Case, name: str, value: float) -> Case:
 
 
 def _other(material: Material, name: str, value: float) -> dict[str, Any]:
-    """What differs in a material with another value of a number, or of the share of a rule."""
+    """The changes of a material with another value of a number, or of the share of a rule."""
     if name in BRANCHES:
         strain, stress = BRANCHES[name](material.curve_strain, material.curve_stress, value)
         curve = {"curve_strain": strain, "curve_stress": stress}
@@ -102,8 +104,8 @@ def _other(material: Material, name: str, value: float) -> dict[str, Any]:
 def corners_of(
     cases: Iterable[Case], best: Iterable[str], out: str | os.PathLike[str]
 ) -> dict[str, list[Corner]]:
-    """The corners of the `best` cases by their ids: those of a sweep, which has their labels and
-    time limit as they are now, and others as `out` holds them.
+    """The corners of the `best` cases by their ids: cases of the sweep, which have its present
+    labels and time limit, and others as `out` holds them.
     """
     by_id = {case.case_id: case for case in cases}
     return {case_id: corners(by_id.get(case_id) or read_case(out, case_id)) for case_id in best}
@@ -117,7 +119,7 @@ def run_corners(
     rerun: Rerun = ONLY_MISSING,
     simulate: Simulate | None = None,
 ) -> None:
-    """Run the corners of designs in `out` that are missing; arguments as those of `run_sweep`."""
+    """Run the missing corners of designs in `out`; arguments as for `run_sweep`."""
     others = {c.case_id: c.case for several in by_design.values() for c in several}
     what = f"spread of {len(by_design)} designs: {len(others)} cases"
     how = How(workers, scheduler, rerun, simulate)

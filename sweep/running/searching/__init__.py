@@ -1,5 +1,5 @@
 """The search for the best design.
 
-`design_space` has the designs as points of a unit cube, `search` chooses which of them to simulate,
-and `finalists` simulates the best ones again.
+`design_space` maps designs to points of a unit cube, `search` chooses the designs to simulate,
+`optimize` searches for the answer to a question, and `finalists` simulates the best designs again.
 """

@@ -1,10 +1,10 @@
 """The designs that a search may choose, as the points of a unit cube.
 
 Every key of [search] is one coordinate, from 0 to 1. The coordinate of the wall thickness, of the
-mass, or of a slicer's infill is the share of the way from its least value to the greatest one that
-the budget and the cells allow. The budget is thus kept by construction: near the best design it is
-used up, and a penalty would make half of the neighbours worthless. A budget counts what `rank`
-counts: the mass as extruded if there is a slicer, else that of the union of the walls.
+mass, or of a slicer's infill goes from its least value to the greatest one that the budget and the
+cells allow. Designs thus meet the budget by construction: near the best design it is used up, and a
+penalty would make half of the neighbours worthless. A budget counts the same mass as `rank`: the
+mass as extruded if there is a slicer, else the mass of the union of the walls.
 """
 
 from collections.abc import Sequence
@@ -24,14 +24,15 @@ from sweep.ranking.budget import greatest_mass
 
 SIZES = ("lattice.wall_thickness", "lattice.mass", "lattice.infill")
 USED_UP = 1.05  # shares above 1 / USED_UP stand for the greatest value: the whole budget
-OPEN = 0.999  # of the greatest wall thickness that leaves openings
+OPEN = 0.999  # share of the greatest wall thickness that leaves openings
 EXACT = 1e-10  # m of a wall thickness, or a share of infill
 
 
 class DesignSpace:
-    """What the [search] of a config allows.
+    """The designs that the [search] of a config allows.
 
-    budget: greatest mass (kg) of a specimen, or of a `panel` of two sides (m) filled with them.
+    budget: greatest mass (kg) of a specimen, or of a `panel` of two sides (m) filled with
+    specimens.
     """
 
     def __init__(
@@ -46,7 +47,9 @@ class DesignSpace:
         return len(self.config.recipe.search)
 
     def case(self, point: Sequence[float]) -> Case | None:
-        """The case of a point (dimension,); None if no such lattice exists, or within no budget."""
+        """The case of a point (dimension,); None if no such lattice exists, or none within the
+        budget.
+        """
         shares = dict(zip(self.config.recipe.search, map(float, point), strict=True))
         chosen = {key: self.config.recipe.search[key].at(share) for key, share in shares.items()}
         if self._size is not None:
@@ -66,7 +69,9 @@ class DesignSpace:
         return next((axis for axis in axes if isinstance(axis, Interval)), None)
 
     def _sized(self, chosen: Values, share: float) -> Written | None:
-        """The wall thickness, or the mass, at a share of what the other chosen values allow."""
+        """The wall thickness, or the mass, at a share of the range that the other chosen values
+        allow.
+        """
         assert self._size is not None
         least = chosen_case(self.config.recipe, chosen | {self._size.name: self._size.at(0.0)})
         if least is None:
@@ -78,7 +83,9 @@ class DesignSpace:
         return axis.at(used) if axis else None
 
     def _limited(self, size: Interval, least: Case) -> Interval | None:
-        """The axis up to its greatest value within the budget; None if its least exceeds that."""
+        """The axis up to its greatest value within the budget; None if its least value exceeds the
+        budget.
+        """
         match least.lattice:
             case Sliced():
                 return self._limited_of_slicer(size, least)
@@ -153,7 +160,7 @@ def _mass(case: Case) -> float:
 
 def _greatest_share(least: Case, size: Interval, budget: float) -> float:
     """The greatest share of a slicer's infill with which a specimen weighs at most the budget (kg);
-    0 if that of the least one exceeds it.
+    0 if even the least share exceeds it.
     """
     lattice = least.lattice
     assert isinstance(lattice, Sliced)

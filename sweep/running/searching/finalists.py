@@ -1,9 +1,9 @@
 """The finalists of a search: each simulated again on a finer mesh, and with other geometry.
 
-The best of many designs often has a favourable error. Its value is therefore shown beside that on
-twice the elements. It also often stands on a narrow peak, such as walls that just do not exceed an
-allowed force. Its spread over prints that miss the drawing is therefore shown too: walls 5 %
-thinner and thicker, and a quarter and four times the imperfection.
+The best of many designs often has a favourable error. Its value is therefore shown beside the value
+with twice the elements. It also often lies on a narrow peak, such as walls that just do not exceed
+an allowed force. Its spread over prints that deviate from the drawing is therefore shown too: walls
+5 % thinner and thicker, and a quarter and four times the imperfection.
 """
 
 from collections.abc import Iterable, Mapping
@@ -46,10 +46,10 @@ def _near(one: object, other: object) -> bool:
 
 
 def perturbed(design: Case) -> list[Corner]:
-    """The design with twice the elements, and so with other walls and imperfections.
+    """The design with twice the elements, and with it variants with other walls and imperfections.
 
-    Plates that would have too many nodes then keep their mesh; changes that do not fit the rest of
-    a design are left out.
+    Plates that would have too many nodes keep their mesh; changes that do not fit the rest of a
+    design are left out.
     """
     fine = _with(design, _elements(design.lattice, 2))
     base = fine or _with(design, _elements(design.lattice, 1)) or design
@@ -79,7 +79,7 @@ def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:
 
 
 def _with(design: Case, change: dict[str, Any]) -> Case | None:
-    """The design with a change of its lattice, labelled by it; None if that does not fit."""
+    """The design with a change of its lattice, which labels it; None if the change does not fit."""
     try:
         finalist = design.changed(lattice=change)
     except RefusedError:

@@ -1,4 +1,6 @@
-"""The search that a question asks of a config with [search], from Python or the command line."""
+"""Searches the designs of a config for the answer to a question, from Python or the command
+line.
+"""
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -25,7 +27,7 @@ NEEDED = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the lik
 
 
 class OptimizeError(ValueError):
-    """A search that cannot be made; the text is one sentence."""
+    """A search that is not possible; the text is one sentence."""
 
 
 def optimize(  # noqa: PLR0913  what, the parts of one question, where and how
@@ -45,10 +47,10 @@ def optimize(  # noqa: PLR0913  what, the parts of one question, where and how
 ) -> Results:
     """Search the designs of a config with a table [search] for the best one; return all tried.
 
-    config, out, workers, scheduler: as of `run`. budget to per: what is asked, as of `rank`, with
-    units; by default what [rank] and [require] ask. `require` adds to [require]. evaluations: the
-    most designs that are simulated. seed: the same designs again, so that a search that was stopped
-    continues. `results.rank()` of what is returned asks the same.
+    config, out, workers, scheduler: as in `run`. budget to per: the question, as in `rank`, with
+    units; by default from [rank] and [require]. `require` adds to [require]. evaluations: the most
+    designs that are simulated. seed: the same seed tries the same designs, so that a search that
+    was stopped continues. `results.rank()` of the returned results answers the same question.
     """
     config = config if isinstance(config, Config) else load_config(config)
     for line in config.notes:
@@ -80,7 +82,9 @@ def question_of(
     require: Mapping[str, Quantity | None] | None,
     per: str | None,
 ) -> Question:
-    """What is asked, else what the config asks. A requirement "none" drops that of the config."""
+    """The given question, completed by the config. A requirement "none" drops the config's
+    requirement.
+    """
     check_searchable(config)
     if by:
         check_column(by)
@@ -97,7 +101,7 @@ def question_of(
 
 
 def check_searchable(config: Config) -> None:
-    """Refuse a config without a search, or one that cannot be made."""
+    """Refuse a config without a search, or with an impossible one."""
     if not config.recipe.search:
         wrong = "has no [search] with the keys that may be chosen"
         raise OptimizeError(f"{config.path or config.name} {wrong}; needed: {NEEDED}")
@@ -105,7 +109,7 @@ def check_searchable(config: Config) -> None:
 
 
 def search_of(config: Config, question: Question, out: str, how: Settings) -> Search:
-    """The search for the designs that a question asks for, into the results file `out`."""
+    """The search for the designs that answer a question, into the results file `out`."""
     check_start(question, start_of(config, question, out, how))
     space = DesignSpace(_with_force(config, question), *_limits(question))
     return Search(space, question, out, how)
@@ -117,7 +121,7 @@ def start_of(config: Config, question: Question, out: str, how: Settings) -> lis
 
 
 def check_start(question: Question, start: Sequence[Case]) -> None:
-    """Refuse a requirement of which no design has a value, and designs that are no parts."""
+    """Refuse a requirement for which no design has a value, and designs that are no parts."""
     check_required(question.require or {}, start)
     if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
         allowed = "lattices that are drawn with lines; sheets are compared in a [grid]"
@@ -135,7 +139,7 @@ def check_found(search: Search) -> None:
 
 
 def _with_force(config: Config, question: Question) -> Config:
-    """The config whose cases have the column of the greatest force that is allowed."""
+    """The config whose cases have the column of the greatest allowed force."""
     if question.allowed_force is None or question.per == "panel":
         return config  # a force of the panel is looked up in the curves
     force = in_si(question.allowed_force, "N")
@@ -147,7 +151,9 @@ def _with_force(config: Config, question: Question) -> Config:
 
 
 def _limits(question: Question) -> tuple[float, tuple[float, float] | None]:
-    """Greatest mass (kg) of a specimen, or of the panel (m) if there is one; and the panel."""
+    """Greatest mass (kg) of a specimen, or of the panel if there is one; and the sides of the panel
+    (m).
+    """
     budget = in_si(question.budgets[0], "kg") if question.budgets else inf
     sides = [in_si(side, "m") for side in question.panel or ()]
     most = (question.require or {}).get("max_mass")

@@ -1,10 +1,10 @@
 """A search for the best design: a Sobol sequence, then differential evolution, resumed by replay.
 
-Differential evolution (Storn & Price 1997, as in scipy) asks for whole generations of designs. The
-new ones of a generation run as a sweep does and are rows of the results file. The same seed asks
-for the same designs again, so that a search that was stopped continues where it ended: what the
-file holds is looked up. When a population has converged before all evaluations are used up, the
-search starts again from other points.
+Differential evolution (Storn & Price 1997, as in scipy) proposes whole generations of designs. The
+new designs of a generation run as a sweep and are rows of the results file. The same seed proposes
+the same designs again, so that a search that was stopped continues where it ended: results in the
+file are looked up. If a population converges before all evaluations are used up, the search starts
+again from other points.
 
 Requirements are compared by the three rules of K. Deb (Comput. Methods Appl. Mech. Eng. 186,
 311-338, 2000), which scipy applies as J. Lampinen (2002) describes for differential evolution:
@@ -41,16 +41,16 @@ from sweep.running.sweep import run_sweep
 from sweep.store.read import Rerun, finished_ids, read_summary
 
 START = 4  # binary logarithm of the number of designs of a Sobol start
-MOST_TRIED = 1024  # points of the cube, in search of a first design
-POPULATION = 6  # of the best of them evolve
-MUTATION = 0.2, 0.6  # below scipy's, which suits searches of thousands; `make search`
+MOST_TRIED = 1024  # most points of the cube that are tried for a first design
+POPULATION = 6  # number of the best of these that evolve
+MUTATION = 0.2, 0.6  # below scipy's value, which suits thousands of evaluations; `make search`
 IDLE = 20  # generations without a new design that end a population
 CLOSE = 1e-3  # relative scatter of the values at which a population has converged
 RENEW = Rerun(older=True)  # a search does not compare versions of the model
 
 
 class Settings(NamedTuple):
-    """How to search: number of designs, seed, threads or a place as of `open_place`."""
+    """How to search: number of designs, seed, threads or a place as in `open_place`."""
 
     evaluations: int = 150
     seed: int = 1
@@ -60,7 +60,7 @@ class Settings(NamedTuple):
 
 @dataclass
 class Search:
-    """A search into the results file `out`; question: what its ranking is asked.
+    """A search into the results file `out`; question: of its ranking.
 
     cases: the designs so far by id. assessment: their values and misses.
     """
@@ -78,7 +78,7 @@ class Search:
 
     @property
     def start(self) -> list[Case]:
-        """The designs of the start that exist."""
+        """The existing designs among the first points."""
         points = self._start(self.settings.seed * 1000)
         return [case for point in points if (case := self.space.case(point))]
 
@@ -122,7 +122,7 @@ class Search:
 
     def _start(self, seed: int) -> np.ndarray:
         """The first points of a scrambled Sobol sequence (n, dimension): 2^START of them, or as
-        many more, up to `MOST_TRIED`, as it takes until one of them is a design.
+        many more, up to `MOST_TRIED`, as are needed to find one that is a design.
         """
         sobol = qmc.Sobol(self.space.dimension, scramble=True, seed=seed)
         points = tried = sobol.random_base2(START)
@@ -138,9 +138,9 @@ class Search:
         return self.left <= 0 or self._idle >= IDLE
 
     def costs(self, points: np.ndarray) -> np.ndarray:
-        """The values to be minimised of the columns of `points` (dimension, n): (n,).
+        """The values to be minimised, (n,), for the columns of `points` (dimension, n).
 
-        A design without a value, or that misses a requirement, costs inf.
+        A design without a value, or one that misses a requirement, costs inf.
         """
         ids, assessment = self._assessed(points)
         values = assessment.by_id if assessment else {}
@@ -150,7 +150,7 @@ class Search:
     def violations(self, points: np.ndarray) -> np.ndarray:
         """The violations of one point (dimension,), or of the columns of `points`: (1,) or (1, n).
 
-        That of a design without a value is inf.
+        The violation of a design without a value is inf.
         """
         ids, assessment = self._assessed(points.reshape(self.space.dimension, -1))
         fulfil, missed = (assessment.by_id, assessment.missed) if assessment else ({}, {})
@@ -158,9 +158,10 @@ class Search:
         return np.array(values if points.ndim == 1 else [values])
 
     def _assessed(self, points: np.ndarray) -> tuple[list[str], Assessment | None]:
-        """The ids of designs, "" where there is none, and the assessment of all so far.
+        """The ids of the designs at ``points``, "" where there is none, and the assessment of all
+        so far.
 
-        No more designs are simulated than are left; further ones have no value.
+        Simulates no more designs than there are evaluations left; further ones have no value.
         """
         designs = [self.space.case(point) for point in points.T]
         new = {d.case_id: d for d in designs if d is not None and d.case_id not in self.cases}
@@ -173,14 +174,14 @@ class Search:
         return [design.case_id if design else "" for design in designs], self.assessment
 
     def _simulate(self) -> None:
-        """Run the designs so far that the file does not hold."""
+        """Run the designs so far that the file does not contain."""
         chosen = tuple(self.cases.values())
         designs = replace(self.space.config, cases=chosen, seed=self.settings.seed)
         how = self.settings.workers, self.settings.scheduler, RENEW, self.simulate
         run_sweep(designs, self.out, *how, part=True)
 
     def _assess(self) -> None:
-        """Value the designs so far, and report the best."""
+        """Evaluate the designs so far, and report the best."""
         self.assessment = assess(self.rows(), self.question)
         counted = f"{len(self.cases)} of at most {self.settings.evaluations} designs"
         announce(f"{counted}: {_best(self.assessment)}")
@@ -193,7 +194,7 @@ class Search:
 
 
 def _best(assessment: Assessment) -> str:
-    """How good the best design so far is, in words."""
+    """The value of the best design so far, in words."""
     if assessment.by_id:
         value = three_digits(next(iter(assessment.by_id.values())))
         column = in_words(assessment.column)

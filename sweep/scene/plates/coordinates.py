@@ -6,9 +6,10 @@ surfaces of the lower and the upper platen.
 
 The third rotation of a node inside a wall, about the normal of the wall, is held, as nothing
 resists it. Bonded platens hold the lower ends of walls in place; the upper ends follow the upper
-platen. Neither lets an end turn about the vertical axis. "glued" leaves the slope of the wall free,
-as a thin bead of glue would; "clamped" holds it, and both hold a wall that lies on them. "contact"
-holds nothing. On a mirror plane of normal e a node cannot move along e, and turns about e alone.
+platen. Neither kind lets an end turn about the vertical axis. "glued" leaves the slope of the wall
+free, as a thin bead of glue would; "clamped" holds it, and both hold a wall that lies on them.
+"contact" holds nothing. On a mirror plane of normal e a node cannot move along e, and turns about e
+alone.
 """
 
 from dataclasses import dataclass
@@ -38,7 +39,7 @@ class Numbering(BetweenPlatens):
         return np.asarray(PER_NODE * nodes + axis)
 
     def of_nodes(self, nodes: Indices) -> Indices:
-        """All coordinates of nodes, in order, then those of the platens."""
+        """All coordinates of nodes, in order, then the coordinates of the platens."""
         own = PER_NODE * nodes[:, None] + np.arange(PER_NODE)
         return np.append(own.ravel(), [self.low, self.high])
 
@@ -48,8 +49,8 @@ class Numbering(BetweenPlatens):
 
 
 def leaders(mesh: ShellMesh, platen: str) -> Indices:
-    """The coordinate that each one follows, (6 n + 2,): itself, that of the upper platen, or -1; of
-    an image, that of its original.
+    """The coordinate that each one follows, (6 n + 2,): itself, the upper platen, or -1; for an
+    image, the coordinate of its original.
     """
     numbering = Numbering(mesh.n_nodes)
     leader = np.arange(numbering.size)
@@ -85,8 +86,8 @@ def _mirrored(mesh: ShellMesh, numbering: Numbering) -> list[Indices]:
 def heights(mesh: ShellMesh, platen: str) -> tuple[float, float]:
     """Heights of the platens at rest, m.
 
-    Bonded ones are at the ends of the walls. Loose ones touch these from half a thickness on, as
-    everywhere, so that they are so far outside.
+    Bonded platens are at the ends of the walls. Loose ones touch walls at a distance of half a
+    thickness, as everywhere, and start at this distance from the ends.
     """
     gap = 0.0 if platen in BONDED else 0.5 * float(mesh.node_thickness.max())
     return -gap, mesh.height + gap
@@ -101,7 +102,8 @@ def at_rest(mesh: ShellMesh, platen: str) -> Floats:
 def masses(mesh: ShellMesh, total: float, striker: float) -> Floats:
     """Lumped mass of each coordinate, (6 n + 2,) kg, which sums to ``total`` along each axis.
 
-    Rotations have none, as the solver re-bases them; the upper platen has that of the ``striker``.
+    Rotations have no mass, as the solver re-bases them; the upper platen has the mass of the
+    ``striker``.
     """
     share = total * mesh.volume / mesh.volume.sum()
     mass = np.zeros((mesh.n_nodes, PER_NODE))

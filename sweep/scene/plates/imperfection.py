@@ -1,12 +1,13 @@
 """The stress-free bow of upright walls, zero along joints and at both ends.
 
 Without a seed all walls bow in the shape in which equal walls of an even network buckle: half a
-wave across a wall, and k half waves up the height H, as near as k fits to squares of the mean wall,
+wave across a wall, and k half waves up the height H, which come nearest to squares of the mean
+wall,
 
     bow = sign a sin(pi s / l) sin(k pi z / H),    k = H / mean l, rounded, at least 1
 
-with a of `lattice.imperfection` wall thicknesses and the sign of `design.upright_plan.turns`. A
-seed draws every wall by itself instead, with standard normal numbers g from numpy's default
+with a of `lattice.imperfection` wall thicknesses and the sign of `design.upright_plan.turns`. With
+a seed every wall is drawn independently, with standard normal numbers g from numpy's default
 generator,
 
     bow = a sin(pi s / l) sum_j g_j sin(j pi z / H) / (2 k)^(1/2),    j = 1 .. 2 k.
@@ -26,7 +27,7 @@ def half_waves(plan: Plan, height: float) -> int:
 
 
 def amplitudes(plan: Plan, lattice: Specimen) -> Floats:
-    """Amplitude (w, j) in m, to the right of each wall, of one to j half waves up the height."""
+    """Amplitudes (w, j) in m, to the right of each wall, for one to j half waves up the height."""
     waves = half_waves(plan, lattice.depth)
     size = lattice.imperfection * plan.thickness[:, None]
     if lattice.imperfection_seed is None:

@@ -17,7 +17,7 @@ stress falls in tension, or at its last compressive strain; try another curve"""
 
 
 class UnstableMaterialError(ValueError):
-    """The curve of a material is not that of a stable rubber."""
+    """The curve of a material is unstable as a rubber."""
 
 
 @lru_cache(maxsize=64)
@@ -26,8 +26,8 @@ def law_of_sheet(material: Material) -> RelaxingSheet:
 
     Raises `UnstableMaterialError`.
 
-    The curve, times the instantaneous modulus over that at the reference time, is followed down to
-    its least strain, beyond which the sheet stiffens.
+    The curve, times the ratio of the instantaneous modulus to the modulus at the reference time, is
+    followed down to its least strain, beyond which the sheet stiffens.
     """
     shares, times, instant = relaxation_of(material)
     elastic = _elastic(material, instant)
@@ -47,7 +47,9 @@ def _elastic(material: Material, factor: float) -> sheet.Sheet:
 
 
 def shear_moduli(material: Material) -> tuple[float, float]:
-    """Kappa G of an incompressible wall at once, and at the reference time, Pa."""
+    """Shear moduli kappa G of an incompressible wall, instantaneous and at the reference time,
+    Pa.
+    """
     instant = KAPPA * law_of_sheet(material).shear_modulus
     return instant, instant / relaxation_of(material).instant
 

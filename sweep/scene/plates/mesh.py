@@ -21,13 +21,13 @@ UP = np.array([0.0, 0.0, 1.0])
 class PlateMesh(ShellMesh):
     """Upright walls, divided into quads: c columns of nodes one above another.
 
-    Columns are the points of the plan, then those inside walls; the nodes of a column are numbered
-    upwards, so that node = column x (layers + 1) + level. The axes of a wall are e_s along it, e_z
-    up, and its normal n = e_s x e_z to the right; those of a node are (e_s, e_z, n) where all of
-    its quads are in one plane, else x, y and z. Nodes are bowed by the imperfection, sizes are
-    those of flat quads, and triangles have alternate diagonals.
+    The columns are the points of the plan, then the columns inside walls; the nodes of a column are
+    numbered upwards, so that node = column x (layers + 1) + level. The axes of a wall are e_s along
+    it, e_z up, and its normal n = e_s x e_z to the right; the axes of a node are (e_s, e_z, n)
+    where all of its quads are in one plane, else x, y and z. Nodes are bowed by the imperfection,
+    whereas sizes belong to flat quads, and triangles have alternate diagonals.
 
-    wall (m,): of the plan. level (n,): of a node. is_flat (n,), is_on (n, 2): `flat` and `on`.
+    wall (m,): in the plan. level (n,): of a node. is_flat (n,), is_on (n, 2): `flat` and `on`.
     """
 
     plan: Plan
@@ -38,22 +38,22 @@ class PlateMesh(ShellMesh):
 
     @property
     def flat(self) -> np.ndarray:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.is_flat
 
     @property
     def on(self) -> np.ndarray:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.is_on
 
     @property
     def planes(self) -> Floats:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.plan.planes
 
     @property
     def quad_area(self) -> Floats:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return np.asarray(self.size.prod(axis=1))
 
     @property
@@ -70,7 +70,7 @@ class PlateMesh(ShellMesh):
 
     @property
     def force(self) -> float:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return float(np.min(self.plan.thickness**3 / (12.0 * self.plan.span)))
 
     @property
@@ -97,7 +97,9 @@ class PlateMesh(ShellMesh):
 
 @lru_cache(maxsize=16)
 def build_mesh(lattice: Lattice) -> PlateMesh:
-    """The mesh of a lattice that is pressed along its cells; as it is resolved, with its layers."""
+    """The mesh of a lattice that is pressed along its cells, with the resolution and layers of its
+    config.
+    """
     assert lattice.layers is not None
     network = lattice.network
     plan = plan_of(network, lattice.symmetry == "quarter")
@@ -119,7 +121,7 @@ def extruded(
     """A plan, extruded to a height (m) in ``layers`` and ``along`` (w,) equal quads of each wall.
 
     amplitude (w, j): of the bow of each wall, m (`imperfection.amplitudes`); None: flat walls.
-    endless: of a plan that repeats; its walls are those of the period, then copies.
+    endless: the repeating plan; its walls are the walls of the period, then copies.
     """
     walls, points = len(plan.walls), len(plan.points)
     of_wall = np.repeat(np.arange(walls), along)  # of each strip between two columns
@@ -171,7 +173,8 @@ def extruded(
 
 
 def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) -> tuple[Ints, Ints]:
-    """The column that each one is or copies, (c,), and by how many periods it is moved, (c, 2).
+    """The column itself or the column that it copies, (c,), and by how many periods it is moved,
+    (c, 2).
 
     wall_of (c,): the wall of a column inside it, else -1; the first columns are the ``joints``.
     """
@@ -191,9 +194,9 @@ def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) ->
 def _bow_walls(
     rest: Floats, plan: Plan, wall_of: Ints, share: Floats, amplitude: Floats, right: Floats
 ) -> None:
-    """Bow the columns of ``rest`` (c, layers + 1, 3) inside walls, and those on mirror planes.
+    """Bow the columns of ``rest`` (c, layers + 1, 3) inside walls, also on mirror planes.
 
-    wall_of, share (i,): of the columns inside walls, their wall and the share of it before them.
+    wall_of, share (i,): wall of each column inside a wall, and the share of the wall before it.
     amplitude (w, j): as in `extruded`. right (w, 3): normal of each wall.
     """
     inner = len(plan.points) + np.arange(len(share))

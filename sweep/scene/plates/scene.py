@@ -28,9 +28,9 @@ NONE = np.empty(0, np.int64)
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays; as `scene.terms.Scene`, with plates.
+    """A case as arrays, like `scene.terms.Scene`, with plates.
 
-    Forces and energies are those of the walls in ``mesh``, one of `Plan.copies` equal parts.
+    Forces and energies belong to the walls in ``mesh``, one of `Plan.copies` equal parts.
     """
 
     mesh: ShellMesh
@@ -53,7 +53,7 @@ class Scene:
         return float(np.ptp(self.mesh.rest, axis=0).max())
 
     def largest_force(self, stage: march.Stage) -> float:
-        """Force (N) with whose round-off the residual of a step is computed."""
+        """Force (N) whose round-off enters the residual of a step."""
         quads, modulus = self.mesh.size, 3.0 * self.terms.law.shear_modulus
         slender = (quads / quads[:, ::-1]).max()
         force = modulus * float(self.mesh.thickness.max()) * self.size * slender
@@ -99,7 +99,7 @@ def scene_of(case: Case, mesh: ShellMesh, network: Network | None, whole: float)
         shell=mesh.shells(x_rest, shear_moduli(case.material)),
         contact=contact_of(mesh, numbering, case),
         mirror=mirror_of(mesh, case),
-        # The loop for the forces of the end does not settle where folds snap against each other.
+        # The loop for the forces at the end does not converge where folds snap against each other.
         friction=friction_of(case),
         layout=layout,
     )
@@ -149,7 +149,7 @@ def _layout(mesh: ShellMesh, numbering: Numbering, leader: Indices, case: Case) 
     free_of_node, follows_of_node = (each[:low].reshape(-1, PER_NODE) for each in (free, follows))
     count = free_of_node.sum(axis=1)
     slots = [(free_of_node.cumsum(axis=1) - 1).ravel(), np.zeros(leader.size - low, np.int64)]
-    image = numbering.of_nodes(mesh.original)  # the coordinate itself, or of which it is the image
+    image = numbering.of_nodes(mesh.original)  # itself, or its original
     slot = np.where(free, np.concatenate(slots), -1)[image]
     number = np.where(free, np.cumsum(free) - 1, -1)
     unknown = np.where(leader >= 0, number[leader], -1)

@@ -14,18 +14,18 @@ from sweep.design.surfaces.panel import net_of, net_of_block, printed_thickness
 from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
-AROUND = 0.5  # of a period: how far images of triangles stand around it
+AROUND = 0.5  # share of a period: how far images of triangles extend around it
 WAVES, LAYERS = np.arange(-2, 3), np.arange(1, 5)  # of an imperfection, in a period and upwards
-VERTICAL_AXIS = 2  # of a net, which is pressed along it
+VERTICAL_AXIS = 2  # axis of a net along which it is pressed
 VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is vertical
 SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
 
 
 @dataclass(frozen=True)
 class SheetMesh(ShellMesh):
-    """A sheet as quads. Nodes of the period come first; the axes of a node are horizontal, rising,
-    and its normal, where the sheet meets a wall, or two walls meet, x, y and z. Sizes are means of
-    two opposite sides; the shorter diagonal cuts a quad.
+    """A sheet as quads. Nodes of the period come first. The axes of a node are horizontal, rising,
+    and its normal; where the sheet meets a wall, or two walls meet, they are x, y and z. Sizes are
+    means of two opposite sides; the shorter diagonal cuts a quad.
 
     net: of the period, or the block. is_flat (n,): `flat`.
     """
@@ -35,32 +35,32 @@ class SheetMesh(ShellMesh):
 
     @property
     def bottom(self) -> Ints:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.net.bottom
 
     @property
     def top(self) -> Ints:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.net.top
 
     @property
     def flat(self) -> np.ndarray:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.is_flat
 
     @property
     def capped(self) -> bool:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return VERTICAL_AXIS in (self.net.box.walls or ())
 
     @property
     def quad_area(self) -> Floats:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return self.net.area
 
     @property
     def smooth_corners(self) -> Ints:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return np.asarray(4 * self.original[self.quads] + self.net.wall[:, None] + 1)
 
     @property
@@ -70,7 +70,7 @@ class SheetMesh(ShellMesh):
 
     @property
     def force(self) -> float:
-        """As of `ShellMesh`."""
+        """See `ShellMesh`."""
         return float(np.min(self.thickness) ** 3 / (12.0 * self.cell))
 
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
@@ -121,8 +121,10 @@ def bowed(net: Net, lattice: Surface) -> Net:
 
 
 def solid_of(lattice: Surface, mesh: SheetMesh) -> float:
-    """Volume of a sheet, m^3: that of its mesh, less what that has more area than the surface; and
-    of the walls of a block, within which the sheet ends.
+    """Volume of the solid of a sheet, m^3, and of the walls of a block, within which the sheet
+    ends.
+
+    The volume of the mesh is scaled from its area to the area of the surface.
     """
     area, sheet = mesh.net.area, mesh.net.wall < 0
     volume = (area * mesh.thickness)[sheet].sum() * lattice.area / area[sheet].sum()
@@ -152,7 +154,7 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     first = np.column_stack([np.arange(n), np.zeros((n, 2), np.int64)])
     nodes, corner = _numbered(np.concatenate([first, key]))
     quads = corner[n:].reshape(-1, 4)
-    original, shift = np.ascontiguousarray(nodes[:, 0]), nodes[:, 1:]  # as that of prisms is
+    original, shift = np.ascontiguousarray(nodes[:, 0]), nodes[:, 1:]  # as the lattice of prisms is
     rest = net.points[original]
     rest[:, :2] += shift * period
     shorter = np.concatenate([_shorter(net.corners)[rows] for rows in near])
@@ -187,7 +189,7 @@ def _numbered(keys: Ints) -> tuple[Ints, Ints]:
 
 
 def _near(net: Net, shift: Ints) -> np.ndarray:
-    """Which quads are near the period if they are moved by ``shift`` (2,) periods, (m,)."""
+    """Which quads are near the period after a ``shift`` (2,) by periods, (m,)."""
     period = net.box.size[:2]
     at = net.corners[..., :2] + shift * period
     inside = np.all((at > -AROUND * period) & (at < (1.0 + AROUND) * period), axis=2)
@@ -202,8 +204,8 @@ def _shorter(corners: Floats) -> np.ndarray:
 
 def _frames(net: Net) -> tuple[Floats, np.ndarray]:
     """Axes of the nodes as columns of matrices (n, 3, 3): a horizontal tangent, the tangent across
-    it, which rises, and the normal; x, y and z where nodes have two tangent planes. And whether
-    they have one, (n,).
+    it, which rises, and the normal; x, y and z at nodes with two tangent planes. Also whether a
+    node has a single tangent plane, (n,).
     """
     n = len(net.points)
     planes = np.zeros((n, 4), np.bool_)  # of the surface, and of walls across x, y and z

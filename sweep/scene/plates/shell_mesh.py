@@ -17,15 +17,15 @@ from sweep.scene.mesh import Floats, Ints
 
 @dataclass(frozen=True)
 class ShellMesh(ABC):
-    """n nodes, m quads; the axes of a node end with the normal of its wall, if it has one wall.
+    """n nodes, m quads; the last axis of a node is the normal of its wall, if it has one wall.
 
     height: distance of the platens at rest, m. rest (n, 3): nodes at rest, m. frames (n, 9): axes
-    of each node at rest as columns of a matrix, row by row. quads (m, 4), without copies: nodes
-    (s0 z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): lengths along s and z, m. thickness (m,), m.
+    of each node at rest as columns of a matrix, row by row. quads (m, 4), without copies: nodes (s0
+    z0), (s1 z0), (s1 z1), (s0 z1). size (m, 2): lengths along s and z, m. thickness (m,), m.
     directors (m, 4, 3): normal at the corners, in the axes of their nodes. triangles (k, 3): two of
-    each quad, then of their copies. original (n,): the node itself, or that of which it is an
-    image; shift (n, 2): by how many periods it is moved along x and y. period (2,), m; infinite if
-    nothing repeats.
+    each quad, then of their copies. original (n,): the node itself or, for an image, its original;
+    shift (n, 2): by how many periods it is moved along x and y. period (2,), m; infinite if nothing
+    repeats.
     """
 
     height: float
@@ -79,7 +79,7 @@ class ShellMesh(ABC):
 
     @abstractmethod
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> Shell:
-        """The shells, without stress at ``x_rest``; moduli: as `law.shear_moduli`, Pa."""
+        """The shells, without stress at ``x_rest``; moduli: from `law.shear_moduli`, Pa."""
 
     @property
     def capped(self) -> bool:
@@ -88,7 +88,7 @@ class ShellMesh(ABC):
 
     @property
     def planes(self) -> Floats:
-        """Places of the mirror planes of x and y, (2,) m; infinite without."""
+        """Places of the mirror planes of x and y, (2,) m; infinite if there are none."""
         return np.full(2, np.inf)
 
     @property
@@ -98,12 +98,12 @@ class ShellMesh(ABC):
 
     @property
     def copies(self) -> int:
-        """Equal parts of the whole, of which this is one."""
+        """Number of equal parts of the whole, one of which is this mesh."""
         return 4 if np.isfinite(self.planes).all() else 1
 
     @property
     def n_nodes(self) -> int:
-        """Number of nodes, images too."""
+        """Number of nodes, including images."""
         return len(self.rest)
 
     @cached_property
@@ -113,11 +113,11 @@ class ShellMesh(ABC):
 
     @cached_property
     def shown(self) -> Ints:
-        """Nodes whose positions are stored: the own ones, and the images in the quads."""
+        """Nodes whose positions are stored: own nodes, and images in the quads."""
         return np.union1d(self.own, self.quads.ravel())
 
     def with_images(self, shown: Floats) -> Floats:
-        """Positions (f, n, 3) of all nodes from those of the nodes that are `shown`."""
+        """Positions (f, n, 3) of all nodes from the positions of the `shown` nodes."""
         every = shown[:, np.searchsorted(self.shown, self.original)]
         if self.shift.any():
             every[..., :2] += self.shift * self.period
@@ -146,8 +146,8 @@ class ShellMesh(ABC):
 
 
 def cut(quads: Ints, first: np.ndarray) -> Ints:
-    """Two triangles of each quad, (2 m, 3), normals as the quads; first (m,): whether they share
-    the diagonal from the first corner.
+    """Two triangles of each quad, (2 m, 3), with the normals of the quads; first (m,): whether they
+    share the diagonal from the first corner.
     """
     a, b, c, d = quads.T
     one = np.where(first[:, None], np.column_stack([a, b, c]), np.column_stack([a, b, d]))

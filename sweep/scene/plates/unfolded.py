@@ -1,4 +1,4 @@
-"""The whole lattice from the quarter between two mirror planes, for shapes that are stored."""
+"""The whole lattice from the quarter between two mirror planes, for stored shapes."""
 
 from dataclasses import dataclass
 
@@ -10,11 +10,11 @@ from sweep.scene.plates.shell_mesh import ShellMesh
 
 @dataclass(frozen=True)
 class Unfolded:
-    """N nodes and M quads of the whole, from those of a part.
+    """N nodes and M quads of the whole, from the nodes and quads of a part.
 
-    node (N,): node of the part; at (N, 2): whether it is mirrored in x and in y; quads (M, 4) with
-    normals to the same side as in the part, mirrored. quad (M,): quad of the part. triangles (2 M,
-    3): as of `PlateMesh`.
+    node (N,): node of the part; at (N, 2): whether it is mirrored in x and in y; quads (M, 4),
+    whose normals point to the same side as in the part, mirrored. quad (M,): quad of the part.
+    triangles (2 M, 3): as in `ShellMesh`.
     """
 
     planes: Floats
@@ -25,7 +25,7 @@ class Unfolded:
     triangles: Ints
 
     def positions(self, part: Floats) -> Floats:
-        """Positions (f, N, 3) in m from those of the part, (f, n, 3)."""
+        """Positions (f, N, 3) in m from the positions of the part, (f, n, 3)."""
         whole = part[:, self.node]
         if np.isfinite(self.planes).all():
             whole[..., :2] = np.where(self.at, 2.0 * self.planes - whole[..., :2], whole[..., :2])
@@ -33,7 +33,7 @@ class Unfolded:
 
 
 def unfolded(mesh: ShellMesh) -> Unfolded:
-    """The whole of a mesh: its period where it repeats. Images of a node on a mirror plane are one
+    """The whole of a mesh; its period if it repeats. Images of a node on a mirror plane are one
     node.
     """
     n, m = mesh.n_nodes, len(mesh.quads)
@@ -51,7 +51,7 @@ def unfolded(mesh: ShellMesh) -> Unfolded:
         own[k, new] = sum(len(each) for each in node) + np.arange(new.sum())
         for axis in (0, 1):
             on = ~new & mesh.on[:, axis] & image[axis]
-            own[k, on] = own[k - 2**axis, on]  # that of the image which is not mirrored there
+            own[k, on] = own[k - 2**axis, on]  # the node of the image that is not mirrored there
         node.append(np.flatnonzero(new))
         at.append(np.broadcast_to(image, (int(new.sum()), 2)))
     turned_over = [image.sum() == 1 for image in images]  # two mirrors are a turn

@@ -1,4 +1,4 @@
-"""Kernels are compiled anew; what only the fast compiler has is tested where it is in use."""
+"""Compiles kernels anew; features of the fast compiler are tested only where it is in use."""
 
 import numba
 import pytest
@@ -45,7 +45,7 @@ def package(tmp_path):
 
 @pytest.fixture
 def run(package):
-    """What a new process prints: the value at 1, and how often its code came from the cache."""
+    """Output of a new process: the value at 1, and how often its code came from the cache."""
     value = (
         "from kernels.caller import value; "
         "print(value(1.0), value.entry.stats.cache_hits.total() "

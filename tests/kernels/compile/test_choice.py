@@ -1,4 +1,4 @@
-"""Which compiler is chosen, and what of Numba the two need."""
+"""The choice of the compiler, and the parts of Numba that each one needs."""
 
 import ast
 import os

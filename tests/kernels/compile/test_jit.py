@@ -71,7 +71,9 @@ def product(x, n):
 
 
 def test_a_kernel_that_does_not_compile_says_where():
-    """Which operation, of which types, in which function, called by which; and again next time."""
+    """The message names the operation, its types, the function and its caller; and again next
+    time.
+    """
     times = jit(product)
 
     @jit

@@ -1,4 +1,4 @@
-"""What is kept of compiled kernels, and what must not be."""
+"""Which compiled kernels are cached, and which must not be."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""What kernels of the fast compiler do not do."""
+"""Operations that kernels of the fast compiler do not do."""
 
 import numba
 import numpy as np

@@ -19,7 +19,7 @@ resource = pytest.importorskip("resource")  # Windows has none
 
 
 class Pair(NamedTuple):
-    """What kernels hand on."""
+    """Data that kernels pass on."""
 
     first: np.ndarray
     second: np.ndarray
@@ -87,7 +87,7 @@ def test_a_large_kernel_is_called_with_the_arguments_it_uses(monkeypatch, large,
 
 
 def probe():
-    """What a kernel calls, so that something is run while it is compiled."""
+    """A callee of a kernel, so that code runs while the kernel is compiled."""
 
 
 @pytest.mark.parametrize("collects", [True, False])

@@ -1,4 +1,4 @@
-"""Vectors of four: what they load, compute and store, and what they refuse."""
+"""Vectors of four: how they load, compute and store, and which types they refuse."""
 
 import numba
 import numpy as np

@@ -1,4 +1,4 @@
-"""Arctangents, and angles between directions, against those of libm."""
+"""Arctangents, and angles between directions, against libm."""
 
 import math
 

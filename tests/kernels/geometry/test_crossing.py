@@ -1,6 +1,6 @@
-"""Crossings of elements: sure ones are counted, those within rounding are handed on.
+"""Crossings of elements: certain ones are counted, pairs within round-off are passed on.
 
-The closer look at these is tested in tests/sweep/simulation/test_shape_checks.py.
+The exact check of these pairs is tested in tests/sweep/simulation/test_shape_checks.py.
 """
 
 import numpy as np
@@ -40,9 +40,9 @@ def test_each_shape_has_its_own_crossings():
     ],
 )
 def test_what_touches_is_looked_at_again(shape):
-    crossed, found, told = counted([CROSS, shape])
+    crossed, found, undecided = counted([CROSS, shape])
     assert (crossed, found) == ([1, 0], 1)
-    assert told == [{0, 1, ("shape", 1)}]
+    assert undecided == [{0, 1, ("shape", 1)}]
 
 
 @pytest.mark.parametrize(

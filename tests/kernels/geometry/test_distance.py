@@ -37,7 +37,7 @@ def term_of_segment():
 
 
 def term_of_node():
-    """The same of the distance from the start of the segment."""
+    """The same for the distance from the start of the segment."""
 
     def slope(x, g):
         value, force, _ = half_square(distance.direction(x, START, POINT)[2])

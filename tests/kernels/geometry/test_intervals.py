@@ -22,7 +22,7 @@ def test_an_interval_that_ends_before_it_begins_covers_nothing():
 
 @pytest.mark.parametrize("first", [0, 2])
 def test_each_finds_its_place_behind_the_first(first):
-    """Equal ones in the order in which they come; those before are left alone."""
+    """Equal ones keep the order in which they come; those before the first are left alone."""
     left, right = np.full(8, 9.0), np.full(8, 9.0)
     begins, places = [3.0, 1.0, 2.0, 1.0, 5.0], []
     for k, begin in enumerate(begins):

@@ -76,7 +76,7 @@ def test_the_gap_of_a_wall_separates_it_from_the_profile(shape, seed):
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("shape", SHAPES)
 def test_no_move_leads_through_a_profile(shape, seed):
-    """Up to the share the wall stays apart; if that is less than 1, a little more would touch."""
+    """The wall stays apart up to the share; if that is less than 1, a little more would touch."""
     of, draw = of_frame(WALL, SHAPES[shape]), np.random.default_rng(seed)
     a = b = outside(of, seed)
     while profile.gap(of, 0, *a, *b)[2] <= 0.01 or crosses(of, a, b):

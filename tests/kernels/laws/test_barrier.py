@@ -27,7 +27,7 @@ def test_it_is_smooth_where_it_starts_and_infinite_at_zero():
 
 @pytest.mark.parametrize("d", [1e-5, 3e-4, 7.9e-4])
 def test_derivatives_of_a_contact(d):
-    """In the distance; contact starts at 0.8 mm."""
+    """Derivatives in the distance; contact starts at 0.8 mm."""
     starts, step = 8e-4, np.array([1e-3 * min(d, abs(8e-4 - d))])
     value, slope, curvature = phi(2.0, 3.0, starts, d)
     assert value == pytest.approx(2.0 * 3.0 * starts * barrier(d / starts)[0], rel=1e-12)

@@ -27,7 +27,7 @@ def test_a_point_keeps_the_numbers_of_what_acts(kind):
 
 @pytest.mark.parametrize("kind", SIZES)
 def test_what_acts_shows_in_a_cycle(kind):
-    """Elastic walls give all back at once, the others lose some of it."""
+    """Elastic walls return all work at once, the others lose some of it."""
     law = law_in_stretch(material_with(**SIZES[kind][0]), 1.0)
     path = follow(law, there_and_back(0.1, 100), 0.02)
     lost = path.dissipated[-1] / path.work[99]

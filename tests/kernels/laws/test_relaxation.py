@@ -106,7 +106,7 @@ def test_a_cycle_of_even_ramps_is_exact(period, steps):
 
 
 def test_a_sinusoidal_strain_is_of_second_order():
-    """In the end the stress is that of the complex modulus."""
+    """The final stress follows from the complex modulus."""
     time, omega = 0.5, 3.0
     complex_modulus = MODULUS * (0.4 + 0.6 * 1j * omega * time / (1.0 + 1j * omega * time))
     off = []
@@ -122,7 +122,9 @@ def test_a_sinusoidal_strain_is_of_second_order():
 @pytest.mark.parametrize("name", ["ninjaflex", "filaflex_60a"])
 @pytest.mark.parametrize("strain", [0.3, -0.3])
 def test_work_is_stored_or_dissipated(name, strain):
-    """To the second order for a curve; exactly for a straight one but for the trapezoidal work."""
+    """The book closes to second order for a curve; for a straight one exactly, up to the
+    trapezoidal work.
+    """
     law = relaxing(measured(name), SHARES, TIMES)
     gaps = [
         follow(law, there_and_back(strain, steps), 4.0 / steps).gap for steps in (200, 400, 800)
@@ -133,7 +135,7 @@ def test_work_is_stored_or_dissipated(name, strain):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_dissipation_never_falls(seed):
-    """In random steps of random length, with random branches."""
+    """Random steps of random length, with random branches."""
     rng = np.random.default_rng(seed)
     shares = 0.98 * rng.dirichlet(np.ones(6))[:5]
     law = relaxing(measured(), shares, 10.0 ** rng.uniform(-6, 4, 5))
@@ -155,7 +157,7 @@ def test_stored_energy_is_the_potential_in_no_time():
 
 
 def test_stored_energy_is_a_function_of_state():
-    """Of the strain and of what each branch has forgotten, whatever the way there."""
+    """It depends on the strain and on the viscous strain of each branch, whatever the path."""
     law = solid(measured(), 0.6, 0.5)
     one, two = virgin(law), virgin(law)
     follow(law, [0.2, 0.1], [0.0, 0.3], one)

@@ -83,7 +83,7 @@ def test_slopes_and_tangent_are_derivatives(name, at, duration):
 @pytest.mark.parametrize("at", [((1.0, 1.0), 0.0), *HISTORY, ((0.3, 2.0), 0.4), ((4.0, 3.0), 1.0)])
 @pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.1)])
 def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
-    """And the energy that is complementary to that of the sheet."""
+    """It also finds the complementary energy of the sheet."""
     law = law_of(name)
     energy, s, expected = relaxing_sheet._response(law, *strain(*at))
     found, complement = inverse(law.elastic, s, guess)
@@ -94,7 +94,9 @@ def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
 
 @NAMES
 def test_the_stress_is_that_by_the_logarithmic_strain(name):
-    """Work of s on the change of L is that of dW/dc on the change of c, turned axes included."""
+    """Work of s on the change of L equals work of dW/dc on the change of c, turned axes
+    included.
+    """
     law, at, move = law_of(name), strain(*HISTORY[0]), 1e-6 * np.array([0.4, -0.9, 0.7])
     g = law.elastic.respond(*at)[1]
     _, s, before = relaxing_sheet._response(law, *(at - move))
@@ -118,7 +120,7 @@ def test_a_held_strain_relaxes_as_the_closed_form(time, steps):
 
 
 def test_small_cycles_are_those_of_the_standard_solid_and_lose_what_it_loses():
-    """In even ramps, to second order in the strain: work = stored + dissipated."""
+    """Even ramps; to second order in the strain, work = stored + dissipated."""
     law, period, most = law_of("linear", (0.6,), (0.5,)), 0.7, 1e-4
     for mode in ([1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.3, -0.5, 0.8]):
         up = np.outer(np.linspace(0.1, 1.0, 10), most * np.array(mode))
@@ -145,7 +147,9 @@ def _work(scale, rest, tau, period, back):
 
 @NAMES
 def test_work_is_stored_or_dissipated(name):
-    """To the second order in the step, along a way that stretches, shears and turns back."""
+    """The book closes to second order in the step, along a path that stretches, shears and turns
+    back.
+    """
     law, gaps = law_of(name), []
     for steps in (100, 200, 400):
         t = np.linspace(0.0, 1.0, steps + 1)[1:]
@@ -162,7 +166,7 @@ def test_work_is_stored_or_dissipated(name):
 @pytest.mark.parametrize("seed", range(6))
 @NAMES
 def test_dissipation_never_falls(name, seed):
-    """In random steps of random length, with random branches."""
+    """Random steps of random length, with random branches."""
     rng = np.random.default_rng(seed)
     law = law_of(name, 0.98 * rng.dirichlet(np.ones(6))[:5], 10.0 ** rng.uniform(-6, 4, 5))
     way = [strain(rng.uniform(0.6, 1.6, 2), rng.uniform(-2, 2)) for _ in range(60)]

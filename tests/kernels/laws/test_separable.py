@@ -97,7 +97,7 @@ def test_cubics_have_their_values_slopes_and_integral():
 
 
 def test_the_piece_of_a_stretch_needs_no_search():
-    """At the knots, beside them, between and beyond them."""
+    """Stretches at the knots, beside them, between and beyond them."""
     curve = measured("ninjaflex").curve
     knots, last = curve.knots, curve.knots.size - 2
     inner = np.random.default_rng(3).uniform(1.1 * knots[0], 1.1 * knots[-1], 400)

@@ -55,7 +55,7 @@ def test_a_curve_of_rubber_is_the_neo_hookean_sheet(stretches):
 @pytest.mark.parametrize("stretch", [0.7, 1.0, 1.4])
 @pytest.mark.parametrize("apart", [1e-3, 1e-5, 1e-7, 1e-12, 0.0])
 def test_the_tangent_of_nearly_equal_stretches(name, stretch, apart):
-    """That of equal ones, as far as it depends on the difference smoothly."""
+    """It equals the tangent of equal stretches, as far as it depends on the difference smoothly."""
     law = LAWS[name]
     equal = np.array(law.respond(*strain((stretch, stretch), 0.0))[2])
     near = np.array(law.respond(*strain((stretch + apart, stretch - apart), 0.7))[2])
@@ -74,7 +74,7 @@ def test_uniaxial_stress_of_rubber(stretch):
 
 @pytest.mark.parametrize("stretch", [0.6, 0.95, 1.0, 1.3])
 def test_equibiaxial_stress_of_rubber(stretch):
-    """Mu (l - 1 / l^5)."""
+    """The stress is mu (l - 1 / l^5)."""
     for name in ("linear", "rubber"):
         slopes = LAWS[name].respond(*strain((stretch, stretch), 0.0))[1]
         expected = MU * (stretch - stretch**-5)

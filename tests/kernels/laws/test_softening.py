@@ -1,4 +1,4 @@
-"""Laws that soften on reuse: derivatives, what a cycle loses, what a second one absorbs."""
+"""Laws that soften on reloading: derivatives, the loss of a cycle, the energy of a second one."""
 
 import math
 
@@ -61,7 +61,7 @@ def test_the_first_loading_is_that_of_the_curve_and_the_potential_has_no_jump():
 
 
 def test_a_cycle_loses_the_area_of_its_loop_and_a_second_one_nothing():
-    """What is stored falls as the greatest energy grows; the loop is closed after that."""
+    """Stored energy falls as the greatest energy grows; the loop is closed after that."""
     law = relaxing(measured(), softening=SOFTENING)
     memory = virgin(law)
     first = follow(law, there_and_back(DEEP, 400), 1.0, memory)
@@ -75,7 +75,9 @@ def test_a_cycle_loses_the_area_of_its_loop_and_a_second_one_nothing():
 
 @pytest.mark.parametrize("strain", [DEEP, -DEEP])
 def test_work_is_stored_or_dissipated(strain):
-    """To the second order alone, to the first beside branches: their curve has a kink."""
+    """The book closes to second order without branches, to first order with them, as their curve
+    has a kink.
+    """
     for law, order in (
         (relaxing(measured(), softening=SOFTENING), 1.9),
         (relaxing(measured(), [0.5], [2.0], SOFTENING), 0.8),

@@ -67,7 +67,9 @@ def test_potential_and_stress_are_continuous_at_yield_and_guard(law, at):
 
 
 def test_the_potential_is_the_least_over_the_flow(law):
-    """Of elastic energy and plastic work; tried by flows around the one that was found."""
+    """Elastic energy plus plastic work is least at the flow that was found; other flows around it
+    are tried.
+    """
     memory, strain = memory_of(0.01, 0.02), 0.06
     value = law.respond(strain, memory, 0)[0]
     d = np.linspace(0.0, 0.05, 100_001)
@@ -78,7 +80,7 @@ def test_the_potential_is_the_least_over_the_flow(law):
 
 
 def test_the_return_map_follows_a_fine_explicit_integration(law):
-    """Of the rate law along a path that turns three times."""
+    """The rate law is integrated along a path that turns three times."""
     turns = np.array([0.0, 0.05, -0.03, 0.08, 0.02])
     memory, stress, grown = memory_of(), 0.0, 0.0
     stresses, _ = pulled(law, turns, memory)

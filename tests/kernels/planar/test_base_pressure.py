@@ -54,7 +54,7 @@ def test_no_patch_has_more_force(name, width):
 
 
 def test_a_patch_a_little_wider_has_a_little_more_force():
-    """Also where it is as wide as two joints are apart."""
+    """The force is continuous also where the patch is as wide as the distance of two joints."""
     _, args, x, found, nodes, _ = forces("loose platen")
     apart = np.diff(np.sort(x[2 * nodes])).max()
     forces_on = [
@@ -74,7 +74,7 @@ def test_nodes_are_sorted_by_their_place():
 
 @pytest.mark.parametrize("target", [None, 0.2])
 def test_a_patch_as_wide_as_the_lattice_bears_all(target):
-    """Of loose walls, which do not pull, in every row of a run."""
+    """It bears the force of loose walls, which do not pull, in every row of a run."""
     case = hit("contact", target)
     history = run(case.changed(loading={"base_patch": 1.0})).history
     width, depth = case.footprint
@@ -86,7 +86,7 @@ def test_a_patch_as_wide_as_the_lattice_bears_all(target):
 
 
 def test_a_base_that_moves_is_borne_by_its_inertia():
-    """The row that is glued to it follows it in y; what has no weight in y has no leader."""
+    """The row glued to the base follows it in y; coordinates without mass in y have no leader."""
     scene = struck("glued")
     layout, low = scene.terms.layout, scene.terms.contact.low
     bottom = np.flatnonzero(layout.leader == low)

@@ -1,4 +1,4 @@
-"""Constraints of lattices: periodic images, and what a prescribed move pulls.
+"""Constraints of lattices: periodic images, and the pull of a prescribed move.
 
 All coordinates of a period are a matrix F (n, k) times those that it leads and does not lead.
 """

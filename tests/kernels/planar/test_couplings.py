@@ -1,4 +1,4 @@
-"""Which nodes get room in the matrix: those of springs, and of walls that are almost in contact."""
+"""Which nodes get room in the matrix: nodes of springs, and of walls that are almost in contact."""
 
 from typing import NamedTuple
 
@@ -20,7 +20,7 @@ NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
 class Scene(NamedTuple):
-    """What couples."""
+    """Data that couple nodes."""
 
     layout: Layout
     contact: Contact

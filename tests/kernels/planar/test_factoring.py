@@ -1,4 +1,4 @@
-"""The factor of a step: of all its terms, with room for what is near; the projected one."""
+"""The factor of a step: of all its terms, with room for near pairs; the projected one."""
 
 import numpy as np
 import pytest
@@ -22,9 +22,9 @@ from tests.support.kernels.states import (
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("name", SCENES)
 def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
-    """All that is free has room. What is tied moves together, what is held not at all.
+    """All free coordinates have room. Tied ones move together, held ones do not move.
 
-    Where a pivot is negative the direction that comes with it has that curvature.
+    If a pivot is negative, the direction returned with it has that curvature.
     """
     scene = SCENES[name]()
     x = STATES[state](scene)

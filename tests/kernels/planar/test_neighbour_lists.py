@@ -72,7 +72,7 @@ def test_moves_are_as_long_as_lists_may_cover(share):
 
 
 def hits(scene, x, dx):
-    """Shares at which anything of a scene meets or folds, and those at which elements are short."""
+    """Shares at which parts of a scene meet or fold, and shares at which elements are short."""
     terms, high, low = scene.terms, x.size - 1, x.size - 2
     everything = (
         near_pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else near_pairs.empty()
@@ -93,7 +93,7 @@ def hits(scene, x, dx):
 @pytest.mark.parametrize("contact", [GRIP, dict(model="none")], ids=["contact", "no contact"])
 @pytest.mark.parametrize("state", ["rest", *STATES])
 def test_the_bounds_of_a_step_miss_nothing(state, contact):
-    """Of walls that meet, corners that close and elements that shrink, for moves of any size."""
+    """Walls meet, corners close and elements shrink, in moves of any size."""
     scene = loaded(contact=contact, platen="none" if contact.get("model") == "none" else "contact")
     x = scene.x_rest if state == "rest" else STATES[state](scene)
     args, limited = whole(scene, x, reach=0.1), 0

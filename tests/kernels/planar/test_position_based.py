@@ -1,4 +1,4 @@
-"""Contact by position: what is moved, how far, and what that does to momentum and energy."""
+"""Contact by position: which nodes are moved, how far, and the effect on momentum and energy."""
 
 import numpy as np
 import pytest
@@ -178,7 +178,7 @@ def test_a_glued_platen_stops_what_is_not_glued_to_it():
 
 
 def test_energy_that_it_injects_falls_with_the_time_step():
-    """By more than in proportion, as each step pushes back what one step has let through."""
+    """It falls more than in proportion, as each step pushes back the overlap of one step."""
     injected = [
         run(dropped(time_step=dt)).history["injected_by_projection_J"][-1]
         for dt in (5e-5, 2.5e-5, 1.25e-5)

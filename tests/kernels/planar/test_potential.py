@@ -1,4 +1,4 @@
-"""What a step minimises: the sum of all its terms, and its derivatives."""
+"""The potential of a step: the sum of all its terms, and its derivatives."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def test_derivatives_with_solid_joints_and_sections(state):
 @pytest.mark.parametrize("dt", [DT, np.inf])
 @pytest.mark.parametrize("elements", [1, 3])
 def test_derivatives_at_rest(elements, dt):
-    """Of a linear material: a measured curve has a kink in its tangent there."""
+    """The material is linear: a measured curve has a kink in its tangent there."""
     scene = loaded(elements, "none", material=MATERIAL)
     assert error(scene, scene.x_rest, whole(scene, scene.x_rest, dt=dt), 1e-4) < 1e-9
 
@@ -176,7 +176,7 @@ def test_the_sum_has_all_terms_and_each_of_them_counts(damping, dt, projected):
     "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
 )
 def test_what_evaluate_tells_the_book(damping, dt):
-    """Energies that are stored, and the forces by what they come from."""
+    """Stored energies, and the forces by their origin."""
     scene = loaded(damping=damping)
     x = leaning(scene)
     args = step_to(scene, x, 0, dt)
@@ -199,7 +199,7 @@ def test_what_evaluate_tells_the_book(damping, dt):
 
 
 def test_other_lagged_contacts_are_exchanged_for_those_there():
-    """The gradient is that of the sum with the new ones, whatever was rubbing before."""
+    """The gradient belongs to the sum with the new contacts, whatever was in contact before."""
     scene = loaded()
     x = leaning(scene)
     args, other = step_to(scene, x, 0), step_to(scene, shaken(scene, x, 1, 0.01), 0)

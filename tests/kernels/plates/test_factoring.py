@@ -165,7 +165,7 @@ def test_solutions_obey_the_constraints(name):
 
 @pytest.mark.parametrize("name", ["glued", "loose quarter"])
 def test_a_prescribed_move_changes_the_gradient_by_its_pull(name):
-    """Of all coordinates that are not held, the driven one included."""
+    """The gradient in all coordinates that are not held, including the driven one."""
     of = scene(name)
     x, change, lead = pinched(of), np.zeros(of.x_rest.size), np.zeros(of.x_rest.size)
     args = whole(of, x)

@@ -1,4 +1,4 @@
-"""What a step of plates minimises: the sum of all its terms, and its derivatives."""
+"""The potential of a step of plates: the sum of all its terms, and its derivatives."""
 
 import numpy as np
 import pytest
@@ -49,7 +49,7 @@ def test_the_gradient_is_that_of_the_energy(name, state):
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("name", CASES)
 def test_the_matrix_is_the_hessian(name, state):
-    """Along random moves of the unknowns, and what follows them."""
+    """Along random moves of the unknowns and their followers."""
     of = scene(name)
     x, R = STATES[state](of), reduction(of)
     args = whole(of, x)
@@ -102,7 +102,7 @@ def test_at_rest_there_is_nothing(name):
 
 @pytest.mark.parametrize("name", CASES)
 def test_a_commit_changes_coordinates_but_no_energy(name):
-    """Rotations begin again at zero; forces on them are those of the new coordinates."""
+    """Rotations begin again at zero; forces on them belong to the new coordinates."""
     of = scene(name)
     x = pinched(of)
     args = whole(of, x)

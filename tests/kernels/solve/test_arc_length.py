@@ -84,7 +84,7 @@ def test_arcs_of_any_length_lie_on_the_same_path(length):
 
 
 def test_points_are_in_balance_and_as_stable_as_they_say():
-    """By an evaluation of its own: every node of a frame of single elements is a probe."""
+    """An independent evaluation: every node of a frame of single elements is a probe."""
     legs = [[0, 24 * k] for k in range(6)] + [[24 * k, 120] for k in range(1, 6)]
     parts = {
         "nodes_mm": [*legs[:5], [0, 120], *legs[6:]],
@@ -111,7 +111,7 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
 
 
 def elastic(scene, x):
-    """Gradient (n,) of what is stored at ``x``."""
+    """Gradient (n,) of the stored energy at ``x``."""
     return whole(scene, scene.x_rest).found(x)[1].elastic
 
 
@@ -132,7 +132,7 @@ def test_loads_grow_by_a_twentieth_at_most():
 
 
 def test_length_of_an_arc_is_that_of_all_points():
-    """Whatever the mesh: the root of the mean square of their moves."""
+    """For any mesh it is the root of the mean square of the moves of all points."""
     for pieces in (4, 16):
         case = case_of(lee(pieces), arc_length=1e-3)
         weight = arc_of(build_structure(case), case).weight
@@ -216,7 +216,7 @@ def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
 
 @pytest.mark.parametrize("move", [np.inf, np.nan])
 def test_a_move_out_of_the_range_of_numbers_ends_an_arc(move):
-    """Nothing else is looked at: pairs for such a move would be listed for ever."""
+    """It ends before pairs are listed, which would take for ever for such a move."""
     correct = getattr(arc_length._correct, "__wrapped__", arc_length._correct)
     workspace = SimpleNamespace(evaluation=None, work=SimpleNamespace(direction=0, escape=0))
     problem = SimpleNamespace(scene=SimpleNamespace(coordinates=None))

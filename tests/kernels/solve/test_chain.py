@@ -31,7 +31,7 @@ def line(n, load=0.0, driven=False, held=False, friction=0.0, mass=1.0, spring=S
 
 
 def energy(chain, x):
-    """What is stored at ``x``, computed apart."""
+    """Stored energy at ``x``, computed independently."""
     wells = HEIGHT * np.sum(((x / WIDTH) ** 2 - 1.0) ** 2)
     return wells + 0.5 * chain.spring * np.sum((np.diff(x) - APART) ** 2)
 
@@ -42,7 +42,7 @@ def at(x):
 
 
 def begun(chain, x):
-    """State of rest at ``x``; what is stored there has been done as work."""
+    """State of rest at ``x``; the energy stored there counts as work done."""
     state = at(x)
     wells = HEIGHT * np.sum(((state.x / WIDTH) ** 2 - 1.0) ** 2)
     state.stored[:] = wells, energy(chain, state.x) - wells
@@ -91,7 +91,7 @@ def test_a_led_chain_goes_through_minima():
         )
         np.testing.assert_allclose(x[1:3], found.x, rtol=0, atol=1e-6)
         inner = x[1:3]
-    assert rows["integrator"][-1] > 1e-3  # what the snap has released
+    assert rows["integrator"][-1] > 1e-3  # the energy released by the snap
     np.testing.assert_allclose(positions[:, -1], np.linspace(-1.2, 4.8, 41)[1:], atol=1e-14)
     assert inner is not start.x
 
@@ -165,7 +165,7 @@ def test_steps_are_short_where_a_particle_snaps():
 
 @pytest.mark.parametrize(("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (TRAPEZOIDAL, 2.0)])
 def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
-    """They are corrected once where it is two. The particle slides all the time, down a slope."""
+    """With an integrator of order two they are corrected once. The particle slides down a slope."""
     chain, ends = line(1, load=6.0, friction=0.4)._replace(slip=1e-9), []
     for steps in (100, 200, 3200):
         state = begun(chain, [-WIDTH])
@@ -191,7 +191,7 @@ def test_several_particles_slide():
     ("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (BDF2, 2.0), (TRAPEZOIDAL, 2.0)]
 )
 def test_the_chain_swings_with_the_order_of_the_integrator(scheme, order):
-    """Against a step 16 times as short and more, as a slope; the book closes in every run."""
+    """The reference has steps at least 16 times as short; the book closes in every run."""
     chain, ends = line(3), {}
     for steps in (200, 400, 800, 12800):
         state = begun(chain, [1.6, 1.7, 2.0])

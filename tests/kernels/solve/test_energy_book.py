@@ -114,7 +114,7 @@ def test_mass_of_the_summary_is_that_of_the_drawing():
 
 
 def shortfalls(cases):
-    """Area under the curve less what is stored and what material and friction dissipated, J."""
+    """Area under the curve less stored energy and dissipation of material and friction, J."""
     histories = [run(case).history for case in cases]
     kept = [summed(history, (*RECOVERABLE, *PHYSICAL))[-1] for history in histories]
     return np.array([trapezoid(past) for past in histories]) - kept

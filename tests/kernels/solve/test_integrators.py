@@ -1,4 +1,4 @@
-"""Integrators in time: their orders, what becomes of the energy, steps chosen by their error."""
+"""Integrators in time: their orders, energy, and steps chosen by their error."""
 
 from itertools import pairwise
 
@@ -38,7 +38,7 @@ def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **l
 
 
 def struck(integrator, steps, duration, friction=None, damping=SOFT, **loading):
-    """A grid that 50 g hit, glued where there is no friction."""
+    """A grid hit by 50 g, glued if there is no friction."""
     touch = APART if friction is None else dict(friction=friction)
     loads = dict(striker_mass=0.05, duration=duration, **loading)
     solver = dict(time_step=duration / steps, integrator=integrator)
@@ -90,7 +90,7 @@ def test_orders_of_a_load_that_comes_and_goes_at_once(integrator):
 
 @INTEGRATORS
 def test_orders_of_a_strike(integrator):
-    """Until the striker turns, with what it carries along and without: its run ends too early."""
+    """Until the striker turns, with its row and without: its run ends too early."""
     columns = ["strain", "striker_speed_m_per_s", "stretch_J", "bend_J", "kinetic_J"]
     check_orders(
         lambda steps: struck(integrator, steps, 2.5e-3, striker_speed=0.5),
@@ -114,7 +114,7 @@ def test_orders_of_contact_and_friction(integrator):
 
 
 def test_integrators_agree_on_friction():
-    """It depends on the speed of slip, whatever the length of the steps."""
+    """Friction depends on the speed of slip, whatever the length of the steps."""
     results = [run(rubbed(3200, integrator)) for integrator in ("bdf2", "newmark")]
     lost = [result.history["dissipated_friction_J"][-1] for result in results]
     assert lost[0] == pytest.approx(lost[1], rel=5e-3)
@@ -122,7 +122,7 @@ def test_integrators_agree_on_friction():
 
 @HIGHER
 def test_orders_of_a_platen_that_moves_and_turns(integrator):
-    """It has its speed at once, which costs what an inelastic blow does."""
+    """The platen has its speed at once, which costs the energy of an inelastic impact."""
 
     def case(steps):
         numerics = {"integrator": integrator, "tolerance": 1e-10}
@@ -233,7 +233,7 @@ def missed(result, exact):
 
 @INTEGRATORS
 def test_steps_by_their_error(integrator):
-    """The error falls with what is allowed; twice as many fixed steps leave more of it."""
+    """The error falls with the allowed one; twice as many fixed steps have a larger error."""
     exact = run(released("newmark", 2e-6)).history
     kept = [run(released(integrator, 1e-3, allowed)) for allowed in (1e-5, 1e-6, 1e-7)]
     assert all(unbalanced(result.history) < 1e-9 for result in kept)

@@ -1,4 +1,4 @@
-"""Friction in a march: nothing is paid without it, and what used to stop a crush does not."""
+"""Friction in a march: no cost without it, and crushes that it once stopped."""
 
 import pytest
 
@@ -30,7 +30,7 @@ def test_contact_that_nothing_touches_takes_no_iteration():
 
 
 def test_few_steps_are_enough():
-    """Though the normal forces are those of the start of a step."""
+    """Although the normal forces are taken at the start of a step."""
     *coarse, fine = (
         crushed(dict(friction=0.6), strain=0.5, load_steps=steps).summary["absorbed_energy_J"]
         for steps in (50, 100, 200, 400)

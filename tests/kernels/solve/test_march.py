@@ -1,4 +1,4 @@
-"""Steps through a stage: what falls, flies and slides; halved steps; interruptions."""
+"""Steps through a stage: falling, flying and sliding bodies; halved steps; interruptions."""
 
 import threading
 import time
@@ -102,8 +102,8 @@ def momentum(scene, state):
 def test_what_nothing_holds_keeps_its_momentum(damping, friction):
     """Walls collide in flight. Drag on the mass alone slows it, by 1 / (1 + alpha dt) a step.
 
-    Forces of walls on walls, taken where a step ends, have no moment either; only Rayleigh's and
-    those of friction are of the place where it began.
+    Forces between walls, taken where a step ends, have no moment either; only forces of Rayleigh
+    damping and of friction act at the place where it began.
     """
     case, scene, state = loose(damping, friction, 150.0)
     kept, whole, touched = 1.0 / (1.0 + damping.get("mass", 0.0) * DT), 0, 0.0
@@ -172,8 +172,8 @@ def sliding():
 
 
 def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
-    """3 N from above; from below what was left of it once the grid had been accelerated in the step
-    before.
+    """3 N from above; from below the remaining force after the grid had been accelerated in the
+    previous step.
     """
     case, scene, state = sliding()
     go_on(case, scene, state, ramp(scene, 1, DT, (1.0, 1.0)))
@@ -229,7 +229,7 @@ def test_a_step_that_fails_is_halved_and_the_stage_ends_on_time(speed):
 
 
 def test_halved_steps_take_half_the_time():
-    """Whatever the parts of a step, the platen has moved through each of them at its speed."""
+    """For any parts of a step, the platen has moved through each of them at its speed."""
     case = crush(2, 10.0)
     scene = build_scene(case)
     state = at_rest(scene)
@@ -243,7 +243,7 @@ def test_halved_steps_take_half_the_time():
 
 
 def test_steps_grow_again_once_they_succeed():
-    """Where the walls buckle an eighth of a step is needed, and nowhere else."""
+    """An eighth of a step is needed where the walls buckle, and nowhere else."""
     result = simulate(crush(20, max_iterations=5))
     assert result.status == "converged"
     assert 20 < result.summary["steps"] < 40

@@ -1,4 +1,4 @@
-"""How far a minimisation goes at once: no wall passes another, and none is left short of it."""
+"""How far a minimisation moves: no wall passes another, and no wall stops short of another."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def test_a_wall_that_lies_upon_another_is_refused():
 
 @pytest.mark.parametrize("seed", range(40))
 def test_the_first_move_goes_as_far_as_is_admissible(seed):
-    """Whatever its direction: two walls that fly at one another on a diagonal do not pass."""
+    """Two walls that fly at one another on a diagonal do not pass, in whatever direction."""
     case = grid(2.0, "contact", "barrier")
     scene = build_scene(case)
     rng = np.random.default_rng(seed)

@@ -16,7 +16,7 @@ from tests.support.kernels.solving import descend, ramp, reduction, residual, sh
 
 HEIGHT = 12.5e-3
 ROUND_OFF = 1e-9  # N
-BUCKLED = 0.03  # strain, beyond that of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
+BUCKLED = 0.03  # strain, above buckling of a clamped wall, (2 pi)^2 / 12 (t / H)^2 = 0.0135
 
 
 def column(elements=6):
@@ -63,7 +63,7 @@ def test_a_straight_column_is_left_once_it_buckles():
 
 
 def test_it_goes_on_from_what_was_evaluated_before():
-    """From a saddle, where the projected Hessian is that of the same place."""
+    """It starts from a saddle, where the projected Hessian is evaluated at the same point."""
     case = column()
     scene = build_scene(case)
     start = straight(scene, BUCKLED)
@@ -78,7 +78,7 @@ def test_it_goes_on_from_what_was_evaluated_before():
 @pytest.mark.parametrize("thickness", [4e-4, 8e-4, 8.5e-4, 9e-4, 1e-3])
 @pytest.mark.parametrize("cells_y", [3, 4])
 def test_a_loose_lattice_at_rest_is_not_unstable(cells_y, thickness):
-    """It may slide and rock: pivots of zero, and what stiff walls leave of them in round-off."""
+    """It may slide and rock: pivots are zero, up to the round-off of stiff walls."""
     case = Case.of(
         lattice=dict(cells_x=3, cells_y=cells_y, wall_thickness=thickness),
         loading=dict(mode="displacement", strain=0.1, platen="contact"),
@@ -113,7 +113,7 @@ def test_the_same_minimum_from_all_around(seed):
 
 @pytest.mark.parametrize("loose", ["force", "decrement"])
 def test_either_tolerance_alone_brings_it_to_the_minimum(loose):
-    """Balanced within a large force is not enough where a small one would still move walls far."""
+    """A residual below a large force is not enough if a small one would still move walls far."""
     case = grid(2.0)
     scene = build_scene(case)
     args = whole(scene, scene.x_rest)
@@ -155,7 +155,7 @@ def test_a_step_must_fall_by_a_share_of_what_its_model_promises(model):
 @pytest.mark.parametrize("dt", [1e-3, np.inf])
 @pytest.mark.parametrize("seed", range(4))
 def test_no_iteration_raises_the_energy(seed, dt):
-    """From a crumpled start, between platens and with contact, one iteration after another."""
+    """It starts from a crumpled lattice, between platens and with contact."""
     case = grid(5.0, "contact", "barrier")
     scene = build_scene(case)
     args = whole(scene, scene.x_rest, dt=dt)
@@ -245,7 +245,9 @@ def test_nodes_in_one_place_leave_the_range_of_numbers():
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_a_driven_platen_takes_the_others_along(platen):
-    """To where the quadratic model is stationary: what is left falls with the square of the way."""
+    """They move to where the quadratic model is stationary: the residual falls with the square of
+    the travel.
+    """
     case = Case.of(
         lattice=dict(cells_x=2, cells_y=2),
         material=MATERIAL,
@@ -263,7 +265,9 @@ def test_a_driven_platen_takes_the_others_along(platen):
 
 
 def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
-    """The residual may be as large as round-off of the stiff one, but not what it can release."""
+    """The residual may be as large as round-off of the stiff one, but not the energy it can
+    release.
+    """
     tolerance = Tolerance(1e-9, 1e-12, 1e-15, 1e-16, 100)
     assert allowed(1e17, tolerance) == pytest.approx(10.0)
     assert allowed_decrement(1e17, tolerance, 92) == 1e-12
@@ -271,8 +275,8 @@ def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
 
 
 def test_a_residual_that_positions_do_not_resolve_is_round_off():
-    """Steel at rest: twice what the stiffest coordinate explains is left, and no step was short
-    enough to end.
+    """Steel at rest: the residual is twice what the stiffest coordinate explains, and no step was
+    short enough to end.
     """
     case = Case.of(
         lattice=dict(

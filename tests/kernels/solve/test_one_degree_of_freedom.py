@@ -1,4 +1,4 @@
-"""One degree of freedom by hand: every column of the history is that of the scheme's recurrence."""
+"""One degree of freedom by hand: every column of the history obeys the scheme's recurrence."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,9 @@ def springs(case):
 
 
 def drag_of(model, stiffness, mass):
-    """Damping constants (N s/m) of what moves alone, and of what acts between top and bottom."""
+    """Damping constants (N s/m) of a body that moves alone, and of damping between top and
+    bottom.
+    """
     return {
         "none": (0.0, 0.0),
         "rayleigh": (RAYLEIGH["mass"] * mass, RAYLEIGH["stiffness"] * stiffness),

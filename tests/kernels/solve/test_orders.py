@@ -44,7 +44,9 @@ def test_three_cubics_err_less_than_twelve_hinges():
 @pytest.mark.parametrize("damping", [SEED, VISCOUS], ids=["rayleigh", "kelvin_voigt"])
 @pytest.mark.parametrize("column", ["strain", "stretch_J"])
 def test_backward_euler_is_of_first_order(damping, column):
-    """In the first 0.4 ms after the load has come, while the grid is still going down."""
+    """The order in the first 0.4 ms after the load is applied, while the grid is still going
+    down.
+    """
     time = 4e-4
     cases = [
         loaded(5.0, time_step=time / n, damping=damping, release_time=time, duration=time)
@@ -76,7 +78,7 @@ class Descent:
         self.x = self.scene.x_rest.copy()
 
     def whole(self):
-        """What is minimised, from pairs found anew and without friction."""
+        """The minimised potential, with new pairs and without friction."""
         found = whole(self.scene, self.x, self.scene.x_rest, self.dt)
         return found.lagging(friction.none())
 
@@ -99,7 +101,7 @@ class Descent:
 
 @pytest.mark.parametrize("scene", [crushed, folded])
 def test_newton_is_quadratic_near_a_minimum(scene):
-    """What one iteration leaves of a disturbance falls with its square."""
+    """The disturbance left by one iteration falls with its square."""
     descent = scene()
     assert descent.go_on(100) == outcomes.CONVERGED
     minimum, left = descent.x.copy(), []
@@ -126,7 +128,7 @@ def test_newton_ends_a_smooth_step_quadratically(travel):
 
 
 def test_newton_with_the_tangent_modulus_is_of_first_order():
-    """Its last residuals fall by one factor, each time."""
+    """Its last residuals all fall by the same factor."""
     descent, residuals = crushed(hessian="tangent_modulus"), []
     target = descent.x[-1] - 3e-4
     while descent.go_on(1, target) == outcomes.ITERATIONS:

@@ -1,4 +1,4 @@
-"""What is loaded moves, however short its steps and small its load are, or the run says why not."""
+"""A loaded structure moves, however short its steps and small its load, or the run says why not."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def end(result):
 @pytest.mark.parametrize("force", [1e-2, 1.0, -1.0])
 @pytest.mark.parametrize("time_step", [1e-7, 1e-6])
 def test_a_cantilever_under_a_load_along_itself_moves(integrator, modulus, force, time_step):
-    """From rest, by the closed form, as long as a step is shorter than the fastest oscillation."""
+    """It moves from rest, by the closed form, if a step is shorter than the fastest oscillation."""
     fastest = 2.0 / PIECE * np.sqrt(modulus / DENSITY)  # rad/s
     if fastest * time_step > 0.3:
         time_step = 0.1 / fastest
@@ -119,7 +119,7 @@ def test_steps_too_short_for_round_off_are_a_failure_without_a_load(integrator, 
 @pytest.mark.parametrize("integrator", ["static", "arc_length"])
 @pytest.mark.parametrize("force", [1e-5, 1.0])
 def test_a_small_load_is_borne_in_statics(integrator, force):
-    """However small it is beside Y I / L^2, 0.1 N: u = F L / (Y A)."""
+    """However small it is compared with Y I / L^2, 0.1 N: u = F L / (Y A)."""
     result = simulate(pulled(integrator, force=force))
     assert result.status == "converged", result.message
     u = force * 1e-3 * LENGTH / (12e6 * AREA)

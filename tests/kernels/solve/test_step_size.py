@@ -52,7 +52,7 @@ def test_after_each_failure_more_shares_are_accepted_before_one_is_doubled():
 
 
 def test_steps_span_rows_only_if_they_have_an_accuracy():
-    """From an eighth of a row to four rows, and shorter where the stage ends."""
+    """Steps of an eighth of a row to four rows, and shorter ones where the stage ends."""
     for accuracy, longest in ((1e-3, 4.0), (np.inf, 1.0)):
         shares, lengths = Shares(0.125, accuracy), []
         while shares.progress.row < shares.stage.steps:
@@ -64,7 +64,9 @@ def test_steps_span_rows_only_if_they_have_an_accuracy():
 
 
 def test_a_step_that_spans_rows_is_shortened_by_its_error():
-    """To what a quadratic error allows, if it is rejected or not; by half at least."""
+    """It gets the length that a quadratic error allows, rejected or not; if rejected, at most
+    half.
+    """
     for ratio, share in ((0.5, 2.0), (3.0, 2.0), (5.0, 1.0), (1e9, 1.0)):
         shares = Shares(4.0, accuracy=1e-3)
         shares.reject(outcomes.INACCURATE, ratio)
@@ -76,7 +78,7 @@ def test_a_step_that_spans_rows_is_shortened_by_its_error():
 
 
 def test_shares_too_short_for_round_off_are_reported_by_what_shortened_them():
-    """Also if some of them were accepted; a whole step is not short."""
+    """They are reported even if some of them were accepted; a whole step is not short."""
     shares = Shares(1.0)
     assert shares.reported == outcomes.UNRESOLVED
     shares.reject(outcomes.NOT_FINITE)

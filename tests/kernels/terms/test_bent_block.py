@@ -1,4 +1,4 @@
-"""Sections beside the exact bending of a block that keeps its volume and its depth.
+"""Sections against the exact bending of a block that keeps its volume and its depth.
 
 A line at z across a block of thickness 1 becomes an arc of stretch l, l^2 = p + 2 kappa z, whatever
 the material; p makes the energy least (R. S. Rivlin, Proc. R. Soc. A 195, 1949, p. 463). Bent and
@@ -30,7 +30,9 @@ def of_neo_hookean(kappa):
 
 
 def of_block(pull, kappa):
-    """Moment of a block whose Cauchy stress is ``pull`` (ln l), but for that across its lines."""
+    """Moment of a block with the Cauchy stress ``pull`` (ln l), without the stress across its
+    lines.
+    """
 
     def sums(gap):
         square = kappa + np.exp(gap) + 2.0 * kappa * PLACE

@@ -29,7 +29,7 @@ def phi(d, of=ONE, t=T):
 
 
 def near(of, x, node=None):
-    """Contact and its pairs at ``x``; with ``node``, those of one node."""
+    """Contact and its pairs at ``x``; with ``node``, the pairs of one node."""
     touch = touching(of)
     listed = near_pairs.find(x, touch, 3.0 * touch.reach)
     return touch, listed if node is None else only(listed, node)
@@ -148,7 +148,7 @@ def test_parallel_walls_count_once_at_any_mesh(pieces, gap):
 
 @pytest.mark.parametrize("pieces", [(1, 1), (6, 5)])
 def test_normal_forces_of_parallel_walls_add_up(pieces):
-    """What friction goes by: what is counted twice comes off again."""
+    """The forces that friction uses: forces counted twice are subtracted again."""
     of = two_walls(0.3, pieces)
     touch, listed = near(of, of.rest)
     found = contact.no_contacts(listed)
@@ -161,7 +161,7 @@ def test_normal_forces_of_parallel_walls_add_up(pieces):
 @pytest.mark.parametrize("gap", [0.2, 0.5, 0.7])
 @pytest.mark.parametrize("pieces", [3, 6, 12, 24, 48])
 def test_walls_staggered_by_half_an_element_count_once_but_for_their_ends(pieces, gap):
-    """What is more are the ends: nodes beyond the other wall are near its end."""
+    """The excess is due to the ends: nodes beyond the other wall are near its end."""
     shift = 0.5 * 4.0 / pieces
     of = two_walls(gap, (pieces, pieces), shift=shift)
     energy = term_of(of, of.rest).energy(of.rest)
@@ -188,7 +188,7 @@ def test_contact_starts_at_the_mean_thickness():
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (4 / 3, 0.0), (0.5, 0.0), (4.0, 0.0)])
 def test_touching_centre_lines_take_infinite_energy(place):
-    """At a vertex too, where what is taken off is infinite as well."""
+    """The energy is infinite at a vertex too, where the subtracted energy is infinite as well."""
     of = two_walls(0.5, (3, 1))
     x = node_at(node_at(of.rest, 4, (4 / 3, 0.0)), 2, place)
     assert term_of(of, x).energy(x) == np.inf
@@ -277,7 +277,7 @@ def crumpled(rng, touch):
 @pytest.mark.parametrize("drift", [0.0, 0.01, 0.2])
 @pytest.mark.parametrize("most", [1e-3, 0.1, 0.4, 1.0, 4.0])
 def test_the_bound_of_a_step_misses_no_contact(most, drift):
-    """Pairs that are too far away to meet are passed over: the first hit is that of all pairs."""
+    """Pairs that are too far away to meet are skipped: the first hit is the first of all pairs."""
     rng, touch, hits = np.random.default_rng(8), touching(GRID), 0
     for _ in range(40):
         anchor, listed = crumpled(rng, touch)
@@ -291,7 +291,7 @@ def test_the_bound_of_a_step_misses_no_contact(most, drift):
 
 @pytest.mark.parametrize("drift", [0.0, 0.01, 0.2, 0.6])
 def test_what_drifts_into_contact_is_seen(drift):
-    """A list is read as far as contact may reach; it is as if all of it were read."""
+    """A list is read as far as contact may reach, with the same result as reading all of it."""
     rng, touch, touched = np.random.default_rng(3), touching(GRID), 0
     for _ in range(40):
         anchor, listed = crumpled(rng, touch)

@@ -105,8 +105,8 @@ def excess(of, one, p, two):
 
 
 def paths(of, e):
-    """Of the shortest path from element ``e`` to every node: length, sum of excesses, last element;
-    by trying all.
+    """Shortest path from element ``e`` to every node, by trying all: length, sum of excesses, last
+    element.
     """
     found = {}
 
@@ -163,7 +163,7 @@ def test_weights_and_distances_against_paths_along_the_network(of):
 
 @pytest.mark.parametrize("opening", [30.0, 60.0, 90.0, 120.0, 180.0])
 def test_faces_round_a_corner_touch_where_they_can_be_bent_to(opening):
-    """Where paths are longer than t (cot(g/2) + g/2), g the opening of the arms."""
+    """They touch where paths are longer than t (cot(g/2) + g/2), g the opening of the arms."""
     of, half = star(0.0, opening, pieces=16), np.radians(opening) / 2
     touch, h = contact_of(of), 4.0 / 16
     least = T * (1 / np.tan(half) + half)
@@ -222,7 +222,7 @@ def test_contact_of_a_closing_corner_converges():
 
 @pytest.mark.parametrize("opening", [15.0, 25.0, 35.0, 50.0])
 def test_straight_arms_touch_about_as_far_as_their_faces_overlap(opening):
-    """Up to t / (2 tan(g/2)) along both arms in a solid. Here up to where s sin(g) = t_c."""
+    """In a solid, up to t / (2 tan(g/2)) along both arms; here, up to where s sin(g) = t_c."""
     of, g = star(0.0, 90.0, pieces=96), np.radians(opening)
     touch, x = contact_of(of), folded(of, 96, g)
     listed = near_pairs.find(x, touch, 2.0)

@@ -115,7 +115,7 @@ def test_viscous_stiffness_at_rest_is_the_elastic_one(seed):
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 2.5])
 def test_a_rigid_motion_has_no_viscous_cost(turn):
-    """Of less than half a turn: turns are measured against the start of the step."""
+    """The motion is less than half a turn: turns are measured against the start of the step."""
     x0 = shaken(FRAME, 4)
     x = carried(FRAME, x0, turn)
     term = term_of(damped(FRAME, VISCOUS), x0)

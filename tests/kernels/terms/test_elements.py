@@ -130,7 +130,7 @@ def test_a_product_is_that_of_the_whole_matrix(seed):
 
 
 def test_gather_is_the_transpose_of_the_motions():
-    """What is there stays."""
+    """Earlier entries stay."""
     shape, *_ = room(WALLS)
     shape.slope[:] = np.random.default_rng(1).uniform(-1, 1, shape.slope.shape)
     g = np.ones(FRAME.rest.size)

@@ -30,7 +30,7 @@ def lagged_of(of, x, mu=MU, node=None):
 
 
 def lagged(x, touch, listed, mu=MU):
-    """What is gripped at ``x``."""
+    """The contacts lagged at ``x``."""
     rubbing = friction.Friction(mu, 1.0)
     contacts = friction.no_contacts(listed, touch, rubbing)
     friction.lag(contacts, x, touch, listed, np.inf, rubbing)
@@ -94,7 +94,7 @@ def test_smooth_size_joins_the_size_at_the_slip():
 @pytest.mark.parametrize("start", [3.0, 0.02, -0.4, -50.0])
 @pytest.mark.parametrize(("pull", "most"), [(0.0, 15), (0.9, 15), (-0.9, 15), (5.0, 15), (1.0, 30)])
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
-    """At the least of u^2 / 2 + |u| - pull u; with f'' alone it leaps to and fro for ever."""
+    """The minimum of u^2 / 2 + |u| - pull u; with f'' alone Newton leaps to and fro for ever."""
     slip, steps, u = 1e-4, 0, np.array([start, 0.0])
     contacts = friction._room(1, near_pairs.empty(), 0)
     contacts.points[:], contacts.slopes[:] = 0, 0.0
@@ -154,7 +154,7 @@ def test_a_step_that_stays_costs_nothing():
 @pytest.mark.parametrize("pieces", [(1, 1), (3, 2), (12, 7), (24, 24)])
 @pytest.mark.parametrize("gap", [0.2, 0.6])
 def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
-    """Counted once at any mesh, half of it from each side."""
+    """Counted once with any mesh, half of it from each side."""
     of = two_walls(gap, pieces)
     contacts, touch, listed = lagged_of(of, of.rest)
     upper = np.unique(of.edges[pieces[0] :])
@@ -223,7 +223,7 @@ def normal_forces(x, touch, listed):
 @pytest.mark.parametrize("pieces", [(12, 7), (24, 24), (5, 40)])
 @pytest.mark.parametrize("seed", range(4))
 def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
-    """Those subtracted are taken from the others, and nothing is left of straight pairs."""
+    """Subtracted forces are taken from the others, and cancel in straight pairs."""
     of = two_walls(0.5, pieces)
     x = shaken(of, seed, 0.1)
     contacts, touch, listed = lagged_of(of, x)

@@ -161,7 +161,7 @@ def test_friction_of_a_profile(shape, along, slope):
 
 
 def test_friction_acts_along_the_surface_of_a_profile():
-    """Of a leaning flank, against a profile that goes down: up along the wall."""
+    """The profile moves down along a leaning flank; friction acts upwards along the wall."""
     touch = below(WALL, SHAPES["edge"])
     x = lowered(placed(WALL, 0.0, 9.0, -2.0), touch, 0.1)
     contacts, g = lagged(WALL, SHAPES["edge"], x), np.zeros_like(x)

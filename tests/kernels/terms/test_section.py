@@ -63,7 +63,7 @@ def term_of(of: Frame, through, cubic=True):
 
 
 def test_an_elastic_section_is_one_whose_memory_is_empty():
-    """They are compiled apart."""
+    """Sections with and without memory are compiled separately."""
     general = law()._replace(curve=law().curve._replace(is_elastic=False))
     assert difference(term_of(FRAME, law()), term_of(FRAME, general), shaken(FRAME, 0, 0.1)) < 1e-12
 
@@ -164,7 +164,7 @@ def test_derivatives_of_a_bent_wall(turn, length, cubic):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_projected_hessian_is_semi_definite(seed):
-    """Where the moment falls, too."""
+    """It is so where the moment falls, too."""
     x = shaken(FRAME, seed, 0.5)
     falling = law()
     curve = falling.curve.relaxing.elastic.curve
@@ -189,7 +189,9 @@ def test_a_wall_squeezed_to_nothing_has_infinite_energy():
 @pytest.mark.parametrize("joints", ["solid", "points"])
 @pytest.mark.parametrize("element", ["cubic", "classical"])
 def test_sections_of_a_scene_are_its_beams(plane, element, joints):
-    """With a linear curve the Hessian at rest is that of linear bending, shear included."""
+    """With a linear curve the Hessian at rest equals the Hessian of linear bending, shear
+    included.
+    """
     if element == "classical" and joints == "solid":
         joints = "points"
     built = build_scene(Case.of(

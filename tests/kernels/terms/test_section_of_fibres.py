@@ -110,7 +110,7 @@ def test_the_potential_of_a_section_is_stored_or_dissipated(hardening):
 
 @pytest.mark.parametrize("name", ["ninjaflex", "cheetah"])
 def test_more_fibres_find_the_moment_of_a_rubber(name):
-    """Against 15; five are those of "section"."""
+    """The reference has 15 fibres; "section" has five."""
     curvatures = np.array([0.1, 0.3, 0.6])
 
     def moments(**keys):

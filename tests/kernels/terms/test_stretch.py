@@ -51,7 +51,7 @@ def stretched(of, strain):
 
 
 def test_an_elastic_law_is_one_whose_memory_is_empty():
-    """They are compiled apart."""
+    """Laws with and without memory are compiled separately."""
     assert (
         difference(term_of(FRAME), term_of(FRAME, is_elastic=False), shaken(FRAME, 0, 0.3)) < 1e-12
     )
@@ -117,7 +117,9 @@ def test_projected_hessian_is_semi_definite(strain):
 @pytest.mark.parametrize("arc", ARCS)
 @pytest.mark.parametrize("seed", range(4))
 def test_projected_hessian_is_semi_definite_in_random_states(seed, arc):
-    """Also that of stout elements, which shorten as they shear: in tension that is unstable."""
+    """It is so also for stout elements, which shorten as they shear: in tension they are
+    unstable.
+    """
     x, term = shaken(FRAME, seed, 0.4), term_of(FRAME, arc=ARCS[arc])
     assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
     assert least_share(term, x) > -1e-12
@@ -141,7 +143,7 @@ def length_of_cubic(chord, one, two):
 
 @pytest.mark.parametrize(("one", "two"), [(1.0, 0.0), (1.0, 1.0), (1.0, -1.0), (-0.3, 0.8)])
 def test_the_strain_is_that_of_the_arc(one, two):
-    """To the fourth order in the turns."""
+    """The strain of the arc, to the fourth order in the turns."""
     apart = []
     for size in (0.1, 0.05):
         x = BAR.rest.copy()

@@ -1,4 +1,4 @@
-"""A large lattice crushed until it has packed down, with contact: how long, with what memory."""
+"""A large lattice crushed until it has packed down, with contact: time and memory."""
 
 from sweep.scene.lattice import build_scene
 from tests.studies.bench.measuring import cases, marching

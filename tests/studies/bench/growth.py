@@ -1,4 +1,4 @@
-"""How an iteration, what comes before it and the memory grow with the lattice."""
+"""How the cost of an iteration, of the preparation and of the memory grows with the lattice."""
 
 from functools import partial
 

@@ -56,7 +56,7 @@ def compared(title, chosen, count, peers=None):
 
 
 def seed(cells, duration, count, allowed=ALLOWED, beside=PEERS):
-    """The seed's scene, and what is installed of other codes with it."""
+    """The seed's scene, in Crumple and in the other codes that are installed."""
     title = f"dead load, {cells} x {cells}, {round(1e4 * duration):,} steps"
     case = cases.seed(cells, duration)
     chosen = {SEED: case}
@@ -73,7 +73,7 @@ def seed(cells, duration, count, allowed=ALLOWED, beside=PEERS):
 
 
 def left_out(steps, count):
-    """What each part of a crush at a speed costs."""
+    """The cost of each part of a crush at a speed."""
     chosen = {"the full model": cases.blow(steps=steps)}
     chosen |= {name: cases.blow(steps=steps, **given) for name, given in LEFT_OUT.items()}
     return compared(f"pressed at {cases.SPEED} m/s to 60 %, 3 x 3, {steps} steps", chosen, count)

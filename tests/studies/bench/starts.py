@@ -41,7 +41,7 @@ def run(cache, out):
 
 
 def table():
-    """A row for what is compiled before."""
+    """A row for each state of compilation before the start."""
     columns = ("first result, s", "end, s", "CPU, s")
     found = Table("`crumple run configs/smoke.toml`", columns)
     with tempfile.TemporaryDirectory() as folder:

@@ -42,19 +42,19 @@ class Swept(NamedTuple):
 
     @property
     def free(self):
-        """On the clock, had no other program run."""
+        """Wall-clock seconds if no other program had run."""
         return self.wall - self.lost
 
 
 def busy():
-    """CPU seconds that all programs of this machine have had so far, with what its host took."""
+    """CPU seconds so far, used by all programs of this machine or taken by its host."""
     ticks = [int(word) for word in Path("/proc/stat").read_text("utf-8").split()[1:9]]
     return (sum(ticks) - ticks[IDLE] - ticks[WAITING]) / os.sysconf("SC_CLK_TCK")
 
 
 def lost(others, wall, workers, cores):
     """Seconds of a time ``wall`` that workers lose to other programs, which used processors for
-    ``others`` s, those first that no worker needs.
+    ``others`` s, starting with processors that no worker needs.
     """
     return max(others - (cores - workers) * wall, 0.0) / workers
 
@@ -90,7 +90,7 @@ def kinds(designs):
 
 
 def throughput(designs, every):
-    """Designs a second with friction and without, and what a sample of them is off by."""
+    """Designs a second with friction and without, and the error of a sample of them."""
     times = ("per s", "wall, s", "others, s", "CPU, ms", RATIO)
     finer = {"error, %": FINER, "of steps": 1}  # times the elements
     found = Table(f"{len(designs):,} designs", (*times, *finer))

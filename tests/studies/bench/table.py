@@ -1,4 +1,4 @@
-"""A table of figures: rows and columns by name, numbers kept beside how they are printed."""
+"""A table of figures: rows and columns by name, numbers with their printed form."""
 
 from dataclasses import dataclass, field
 

@@ -1,4 +1,4 @@
-"""What `make bench` measures, at a tiny size: every row is there, and its figures hang together."""
+"""The measurements of `make bench`, at a tiny size: every row is there, and its figures agree."""
 
 import time
 from importlib import import_module
@@ -25,7 +25,7 @@ def collapsed():
 def full(table, rows):
     """True if these rows have a value in every column, and no others are there.
 
-    Of its size nothing is asked: a time may be less than that of an empty loop on a busy machine.
+    The size of the values is not checked: a time may be less than an empty loop on a busy machine.
     """
     names = {name for name, _ in table.texts}
     return names == set(rows) and all(

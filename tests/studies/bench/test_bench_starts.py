@@ -1,4 +1,4 @@
-"""What `make bench` measures of a start."""
+"""The measurements of starts by `make bench`."""
 
 from kernels.compile.cache import cache_home
 from sweep.__main__ import main

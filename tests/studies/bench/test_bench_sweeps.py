@@ -1,4 +1,4 @@
-"""Sweeps that the bench times: what others took of the clock, what the designs are off by."""
+"""Sweeps that the bench times: time lost to other programs, and errors of the designs."""
 
 import pytest
 

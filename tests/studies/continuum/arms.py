@@ -1,4 +1,4 @@
-"""What the arms of a joint yield beyond beams that meet at a point, by linear plane elasticity.
+"""Compliance of the arms of a joint beyond beams that meet at a point, by linear plane elasticity.
 
 Arm i bears (N, V, M) at the centre of the joint: along the arm, to its left, turning left. A solid
 joint of arms yields as Timoshenko's beams of shear coefficient 5/6 that reach the centre, and
@@ -149,7 +149,7 @@ class Joint:
         return first @ self.factor.solve(second) - np.einsum("ia,ab,ib->", one, beam, other)
 
     def sway(self):
-        """C of one arm as (MM, MV, VV); moments and shears are those of a lattice that sways."""
+        """C of one arm as (MM, MV, VV), under the moments and shears of a lattice that sways."""
         share = np.array(SWAY[self.kind], float)
         along, left = np.array([axes(angle) for angle in self.angles]).swapaxes(0, 1)
         moments, shears = np.zeros((2, len(share), 3))

@@ -29,7 +29,7 @@ def _curves(ax, crush):
 
 
 def _errors(ax, grids):
-    """Of the energy, by models and planes."""
+    """Draw the errors of the energy, by models and planes."""
     for plane, style in STYLES.items():
         rows = [found for found in grids if found.case.plane == plane]
         slender = [found.case.slenderness for found in rows]

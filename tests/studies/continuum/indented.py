@@ -2,8 +2,8 @@
 
 python -m tests.studies.continuum.indented computes it in some minutes and prints the file; with the
 word "table", it compares our network of walls with the file. The striker is a circle that pushes
-back what is inside of it, by a spring as stiff as a layer of rubber of `LAYER` walls; walls do not
-touch one another yet. The panel is glued to its base.
+out the parts of the solid inside it, with a spring as stiff as a layer of rubber of `LAYER` walls;
+walls do not touch one another yet. The panel is glued to its base.
 """
 
 import csv
@@ -35,7 +35,7 @@ STRAINS = 0.005 * np.arange(1, 23)
 
 
 class Circle:
-    """What pushes the surface of a solid back. tip (2,): its lowest point, mm."""
+    """A circle that pushes the surface of a solid back. tip (2,): its lowest point, mm."""
 
     def __init__(self, solid, stiffness, tip):
         basis = solid.basis
@@ -56,19 +56,19 @@ class Circle:
         return nodes, out[nodes] / away[nodes, None], RADIUS - away[nodes], away[nodes]
 
     def energy(self, u):
-        """Of the springs, mJ."""
+        """Energy of the springs, mJ."""
         nodes, _, depth, _ = self._inside(u)
         return 0.5 * float(self.spring[nodes] @ depth**2)
 
     def gradient(self, u):
-        """Of the energy, N."""
+        """Gradient of the energy, N."""
         nodes, out, depth, _ = self._inside(u)
         whole = np.zeros((len(self.points), 2))
         whole[nodes] = -(self.spring[nodes] * depth)[:, None] * out
         return whole.ravel()
 
     def hessian(self, u):
-        """Of the energy: n n^T - (depth / distance) (1 - n n^T)."""
+        """Hessian of the energy: n n^T - (depth / distance) (1 - n n^T)."""
         nodes, out, depth, away = self._inside(u)
         across = out[:, :, None] * out[:, None, :]
         block = across - (depth / away)[:, None, None] * (np.eye(2) - across)

@@ -1,10 +1,10 @@
-"""Arms of joints with any openings: what they yield beyond beams, C of `arms`, with triangles.
+"""Arms of joints with any openings: their compliance beyond beams, C of `arms`, with triangles.
 
 The sides of two neighbouring arms with an opening g between them meet at t/2 cot(g/2) along both:
 at a re-entrant corner if g < 180 degrees, in a mitre if more.
 
 python -m tests.studies.continuum.joint_compliance prints the table sweep/scene/joints.csv in ten
-minutes; with the word glued, what sweep/scene/joints_on_glued_rows.csv has, in ten seconds.
+minutes; with the word glued, the contents of sweep/scene/joints_on_glued_rows.csv, in ten seconds.
 """
 
 import sys
@@ -26,23 +26,25 @@ NEAR = 1e-9  # of coordinates
 
 @BilinearForm
 def sheared(u, v, _):
-    """Of the shear modulus."""
+    """The part of the shear modulus."""
     return 2.0 * ddot(sym_grad(u), sym_grad(v))
 
 
 @BilinearForm
 def swollen(u, v, _):
-    """Of the first Lamé constant of plane stress."""
+    """The part of the first Lamé constant of plane stress."""
     return div(u) * div(v)
 
 
 def stiffness(one, other, poisson):
-    """Matrix of modulus 1, from those of the shear modulus and of the first Lamé constant."""
+    """Matrix of modulus 1, from the matrices of the shear modulus and of the first Lamé
+    constant.
+    """
     return one / (2.0 * (1.0 + poisson)) + other * poisson / (1.0 - poisson**2)
 
 
 def beam(length, poisson):
-    """What a beam of thickness 1 yields to (N, V, M) at its end; Timoshenko's, k = 5/6."""
+    """Compliance of a beam of thickness 1 under (N, V, M) at its end; Timoshenko's, k = 5/6."""
     shear = 2.4 * (1.0 + poisson) * length + 4.0 * length**3
     bend = -6.0 * length**2
     return np.array([[length, 0.0, 0.0], [0.0, shear, bend], [0.0, bend, 12.0 * length]])
@@ -164,7 +166,7 @@ class Yield:
         """MM, MV, VV, NN, NM, NV of an arm: means over moments (k, n) and over tensions.
 
         The shears are in the ratios of the moments. nm, nv (n,): of the arms, if they have any; VV
-        and MV are without what the axial forces that balance the shears yield.
+        and MV exclude the compliance under the axial forces that balance the shears.
         """
         turned = np.zeros((*moments.shape, 3))
         turned[..., 2] = moments
@@ -253,7 +255,9 @@ def rows(kind, angle):
 
 
 def print_glued(out):
-    """Print what arms on glued rows yield, fitted for Poisson's ratios of the plane up to 0.95."""
+    """Print the compliance of arms on glued rows, fitted for Poisson's ratios of the plane up to
+    0.95.
+    """
     poisson = np.linspace(0.0, 0.95, 5)
     for openings in GLUED:
         forms = np.array([on_glued_row(openings, nu) for nu in poisson])

@@ -1,9 +1,9 @@
 """Stiffness of endless lattices at small strain: the table of joints against the solid joints.
 
 python -m tests.studies.continuum.lattices prints the errors in three minutes, also of lattices with
-lines of unequal thickness. The solid is exact: as stresses away from the joints are those of beams,
-an axial force, a shear and a moment in the middle of every wall tell all, and they make the energy
-C of `openings` + beams least under a mean stress.
+lines of unequal thickness. The solid is exact: as stresses away from the joints are the stresses of
+beams, an axial force, a shear and a moment in the middle of every wall determine everything, and
+they minimise the energy C of `openings` + beams under a mean stress.
 """
 
 import sys
@@ -173,7 +173,7 @@ class Lattice:
         return found.T @ energy @ found / self.area
 
     def errors(self, poisson, joints):
-        """Of the stiffness along x, along y and in shear, %, against the solid."""
+        """Errors of the stiffness along x, along y and in shear, %, against the solid."""
         solid, other = (np.diag(self.yields(poisson, how)) for how in (exact, joints))
         return 100.0 * (solid / other - 1.0)
 
@@ -192,7 +192,7 @@ def row(lattice, cells, rules):
 
 
 def main(out):
-    """Print the errors of equal walls, then those of unequal ones."""
+    """Print the errors of equal walls, then of unequal ones."""
     out.write("| infill | height | t / L | table | one C a joint | beams to the centre |\n")
     out.write("|---|---|---|---|---|---|\n")
     for kind in families():

@@ -19,7 +19,7 @@ STEPS = 300
 def material(rubber, plane, bend):
     """The rubber of a plane; sections bend through the law of a bar of it.
 
-    A curve is one of plane stress: the network raises its stresses to those of plane strain.
+    A curve is given in plane stress: the network raises its stresses to plane strain.
     """
     numbers = {"modulus": MPA * rubber.modulus, "poisson": rubber.poisson, "plane": plane}
     plain = material_with(**numbers, density=1190.0, bend="linear")
@@ -40,7 +40,7 @@ def material(rubber, plane, bend):
 class Network:
     """A `Grid` as a network of ``pieces`` elements a wall.
 
-    rubber: that of the plane. contact, plane, joints, bend: as in the tables of a case.
+    rubber: rubber of the plane. contact, plane, joints, bend: as in the tables of a case.
     """
 
     grid: object

@@ -1,9 +1,9 @@
 """Stiffness of endless lattices of stout walls at small strain: joints against a solid of pixels.
 
 python -m tests.studies.continuum.pixels prints the errors in three minutes. `lattices` needs walls
-longer than their joints. Here the solid is what the walls cover, in plane stress, in rectangles
-with a stiffness in proportion to their covered share; the bent sides of thin walls make it too
-stiff, by the less the more pixels there are.
+longer than their joints. Here the solid is the area that the walls cover, in plane stress, in
+rectangles with a stiffness in proportion to their covered share; the bent sides of thin walls make
+it too stiff, by an error that falls with the number of pixels.
 """
 
 import sys
@@ -16,7 +16,7 @@ from tests.studies.continuum.press import factor
 
 CORNERS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 POINTS = np.array([-1.0, 1.0]) / np.sqrt(3.0)  # of Gauss
-FINER = 6  # points across a pixel, of those that count what is covered
+FINER = 6  # points across a pixel, which count the covered area
 STOUT = {  # t over the length of the shortest wall
     "circle": (0.2, 0.4, 0.5),
     "reentrant": (0.3, 0.4, 0.5),

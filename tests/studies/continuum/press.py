@@ -1,8 +1,8 @@
 """A grid between glued platens that come together: a minimum of the energy at every strain.
 
-Newton's method on the energy with the exact Hessian. Its pivots tell whether it is positive
-definite; where it is not, a multiple of its diagonal at rest is added, and an energy that falls
-leads away from a branch that is not stable.
+Newton's method on the energy with the exact Hessian. Its pivots show whether it is positive
+definite; where it is not, a multiple of its diagonal at rest is added, and a falling energy leads
+away from an unstable branch.
 """
 
 from dataclasses import dataclass, field
@@ -52,7 +52,7 @@ def factor(matrix):
 class Press:
     """solid: the body, glued at its lowest and highest nodes. touch: its contact, if it has any.
 
-    height: of which a strain is a share, mm. tolerance: of the residual, N.
+    height: to which strains refer, mm. tolerance: of the residual, N.
     """
 
     tolerance = TOLERANCE
@@ -71,15 +71,15 @@ class Press:
         self.damper = rest[self.free][:, self.free].diagonal()
 
     def energy(self, u):
-        """Of all terms, mJ."""
+        """Energy of all terms, mJ."""
         return sum(term.energy(u) for term in self.terms)
 
     def gradient(self, u):
-        """Of all terms, N."""
+        """Gradient of all terms, N."""
         return sum(term.gradient(u) for term in self.terms)
 
     def hessian(self, u):
-        """Of all terms."""
+        """Hessian of all terms."""
         return sum((term.hessian(u) for term in self.terms[1:]), self.terms[0].hessian(u))
 
     def room(self, u, step):
@@ -114,14 +114,14 @@ class Press:
         raise StuckError(f"no minimum after {ENOUGH} iterations")
 
     def onwards(self, u, by):
-        """Where the nodes go as the strain grows, by the tangent."""
+        """Predicted move of the coordinates as the strain grows, along the tangent."""
         ahead, matrix = by * self.drive, self.hessian(u)
         solver, _ = self._solver(matrix)
         ahead[self.free] = -solver.solve((matrix @ ahead)[self.free])
         return ahead
 
     def force(self, gradient):
-        """Of the upper platen, N."""
+        """Force of the upper platen, N."""
         return -float(gradient[2 * self.high + 1].sum())
 
     def crush(self, strains):

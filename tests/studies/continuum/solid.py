@@ -25,7 +25,9 @@ class Solid:
 
     @cached_property
     def _pattern(self):
-        """Places of all entries of element matrices in the sorted list of those of the whole."""
+        """Places of all entries of element matrices in the sorted list of entries of the whole
+        matrix.
+        """
         row, column = np.broadcast_arrays(self.unknowns[:, :, None], self.unknowns[:, None, :])
         keys, place = np.unique((column * self.size + row).ravel(), return_inverse=True)
         column, row = np.divmod(keys, self.size)

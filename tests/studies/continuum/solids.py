@@ -38,11 +38,11 @@ class Crush(NamedTuple):
     strain: float
 
     def grid(self):
-        """Its shape."""
+        """The shape of the solid."""
         return Grid(thickness=self.slenderness * Grid().pitch, across=self.across)
 
     def rubber(self):
-        """Its rubber."""
+        """The rubber of the solid."""
         return RUBBERS[self.plane](MODULUS, POISSON)
 
 
@@ -85,7 +85,7 @@ def main(chosen):
 
 
 def lacking():
-    """What to install, in a sentence, if anything is."""
+    """A sentence on packages to install, if any are missing."""
     absent = [package for module, package in NEEDED.items() if find_spec(module) is None]
     if not absent:
         return ""

@@ -26,7 +26,7 @@ def energy(rubber, kappa):
 
 
 def moment(rubber, kappa):
-    """Of a strip of thickness 1."""
+    """Moment of a strip of thickness 1."""
     near = 0.5 * STEP * kappa
     return (energy(rubber, kappa + near) - energy(rubber, kappa - near)) / (2.0 * near)
 

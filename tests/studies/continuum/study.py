@@ -1,6 +1,6 @@
 """The comparison itself: grids of slender to stout walls, and a crush until they are packed.
 
-The solids are those of solids.csv.
+The solids are read from solids.csv.
 """
 
 import csv
@@ -13,7 +13,7 @@ from tests.studies.continuum.network import Network
 from tests.studies.continuum.solids import PACKED, Crush
 
 FILE = Path(__file__).with_name("solids.csv")
-APART = (0.05, 0.1, 0.2, 0.3)  # strains, the last one cut to that of the solid
+APART = (0.05, 0.1, 0.2, 0.3)  # strains, the last one cut to the strain of the solid
 WATCHED = (0.1, 0.3, 0.4, 0.5, 0.6)  # of the crush with contact of walls
 POINTS = "points, linear", 3, {"joints": "points", "bend": "linear"}
 MODELS = (

@@ -1,4 +1,4 @@
-"""The solid of `make continuum`: energy, elements, contact; and the network beside it."""
+"""The solid of `make continuum`: energy, elements, contact; and the network for comparison."""
 
 import numpy as np
 import pytest
@@ -230,7 +230,7 @@ def test_acute_openings_are_linear_in_poissons_ratio():
 
 
 def test_arms_of_unequal_crosses_yield_as_if_moved_to_the_side_of_the_other_line():
-    """In own thicknesses: C at a point off the centre, less the beam up to there."""
+    """In units of the own thickness: C at a point off the centre, less the beam up to there."""
     thickness = np.array([1.0, 1.25, 1.0, 1.25])
     form = Star((90,) * 4, tuple(thickness)).beyond(0.3)[:, 2, :, 2]
     moments = np.array([1.0, -1.0, 1.0, -1.0]) / thickness
@@ -274,7 +274,7 @@ def test_hexagons_are_as_stiff_with_joints_of_the_table_as_if_solid():
     ],
 )
 def test_joints_of_unequal_lines_are_near_the_solid(kind, ratio, within, equal):
-    """And nearer than C of equal arms, whose worst error of three is the last number."""
+    """They are nearer than C of equal arms, whose worst error of three is the last number."""
     lattice = Lattice(kind, 1.0, 0.2 / max(ratio, 1.0), ratio)
     errors = lattice.errors(0.48, lattice.of_scene(0.48))
     assert np.abs(errors).max() < within
@@ -333,7 +333,7 @@ def test_strip_is_a_beam_at_small_curvature():
 
 
 def moment_of_law(rubber, plane, kappa):
-    """Of a section of thickness 1 without axial force, by the law of the network."""
+    """Moment of a section of thickness 1 without axial force, by the law of the network."""
     bent = material(rubber, plane, "section")
     law = law_of_section(bent, plane_factors(bent)[1], contraction(bent))
 

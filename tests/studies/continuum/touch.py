@@ -1,7 +1,7 @@
 """Self-contact of a solid by the barrier of the incremental potential contact toolkit (ipctk).
 
-What touches is the polygon through the nodes of the boundary. Surfaces are apart by less than
-``reach``, which is to be small beside a wall.
+The polygon through the nodes of the boundary is in contact. Surfaces are apart by less than
+``reach``, which must be small compared with a wall.
 """
 
 import ipctk
@@ -45,13 +45,13 @@ class Touch:
         return self.barrier(self._pairs(at), self.mesh, at)
 
     def gradient(self, u):
-        """Of the energy, N."""
+        """Gradient of the energy, N."""
         at, whole = self._placed(u), np.zeros(self.size)
         whole[self.coordinates] = self.barrier.gradient(self._pairs(at), self.mesh, at)
         return whole
 
     def hessian(self, u):
-        """Of the energy, exact."""
+        """Exact Hessian of the energy."""
         at = self._placed(u)
         inner = csr_array(self.barrier.hessian(self._pairs(at), self.mesh, at)).tocoo()
         places = self.coordinates[inner.row], self.coordinates[inner.col]

@@ -49,7 +49,7 @@ _results = {}
 
 
 def converges(case):
-    """Whether a case converges, for figures that say of which steps in time it does not."""
+    """Whether a case converges, for figures that show for which time steps it does not."""
     return _attempt(case).status == "converged"
 
 

@@ -87,7 +87,7 @@ def test_springs_fold_below_the_row_that_is_held():
 
 
 def test_no_picture_is_drawn_of_a_case_that_stops(monkeypatch, tmp_path):
-    """In steps of 0.1 ms walls cross."""
+    """With steps of 0.1 ms walls cross."""
     stops = varied(report(), solver={"time_step": 1e-4}, loading=springs.SHORT)
     assert not converges(stops)
     monkeypatch.setattr(frames, "report", lambda: stops)

@@ -83,7 +83,7 @@ def _digits(values):
 
 
 def _notes(cells, table, others):
-    """Sentences on the range of predictions, and what is known beside it."""
+    """Sentences on the range of predictions, and known facts on it."""
     energy, stroke = table["absorbed_energy_J"], 1e3 * table["stroke_m"].iloc[0]
     solid = table["solid_strain"].iloc[0]
     yield (

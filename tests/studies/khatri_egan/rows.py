@@ -1,4 +1,4 @@
-"""What it takes that rows fold one after another: load peaks of the crush across the cells.
+"""Conditions under which rows fold one after another: load peaks of the crush across the cells.
 
 The measured load has three peaks, one per row. `python -m tests.studies.khatri_egan.rows FOLDER`
 presses the base case of each kind of platens, with the measured curve of the material, and changes
@@ -51,7 +51,7 @@ CHANGES = {
 
 
 def cases():
-    """The cases by what they change and their platens."""
+    """The cases by their changes and their platens."""
     return {
         (change, platen): case_of(tables, platen)
         for change, tables in CHANGES.items()

@@ -1,4 +1,4 @@
-"""The measured crush: that its cases are what they say, and what is read off their results."""
+"""The measured crush: its cases are as stated, and the values read from their results."""
 
 from math import pi
 
@@ -26,7 +26,7 @@ CASES = expand(load_config(CONFIG))
 
 
 def changes(case):
-    """The keys that differ from the first case, but for platens and inertia."""
+    """The keys that differ from the first case, except platens and inertia."""
     base, apart = CASES[0].axes, {"loading.platen", "loading.quasi_static"}
     return {key for key in base if case.axes[key] != base[key]} - apart
 
@@ -53,20 +53,20 @@ def test_specimen_is_that_of_the_paper():
 
 
 def changed(case):
-    """What a case changes, in words."""
+    """The changes of a case, in words."""
     keys = sorted(changes(case) & FACTORS.keys())
     return " ".join(f"{FACTORS[key].name} {FACTORS[key].text(case.axes[key])}" for key in keys)
 
 
-def told():
-    """Platens, what is changed ("": nothing) and the energy in J of what the README shows."""
+def readme_rows():
+    """Platens, changes ("": none) and the energy in J of the rows that the README shows."""
     for platens, *cells in readme.table("absorbed in J between platens"):
         for cell in cells:
             energy, _, words = cell.partition(": ")
             yield platens, words, float(energy)
 
 
-@pytest.mark.parametrize(("platens", "words", "energy"), list(told()))
+@pytest.mark.parametrize(("platens", "words", "energy"), list(readme_rows()))
 def test_experiment_holds_its_numbers(platens, words, energy):
     (platen,) = (key for key, (name, _) in PLATENS.items() if name == platens)
     (case,) = (c for c in CASES if c.loading.platen == platen and changed(c) == words)

@@ -1,4 +1,6 @@
-"""The crushes along the cells: that cases are what they say, and what is read off their results."""
+"""The crushes along the cells: their cases are as stated, and the values read from their
+results.
+"""
 
 import numpy as np
 import pytest

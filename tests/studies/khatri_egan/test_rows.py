@@ -1,4 +1,6 @@
-"""What may part the rows of a crush: each change is a case of its own, and one parts all three."""
+"""Causes that may part the rows of a crush: each change is a case of its own, and one parts all
+three.
+"""
 
 from sweep.simulation.simulate import simulate
 from tests.studies.khatri_egan.across import load_peaks

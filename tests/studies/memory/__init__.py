@@ -1,1 +1,1 @@
-"""What a material with a memory changes: losses, rates, orders of designs, and its price."""
+"""Effects of a material with a memory: losses, rates, orders of designs, and its cost."""

@@ -1,7 +1,7 @@
-"""What a material with a memory changes.
+"""Effects of a material with a memory.
 
-Run by `make memory`: the loss of lattices beside that of their material, crushes at rates over five
-decades, the order of the designs of the shipped sweeps with and without each part, and error
+Run by `make memory`: the loss of lattices against the loss of their material, crushes at rates over
+five decades, the order of the designs of the shipped sweeps with and without each part, and error
 against run time. Finished cases are kept in the given folder.
 """
 
@@ -18,7 +18,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def main(folder):
-    """Run what is missing, and print the tables."""
+    """Run the missing cases, and print the tables."""
     folder.mkdir(parents=True, exist_ok=True)
     file, orders = folder / "memory.h5", variants(CONFIGS)
     crushes, at_rates = cycles(), rated()

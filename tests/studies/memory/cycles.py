@@ -1,4 +1,4 @@
-"""The loss of a lattice in one cycle, beside that of its material; and its rate."""
+"""The loss of a lattice in one cycle, against the loss of its material; and its rate."""
 
 from itertools import product
 

@@ -19,7 +19,7 @@ def variants(folder, parts=PARTS):
 
 
 def lost(rows):
-    """Energy per gram that is not given back."""
+    """Energy per gram that is not returned."""
     return (rows["absorbed_energy_J"] - rows["returned_energy_J"]) / rows["mass_g"]
 
 
@@ -44,7 +44,7 @@ def table(summaries, parts=PARTS):
 
 
 def by_loss(summaries, part):
-    """The same for the lost energy per gram beside the absorbed one, with one part."""
+    """The same for the lost energy per gram, compared with the absorbed one, with one part."""
     heads = ["config", "scene", "absorbed against lost", "best by lost is best by absorbed"]
     body = []
     for name in CONFIGS:

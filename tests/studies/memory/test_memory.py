@@ -1,4 +1,4 @@
-"""The study of what a memory changes: its cases, its arithmetic, and rows of the README."""
+"""The study of the effects of a memory: its cases, its arithmetic, and rows of the README."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""Cases whose material has a memory, beside the same cases without."""
+"""Cases whose material has a memory, and the same cases without."""
 
 from sweep.config.case import Case
 from sweep.config.kinds.table import TABLES
@@ -18,7 +18,9 @@ CURVED = {"stretch": "nonlinear", "bend": "section"}
 
 
 def changed(case, part):
-    """A case with the keys of ``part`` in its material. What relaxes has no other damping."""
+    """A case with the keys of ``part`` in its material. A material that relaxes has no other
+    damping.
+    """
     given = {key: getattr(case.material, key) for key in KEPT} | CURVED | part
     tables = {name: getattr(case, name) for name in TABLES}
     tables["material"] = material_with(**given)

@@ -1,11 +1,11 @@
-"""How many elements a wall needs: every column of a ranking beside a converged mesh.
+"""How many elements a wall needs: every column of a ranking against a converged mesh.
 
 Run by `make mesh`: all infills, light and heavy, glued and loose, crushed to 60 % with one element
-per wall and with more, up to `FINEST`; the last stands for the truth. Where the two finest meshes
-follow different paths there is no truth: such designs are marked and enter no average.
-How many elements bending alone needs is told by the same crushes without contact; the order of
-the designs of the shipped sweeps is compared with that on a fine mesh. Finished cases are kept in
-the given folder.
+per wall and with more, up to `FINEST`; the last is the reference. Where the two finest meshes
+follow different paths there is no reference: such designs are marked and enter no average. The same
+crushes without contact show how many elements bending alone needs; the order of the designs of the
+shipped sweeps is compared with their order on a fine mesh. Finished cases are kept in the given
+folder.
 """
 
 import sys
@@ -25,7 +25,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def main(folder):
-    """Run what is missing, and print the tables."""
+    """Run the missing cases, and print the tables."""
     folder.mkdir(parents=True, exist_ok=True)
     file, cases = folder / "mesh.h5", cases_of()
     bending = without_contact(cases)

@@ -1,4 +1,4 @@
-"""Error bars and ties of the default mesh beside the errors and the order of the finest one."""
+"""Error bars and ties of the default mesh against the errors and the order of the finest one."""
 
 import numpy as np
 import pandas as pd
@@ -12,7 +12,7 @@ from tests.support.converged import demand
 def covered(cases, rows):
     """How many error bars of the default mesh cover the error, by column: the sheet of `bars`.
 
-    The notes tell what the bars cost, and whether the designs that are no ties are in order.
+    The notes state the cost of the bars, and whether designs that are no ties are in order.
     """
     designs = {design: case for (design, n), case in cases.items() if n == usual(design)}
     known = dict(zip(rows.index, rows.to_dict("records"), strict=True))

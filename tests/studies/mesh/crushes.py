@@ -1,4 +1,6 @@
-"""Crushes of all infills on meshes from one element per wall up, each beside the finest one."""
+"""Crushes of all infills on meshes from one element per wall up, each compared with the finest
+one.
+"""
 
 from itertools import product
 
@@ -14,7 +16,7 @@ from tests.studies.rankings.spread import ALLOWED, CELLS, crush
 
 MESHES = (1, 2, 3, 4, 6, 8)  # elements of a wall
 FINEST = (12, 24)
-BASE = 3  # elements of a wall, to whose cost that of others is compared
+BASE = 3  # elements of a wall, with whose cost others are compared
 MASSES = (0.6e-3, 1.2e-3, 2.0e-3)  # kg: about 0.1, 0.2 and 0.35 of a solid block
 DESIGNS = tuple(product(CELLS, product(("glued", "contact"), MASSES)))
 COLUMNS = {
@@ -36,7 +38,7 @@ def usual(design):
 
 
 def cases_of(designs=DESIGNS, meshes=(*MESHES, *FINEST)):
-    """The crush of every design, as those of `spread`, on every mesh."""
+    """The crush of every design, as in `spread`, on every mesh."""
     sizes = product(designs, meshes)
     return {(design, n): crush(design, n, imperfection=0.01, steps=200) for design, n in sizes}
 
@@ -71,7 +73,7 @@ def curve(file, case_id):
 def parted(path, other):
     """The strain at which two crushes part, and stay apart for `LASTING` windows; else NaN.
 
-    path, other: strain and work, (rows,) each. Compared are mean forces over windows of strain, so
+    path, other: strain and work, (rows,) each. Mean forces over windows of strain are compared, so
     that a snap that is a little later is no other path.
     """
     edges = np.arange(0.0, min(path[0][-1], other[0][-1]) + 0.5 * WINDOW, WINDOW)
@@ -82,7 +84,7 @@ def parted(path, other):
 
 
 def compare(cases, rows, curves):
-    """Every crush beside the one of its design on the finest mesh: a row for each.
+    """Every crush compared with the crush of its design on the finest mesh: a row for each.
 
     rows: the summary by case id; curves: case id -> (strain, work). `parted`: the strain at which
     the crush leaves the path of the finest mesh; `branches`: where the finest but one does, 0 if

@@ -1,8 +1,8 @@
-"""How long load steps may be: what is ranked, in steps of an accuracy and in equal ones.
+"""How long load steps may be: ranked values in steps of an accuracy and in equal ones.
 
-Run by `make steps`: the crushes of `crushes` on their default meshes, elastic and with a loss of
-40 %, beside `FINEST` equal steps. Designs of which the two finest runs follow different paths enter
-no average. Finished cases are kept in the given folder.
+Run by `make steps`: the crushes of `crushes` on their default meshes, elastic and with a loss of 40
+%, against `FINEST` equal steps. Designs whose two finest runs follow different paths enter no
+average. Finished cases are kept in the given folder.
 """
 
 import sys
@@ -43,10 +43,10 @@ def _case(design, loss, setting):
 
 
 def compare(cases, rows, curves, loss):
-    """Errors of each setting beside the finest: setting -> column -> (designs,); and iterations.
+    """Errors of each setting against the finest: setting -> column -> (designs,); and iterations.
 
     rows: the summary by case id. curves: case id -> (strain, work). The errors of a design are NaN
-    if it failed, or has no truth.
+    if it failed, or has no reference.
     """
     designs = list(dict.fromkeys(design for each, design, _ in cases if each == loss))
     settings = list(dict.fromkeys(name for *_, name in cases))
@@ -67,7 +67,7 @@ def compare(cases, rows, curves, loss):
 
 
 def sheet(errors, loss):
-    """Errors in %, the middle one / that of nine of ten / the greatest, and iterations."""
+    """Errors in %, the median / the ninth decile / the greatest, and iterations."""
     names = [name for name in errors if name not in (FINE, FINEST)]
     rows = [
         [text, *(_errors(errors[name][column]) for name in names)]
@@ -93,7 +93,7 @@ def _errors(values):
 
 
 def main(folder):
-    """Run what is missing, and print the tables."""
+    """Run the missing cases, and print the tables."""
     folder.mkdir(parents=True, exist_ok=True)
     file, cases = folder / "steps.h5", cases_of()
     run_sweep(list({case.case_id: case for case in cases.values()}.values()), file)

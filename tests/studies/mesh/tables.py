@@ -1,4 +1,4 @@
-"""Tables of the errors of meshes: by column, by what designs have in common, by design."""
+"""Tables of the errors of meshes: by column, by common features of the designs, by design."""
 
 import numpy as np
 import pandas as pd
@@ -19,12 +19,12 @@ def averaged(found):
 
 
 def pair(middle, most):
-    """Two shares in percent: of the middle one, and what nine of ten do not exceed."""
+    """Two shares in percent: of the median, and of the ninth decile."""
     return f"{tenths(middle)} / {tenths(most)}"
 
 
 def by_column(found, title="Errors by column"):
-    """Errors of each column on each mesh, and what the mesh costs."""
+    """Errors of each column on each mesh, and the cost of the mesh."""
     known = averaged(found)
     meshes = sorted(found["elements"].unique())[:-1]
     groups = [known[known["elements"] == n] for n in meshes]
@@ -80,7 +80,7 @@ def is_within(group):
 
 
 def by_group(found):
-    """The worst column of each mesh, by what the designs have in common."""
+    """The worst column of each mesh, by common features of the designs."""
     known = averaged(found)
     meshes = sorted(found["elements"].unique())[:-1]
     bands = pd.cut(known["l/t"], SLENDER).map(lambda band: f"l/t {band.left:g} to {band.right:g}")

@@ -1,4 +1,4 @@
-"""Put a wrong sign into the kernels, many times, and look which test turns red: `make mutants`.
+"""Flip a sign in the kernels, many times, and find the test that fails: `make mutants`.
 
 python -m tests.studies.mutants FOLDER [EACH]: so many mutants of every file, by default one. The
 table is printed as it is found, and written into the folder. The exit status is 1 if a mutant

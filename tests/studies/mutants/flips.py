@@ -1,7 +1,7 @@
 """Mutants of the kernels: one sign of one function flipped in the syntax tree.
 
-A sign is a plus or a minus between two terms, before one, or of `+=` and `-=`. Signs in indices and
-beside whole numbers are left out: they count.
+A sign is a plus or a minus between two terms, before one, or in `+=` and `-=`. Signs in indices and
+next to whole numbers are left out: they count.
 """
 
 import ast
@@ -18,8 +18,8 @@ SEED = 37
 
 
 class Mutant(NamedTuple):
-    """The sign with this number in a file of the repository: in which function and line, and what
-    becomes of what.
+    """The sign with this number in a file of the repository: its function and line, and the
+    change.
     """
 
     path: str
@@ -60,7 +60,7 @@ def _counts(node):
 
 
 def flip(node):
-    """Flip the sign of a node; return what it says before and after."""
+    """Flip the sign of a node; return its text before and after."""
     before, node.op = ast.unparse(node), FLIPPED[type(node.op)]()
     return f"{before} -> {ast.unparse(node)}"
 
@@ -80,7 +80,7 @@ def mutated(source, mutant):
 
 
 def sample(each):
-    """So many mutants of every file of the kernels, by chance, but always the same ones."""
+    """The same random mutants in every call, so many of every file of the kernels."""
     paths = (path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "kernels").rglob("*.py")))
     for path in paths:
         found = [] if path.startswith(LEFT_OUT) else list(mutants(path))

@@ -1,4 +1,4 @@
-"""The study of mutants: what it mutates, and that it tells who notices."""
+"""The study of mutants: its mutations, and its report of the tests that notice."""
 
 import ast
 from pathlib import Path

@@ -1,8 +1,8 @@
 """One mutant in a copy of the repository: which test turns red, and how soon.
 
 The tests of its file run first, as plain Python, which starts at once. If none turns red, or if
-they take too long, those of all kernels and of the physics run too, compiled. A test that turns red
-is run once more on the unchanged copy, where it must be green.
+they take too long, the tests of all kernels and of the physics run too, compiled. A test that turns
+red is run once more on the unchanged copy, where it must be green.
 """
 
 import os
@@ -32,7 +32,7 @@ class StudyError(Exception):
 
 
 class Verdict(NamedTuple):
-    """What became of a mutant: the first test that is red, if any, and after how many seconds."""
+    """The outcome of a mutant: the first test that is red, if any, and after how many seconds."""
 
     mutant: Mutant
     red: str | None
@@ -70,7 +70,7 @@ class Copy:
         return red[1] if red else tests[0]  # not even collected, or killed by a signal
 
     def tried(self, mutant):
-        """What becomes of a mutant."""
+        """The outcome of a mutant."""
         path = self.folder / mutant.path
         source, started = path.read_text("utf-8"), time.perf_counter()
         path.write_text(mutated(source, mutant), "utf-8")

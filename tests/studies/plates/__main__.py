@@ -1,4 +1,4 @@
-"""Shells beside the theory of plates, by the number of quads across a plate, strip or wall.
+"""Shells against the theory of plates, by the number of quads across a plate, strip or wall.
 
 Run by `make plates`, which prints the table of kernels/README.md in full.
 """
@@ -13,7 +13,7 @@ MESHES = (4, 6, 8, 12, 16)
 
 
 def rows():
-    """Yield what is measured, the exact number, and a function of the number of quads."""
+    """Yield the measured quantity, the exact number, and a function of the number of quads."""
     for sides, ends, exact in square.BUCKLING:
         yield (
             f"k, sides {sides}, ends {ends}",

@@ -92,10 +92,10 @@ class Solid:
     def hessians(self, u):
         """Second derivatives of the bricks, (e, 81, 81).
 
-        With s = J^(-2/3) and i = F : F / 2, of W = mu s i: mu s times 1 grad N_a . grad N_b;
-        -2 / (3 J) of the products of slopes of i and J; 10 i / (9 J^2) of those of J. And of all
-        energy dW/dJ times the second derivative of J: products of its slopes less their
-        transposes, over J.
+        With s = J^(-2/3) and i = F : F / 2, of W = mu s i: mu s times 1 grad N_a . grad N_b; -2 /
+        (3 J) of the products of slopes of i and J; 10 i / (9 J^2) of the products of slopes of J.
+        Of the whole energy, dW/dJ times the second derivative of J: products of its slopes less
+        their transposes, over J.
         """
         det, push, half, grown, swell = self._slope(u)
         shear = self.weight * self.mu * det ** (-2.0 / 3.0)

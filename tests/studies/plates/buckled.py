@@ -1,6 +1,6 @@
-"""A long, simply supported plate after buckling: length of its waves, and stiffness that is left.
+"""A long, simply supported plate after buckling: length of its waves, and remaining stiffness.
 
-One half wave of a plate of width 1 stands for all. At both ends, where the plate crosses its plane,
+One half wave of a plate of width 1 represents all. At both ends, where the plate crosses its plane,
 all points move alike along z, and are free along x. The sides stay straight, or are free to wave.
 
 Expected of the amplitude squared, A, in w = A^(1/2) sin(pi x) sin(pi z): the mean stress is
@@ -8,7 +8,7 @@ Y (e - pi^2 A / 8), and the rest of the stress stores c Y A^2, so that
 
     dstress / de = Y r / (1 + r),    r = 128 c / pi^4,
 
-r = 1 with straight sides (1/2 is left). `waving` finds r for sides without stress.
+r = 1 with straight sides (1/2 remains). `waving` finds r for sides without stress.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ from tests.support.kernels.shells import at_rest, element_hessians, plate
 STRAIGHT, WAVING = "straight", "waving"
 BUCKLING_STRAIN = 4.0 * np.pi**2 / 9.0  # over (t / b)^2
 BOW = 0.002  # in thicknesses
-WATCHED = (1.15, 1.35)  # shortening over that of buckling, between which the tangent is taken
+WATCHED = (1.15, 1.35)  # shortenings / shortening at buckling, between which the tangent is taken
 X, Y, Z, ABOUT_S, ABOUT_Z, ABOUT_N = range(6)
 
 
@@ -104,7 +104,7 @@ def left(n, sides, thickness=0.02):
 
 
 def wave(n):
-    """Length of the half waves in which a long plate buckles: those of the least load."""
+    """Length of the half waves in which a long plate buckles, at the least load."""
     found = minimize_scalar(
         lambda length: square.factor(n, SUPPORTED, SUPPORTED, height=length),
         bounds=(0.6, 1.6), method="bounded", options={"xatol": 1e-4},

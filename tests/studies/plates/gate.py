@@ -1,10 +1,10 @@
-"""A square tube of plates beside the same tube of bricks: force and energy through buckling.
+"""A square tube of plates against the same tube of bricks: force and energy through buckling.
 
-Run by `make plates_solid`. Pitch 4 mm, height 12 mm, walls of 0.4, 0.2 and 0.1 mm, neo-Hookean, Y
-= 67 MPa, bow of 0.02 thicknesses, no contact. Glued platens hold the plan and the height of the
-ends: on their whole thickness ("clamped"), or of their mid-surface, which may lean ("hinged": the
-platen "glued" of a case). Shortenings are those of the theory's buckling of the walls, 4.386 (t /
-l)^2, times a number. The kink is where the tangents before and after it meet.
+Run by `make plates_solid`. Pitch 4 mm, height 12 mm, walls of 0.4, 0.2 and 0.1 mm, neo-Hookean, Y =
+67 MPa, bow of 0.02 thicknesses, no contact. Glued platens hold the plan and the height of the ends:
+on their whole thickness ("clamped"), or of their mid-surface, which may lean ("hinged": the platen
+"glued" of a case). Shortenings are multiples of the theoretical buckling strain of the walls, 4.386
+(t / l)^2. The kink is where the tangents before and after it meet.
 """
 
 import sys
@@ -38,12 +38,12 @@ FINER = {"longer": {"across": 6, "up": 15}, "both": {"through": 2, "across": 6, 
 
 
 def strain(thickness, pitch=4.0):
-    """At which the walls buckle."""
+    """Strain at which the walls buckle."""
     return BUCKLING * (thickness / pitch) ** 2
 
 
 class Curve:
-    """Shortenings over that of buckling, force in N and stored energy in mJ."""
+    """Shortenings over the shortening of buckling, force in N and stored energy in mJ."""
 
     def __init__(self, shortening, force, energy):
         self.shortening, self.force, self.energy = shortening, force, energy

@@ -77,8 +77,8 @@ def critical_strain(n: int, thickness: float) -> float:
 
 
 def knock_down(n: int, thickness: float) -> float:
-    """Stiffness of a simply supported plate against the pressure of one half wave each way, over
-    that of Kirchhoff's plate: by it the buckling load of Mindlin's plate is lower, too.
+    """Stiffness of a simply supported plate against the pressure of one half wave each way,
+    relative to Kirchhoff's plate; the buckling load of Mindlin's plate is lower by the same factor.
     """
     of = plate(n, n, 1.0, 1.0, thickness)
     wave = np.sin(np.pi * of.points[:, 0]) * np.sin(np.pi * of.points[:, 2])
@@ -88,7 +88,7 @@ def knock_down(n: int, thickness: float) -> float:
 
 
 def mindlin(thickness: float) -> float:
-    """The same of Mindlin's plate: 1 / (1 + sigma / (2 kappa G)), sigma: its buckling stress."""
+    """`knock_down` by Mindlin's theory: 1 / (1 + sigma / (2 kappa G)), sigma: buckling stress."""
     stress = 4.0 * np.pi**2 * rigidity(thickness) / thickness
     return 1.0 / (1.0 + stress / (2.0 * KAPPA * MODULUS / 3.0))
 

@@ -94,7 +94,7 @@ def critical_stretch(n: int, thickness: float) -> float:
 
 
 def exact_stretch(thickness: float) -> float:
-    """The same of the solid: flexure of a neo-Hookean plate in plane strain (M. Biot, 1963),
+    """The same for the solid: flexure of a neo-Hookean plate in plane strain (M. Biot, 1963),
     tanh(K / 2) / tanh(K / (2 l^2)) = (1 + l^4)^2 / (4 l^2), K = pi thickness.
     """
     k = 0.5 * np.pi * thickness

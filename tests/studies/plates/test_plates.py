@@ -51,7 +51,7 @@ def test_compressed_plates_buckle_near_the_strain_of_mindlins_plate(thickness, s
 
 
 def test_a_strip_is_rolled_to_a_circle():
-    """By the moment 2 pi D b / L, in elements that turn by 45 degrees each, and by fewer."""
+    """The moment is 2 pi D b / L; elements turn by 45 degrees each, or by less."""
     (coarse, _), (fine, gap) = strip.rolled(8), strip.rolled(16)
     assert coarse == pytest.approx(1.0, abs=0.03)
     assert fine == pytest.approx(1.0, abs=3e-3)

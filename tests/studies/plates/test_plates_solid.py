@@ -1,4 +1,4 @@
-"""Bricks of rubber, their ties, and a tube of plates beside one of bricks."""
+"""Bricks of rubber, their ties, and a tube of plates against one of bricks."""
 
 import sys
 
@@ -116,7 +116,7 @@ def test_bricks_fill_the_walls_of_an_eighth():
 
 @pytest.mark.parametrize(("ends", "limit"), [(CLAMPED, 0.03), (HINGED, 0.03)])
 def test_plates_press_as_a_solid_does_through_buckling(ends, limit):
-    """Of walls of 1 / 20; both on coarse meshes. `make plates_solid` has the rest."""
+    """Walls of 1 / 20, both on coarse meshes. `make plates_solid` has the rest."""
     solid = gate.solid(0.2, ends, EARLY, **COARSE)
     plates = gate.plates(0.2, ends, 2.0, 6)
     for at in EARLY[1:]:

@@ -25,7 +25,9 @@ class Tied:
 
     @cached_property
     def _pattern(self):
-        """Places of the entries of element matrices in the sorted list of those of the whole."""
+        """Places of the entries of element matrices in the sorted list of entries of the whole
+        matrix.
+        """
         at = self.unknown[self.body.places]
         row, column = np.broadcast_arrays(at[:, :, None], at[:, None, :])
         keys, place = np.unique((column * self.size + row).ravel(), return_inverse=True)
@@ -37,16 +39,16 @@ class Tied:
         return self.ratio * q[self.unknown]
 
     def energy(self, q):
-        """Of the body."""
+        """Energy of the body."""
         return self.body.energy(self.moved(q))
 
     def gradient(self, q):
-        """In the unknowns."""
+        """Gradient in the unknowns."""
         slope = self.ratio * self.body.gradient(self.moved(q))
         return np.bincount(self.unknown, slope, minlength=self.size)
 
     def hessian(self, q):
-        """In the unknowns."""
+        """Hessian in the unknowns."""
         by = self.ratio[self.body.places]
         own = self.body.hessians(self.moved(q)) * by[:, :, None] * by[:, None, :]
         place, row, start = self._pattern
@@ -65,5 +67,5 @@ class Platen(Press):
         self.damper = tied.hessian(np.zeros(tied.size))[self.free][:, self.free].diagonal()
 
     def force(self, gradient):
-        """Of the platen."""
+        """Force of the platen."""
         return -float(gradient[-1])

@@ -1,8 +1,8 @@
-"""Whether error bars cover the error: designs of two sweeps beside much finer runs of the same.
+"""Whether error bars cover the error: designs of two sweeps against much finer runs of them.
 
 Run by `make bars`: every few cases of a sweep, the largest lattices left out, with error bars, and
-the same with twelve elements a wall and steps a quarter as long, which stands for the truth.
-What is finished is kept in the folder given.
+the same with twelve elements a wall and steps a quarter as long, which are the reference. Finished
+cases are kept in the given folder.
 """
 
 import sys
@@ -38,9 +38,10 @@ def finer(case):
 
 
 def beside_finer(designs, references):
-    """A row for each error bar: what it is of, the bar and the error, as shares of the value.
+    """A row for each error bar: its column, the bar and the error, as shares of the value.
 
-    Columns of a case that say the same, such as energy and energy per gram, count once.
+    Columns of a case that carry the same information, such as energy and energy per gram, count
+    once.
     """
     rows = []
     for (_, design), (_, fine) in zip(designs.iterrows(), references.iterrows(), strict=True):
@@ -72,7 +73,7 @@ def coverage(bars):
 
 
 def main(folder):
-    """Run what is missing, and print the table."""
+    """Run the missing cases, and print the table."""
     sweeps = [expand(load_config(CONFIGS / name))[::every] for name, every in EVERY.items()]
     designs = [design for cases in sweeps for design in cases if design.lattice.cells_x <= CELLS]
     references = [finer(design) for design in designs]

@@ -85,7 +85,7 @@ def _picked(rng, values):
 
 
 def outcome(number):
-    """What becomes of the first place of a grid: a row of the study."""
+    """The outcome of the first place of a grid: a row of the study."""
     grid = drawn(number)
     few = _ranked(grid, grid.cases())
     row = {"grid": number, "cases": few.cases, "failed": few.failed}
@@ -105,7 +105,7 @@ def _ranked(grid, cases):
 
 
 def _compared(few, many):
-    """In a word: how the first place with more effort stands in the ranking with less."""
+    """How the first place with more effort stands in the ranking with less, in a word."""
     first, before = _first(many), _first(few)
     unfinished = few.unfinished
     could = {*unfinished["case_id"][unfinished["best_place"] == 1]}
@@ -122,7 +122,7 @@ def _first(ranking):
 
 
 def _gap(few, many, by):
-    """By how much the former first design is worse in the ranking with more effort, as a share."""
+    """The share by which the former first design is worse in the ranking with more effort."""
     values = many.table.set_index("case_id")[by]
     before = values.reindex(sorted(_first(few))).dropna()
     if before.empty or values.empty:

@@ -1,7 +1,7 @@
-"""Strains of dead loads in long time steps beside short ones, by the local error of their path.
+"""Strains of dead loads in long time steps against short ones, by the local error of their path.
 
-python -m tests.studies.rankings.loads (six minutes): loads of configs/armor.toml in fixed
-steps, and with a stated error of steps, beside newmark in steps of 5 us.
+python -m tests.studies.rankings.loads (six minutes): loads of configs/armor.toml in fixed steps,
+and with a stated error of steps, against newmark in steps of 5 us.
 """
 
 import sys
@@ -23,7 +23,7 @@ EDGES = (0.0, 0.1, 0.2, 0.5, 1.0, 2.0, float("inf"))  # of the local error, %
 
 
 class Run(NamedTuple):
-    """A run: how it was taken, its local error and that of its greatest strain, %."""
+    """A run: its settings, its local error and the error of its greatest strain, %."""
 
     how: str
     local: float
@@ -69,7 +69,7 @@ def cell(found):
 
 
 def table(every):
-    """Errors of fixed steps by local error and integrator, then those of a stated error."""
+    """Errors of fixed steps by local error and integrator, then of steps with a stated error."""
     yield from head(["local error, %", *(name.replace("_", " ") for name in INTEGRATORS)])
     for low, high in pairwise(EDGES):
         inside = [run for run in every if low <= run.local < high]

@@ -1,4 +1,4 @@
-"""The order of designs in two tables: by what rankings compare, scene by scene."""
+"""The order of designs in two tables, by the compared column of rankings, scene by scene."""
 
 import numpy as np
 from scipy.stats import spearmanr
@@ -15,7 +15,9 @@ def cases_of(folder):
 
 
 def merits(rows):
-    """What the designs of one scene are compared by, more being better; NaN where a run failed."""
+    """The values by which the designs of one scene are compared, more being better; NaN for failed
+    runs.
+    """
     mode = rows["loading_mode"].iloc[0]
     energy = rows["absorbed_energy_until_packed_J"] / rows["mass_g"]
     values = -rows[BY[mode]] if mode in BY else energy

@@ -40,7 +40,7 @@ def renumbered(network, seed):
 
 
 def crushed(case, seed):
-    """Result of a case; seed: of the order, None for that of the product."""
+    """Result of a case; seed: of the order, None for the order of the product."""
     if seed is None:
         return converged(case)
 

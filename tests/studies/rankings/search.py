@@ -1,11 +1,11 @@
-"""What `crumple optimize` finds, beside a scan and beside a grid, for five seeds.
+"""Designs that `crumple optimize` finds, against a scan and a grid, for five seeds.
 
-Run by `make search`. The cushion is that of the README's own design, pressed between loose plates;
-sought is the most energy up to 50 N. Where walls just do not buckle at 50 N, a little more
-thickness loses four fifths of it. What is finished is kept in the folder given.
+Run by `make search`. The cushion is the README's own design, pressed between loose plates, to
+absorb the most energy up to 50 N. Where walls just do not buckle at 50 N, a little more thickness
+loses four fifths of it. Finished cases are kept in the given folder.
 
-peak: a hexagon of 4 x 2 cells, walls of 0.3 to 1.2 mm, beside a scan of 60 walls.
-cushion: all of `configs/search.toml`, beside two grids of 36 designs, of which one is lucky.
+peak: a hexagon of 4 x 2 cells, walls of 0.3 to 1.2 mm, against a scan of 60 walls. cushion: all of
+`configs/search.toml`, against two grids of 36 designs, one of which is lucky.
 """
 
 import sys
@@ -40,7 +40,7 @@ KINDS = ("square", "hex", "diamond")
 
 
 class Question(NamedTuple):
-    """A search, the designs beside it by what they are, and the evaluations of the search."""
+    """A search, the designs it is compared with, by name, and the evaluations of the search."""
 
     name: str
     search: Config
@@ -71,7 +71,7 @@ def peak():
 
 
 def cushion():
-    """Four freedoms, of which three are choices."""
+    """Four freedoms, three of which are choices."""
     config = load_config(CONFIG)
     grids = {
         "a grid": product(KINDS, (4, 6), (2, 3), (0.4e-3, 0.8e-3, 1.2e-3)),
@@ -94,7 +94,9 @@ def found(question, seed, folder, simulate=None, evaluations=None):
 
 
 def best_beside(question, folder, simulate=None):
-    """The best value (J) of each group of designs beside a search, and the design."""
+    """The best value (J) of each group of designs that a search is compared with, and the
+    design.
+    """
     every = [case for cases in question.beside.values() for case in cases]
     out = folder / f"{question.name}_beside.h5"
     values = assess(swept(every, out, simulate), QUESTION).by_id
@@ -108,19 +110,19 @@ def best_beside(question, folder, simulate=None):
 
 
 def sheet(question, beside, searches):
-    """A row for each group of designs beside the search, and one for each seed."""
+    """A row for each group of designs that the search is compared with, and one for each seed."""
     heads = ["", "designs", "energy mJ", "of the first %", "design"]
     reference = next(iter(beside.values()))[0]
     rows = [
-        [name, str(len(question.beside[name])), *told(*one, reference)]
+        [name, str(len(question.beside[name])), *row_of(*one, reference)]
         for name, one in beside.items()
     ]
     for seed, one in zip(SEEDS, searches, strict=False):
-        rows.append([f"search, seed {seed}", str(question.evaluations), *told(*one, reference)])
+        rows.append([f"search, seed {seed}", str(question.evaluations), *row_of(*one, reference)])
     return Sheet(f"Energy to 50 N: {question.name}", heads, rows)
 
 
-def told(value, case, reference):
+def row_of(value, case, reference):
     """Energy, its share of a reference, and the design in words."""
     lattice = case.lattice
     cells = f"{lattice.kind} {lattice.cells_x} x {lattice.cells_y}"
@@ -129,7 +131,7 @@ def told(value, case, reference):
 
 
 def main(folder):
-    """Run what is missing, and print both tables."""
+    """Run the missing cases, and print both tables."""
     folder.mkdir(parents=True, exist_ok=True)
     sheets = []
     for question in (peak(), cushion()):

@@ -1,8 +1,8 @@
 """How much each headline column moves with the mesh, the imperfection and the steps.
 
 Run by `make spread`: the designs of `DESIGNS`, crushed to 60 %, with the settings of `SETTINGS`,
-one of them varied at a time. A column that jumps shows a spread far above that of the work itself.
-What is finished is kept in the folder given.
+one of them varied at a time. A column that jumps shows a spread far above the spread of the work
+itself. Finished cases are kept in the given folder.
 """
 
 import sys
@@ -110,12 +110,12 @@ def sheet(found):
 
 
 def nine_of_ten(values):
-    """What nine of ten values do not exceed."""
+    """The ninth decile of the values."""
     return np.quantile(values, 0.9)
 
 
 def main(folder):
-    """Run what is missing, and print the table."""
+    """Run the missing cases, and print the table."""
     folder.mkdir(parents=True, exist_ok=True)
     cases, file = families(), folder / "spread.h5"
     run_sweep([case for alike in cases.values() for case in alike], file)

@@ -1,4 +1,4 @@
-"""The study of dead loads in long steps: one load, and what its table says."""
+"""The study of dead loads in long steps: one load, and its table."""
 
 from tests.studies.rankings.loads import Run, cell, loads, runs, table
 

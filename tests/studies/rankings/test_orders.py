@@ -1,4 +1,4 @@
-"""Orders of designs: what is compared, and how."""
+"""Orders of designs: the compared values, and the comparison."""
 
 import numpy as np
 import pandas as pd

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.studies.rankings.search import KEYS, best_beside, cushion, found, peak, sheet, told
+from tests.studies.rankings.search import KEYS, best_beside, cushion, found, peak, row_of, sheet
 from tests.support.results.searches import energy, simulate
 
 PEAK = 0.2817  # J, the best of the scan of 60 walls
@@ -27,7 +27,7 @@ def test_designs_beside_the_searches():
 
 
 def test_rows_compare_with_the_first_beside(tmp_path):
-    """The invented energy is that of `tests.support.results.searches`."""
+    """The invented energy is defined in `tests.support.results.searches`."""
     question = cushion()
     beside = best_beside(question, tmp_path, simulate)
     one = found(question, 1, tmp_path, simulate)
@@ -45,4 +45,4 @@ def test_rows_compare_with_the_first_beside(tmp_path):
 
 def test_design_in_words():
     words = "50.0", "50.0", "square 4 x 2, 0.400 mm"
-    assert told(0.05, cushion().beside["a grid"][0], 0.1) == words
+    assert row_of(0.05, cushion().beside["a grid"][0], 0.1) == words

@@ -34,7 +34,7 @@ def half(folder):
 
 
 def _verb(*words):
-    """What a verb of the command line does with the results file."""
+    """Run a verb of the command line on the results file."""
 
     def act(folder):
         crumple([words[0], str(folder / "scale.h5"), *words[1:]])
@@ -66,7 +66,7 @@ def measured(folder, action):
 
 
 def _peak():
-    """Of this process, in MB; `getrusage` would count the process that started it."""
+    """Peak memory of this process, MB; `getrusage` would count the process that started it."""
     lines = Path("/proc/self/status").read_text("utf-8").splitlines()
     return int(next(line.split()[1] for line in lines if line.startswith("VmHWM"))) / 1024
 

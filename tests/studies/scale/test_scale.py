@@ -37,7 +37,7 @@ def test_invented_columns_are_those_of_their_curves(folder):
 
 
 def test_resume_of_a_half_and_of_a_whole_sweep_runs_what_is_missing(folder, tmp_path):
-    """Cases and their order are those of the config."""
+    """Cases and their order are the same as in the config."""
     cases = load_config(write_config(tmp_path, OF_A_DEPTH)).cases[:200]
     ran = []
 

@@ -1,9 +1,9 @@
-"""How fast narrow specimens tend to a wide panel, with free sides and with tied ones.
+"""How fast narrow specimens approach a wide panel, with free sides and with tied ones.
 
 Run by `make sides`: all infills, in cells of the same size and walls of the same thickness, between
 glued platens and loose ones with and without friction, crushed to 50 %. Two wide specimens with
-free sides have the same edges: what the wider one has more, energy / mass, is the middle of a
-panel, to which all others are compared. Finished cases are kept in the given folder.
+free sides have the same edges: the excess of the wider one, energy / mass, is the middle of a
+panel, with which all others are compared. Finished cases are kept in the given folder.
 """
 
 import sys
@@ -17,7 +17,7 @@ from tests.studies.tables import publish
 
 
 def main(folder):
-    """Run what is missing, and print the table."""
+    """Run the missing cases, and print the table."""
     folder.mkdir(parents=True, exist_ok=True)
     file, cases = folder / "sides.h5", {strip: crush(strip) for strip in strips()}
     run_sweep(list(cases.values()), file)

@@ -35,7 +35,7 @@ def strips(kinds=None, platens=tuple(PLATENS), narrow=NARROW):
 
 
 def wide(platens):
-    """Cells side by side of the wide strips, the last two of which give the middle of a panel."""
+    """Cells side by side of the wide strips; the last two give the middle of a panel."""
     return (*WIDE, WIDEST) if platens in FAR else WIDE
 
 

@@ -6,7 +6,7 @@ from tests.studies.sides.panels import FAR, NARROW, STRAIN, WIDE, WIDEST, Strip,
 
 
 def joules(row):
-    """Energy, mJ/g; of what stopped, none."""
+    """Energy, mJ/g; none for a run that stopped."""
     done = row["status"] == Status.CONVERGED
     return 1e3 * row["specific_absorption_J_per_g"] if done else float("nan")
 

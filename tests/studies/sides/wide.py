@@ -31,7 +31,7 @@ PRESS = {
 
 
 class Panel(NamedTuple):
-    """A specimen: its infill, what presses it, its sides, and cells side by side; 0: a slicer's."""
+    """A specimen: its infill, its loading, its sides, and cells side by side; 0: a slicer's."""
 
     infill: str
     press: str
@@ -103,7 +103,7 @@ def _ratio(row, other):
 
 
 def main(folder):
-    """Run what is missing, and print the table; return whether a crush stopped."""
+    """Run the missing cases, and print the table; return whether a crush stopped."""
     folder.mkdir(parents=True, exist_ok=True)
     file, cases = folder / "wide.h5", {panel: pressed(panel) for panel in panels()}
     run_sweep(list(cases.values()), file)

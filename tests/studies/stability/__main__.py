@@ -1,8 +1,9 @@
-"""Simulate stiff and extreme scenes under observation, and count what became of them.
+"""Simulate stiff and extreme scenes under observation, and count their outcomes.
 
-They are those of `configs/extreme.toml`, lattices that move by integrators of second order or whose
-material has a memory, and custom structures. python -m tests.studies.stability FOLDER [N]: the
-table is printed and written there, with a line a scene; with N, of every Nth scene only.
+The scenes are taken from `configs/extreme.toml`, with lattices that move by integrators of second
+order or whose material has a memory, and custom structures. python -m tests.studies.stability
+FOLDER [N]: the table is printed and written there, with a line a scene; with N, of every Nth scene
+only.
 
 Three kinds of scenes have no answer, and fail with a sentence about it. The load is less than
 positions resolve: nothing moves by more than round-off. No contact keeps walls apart under a dead
@@ -55,7 +56,7 @@ SECOND = "bdf2", "newmark"
 
 
 def kind_of(case):
-    """What is done to the lattice of a case, in words."""
+    """The loading of the lattice of a case, in words."""
     if isinstance(case.lattice, CustomStructure):
         return "custom"
     if case.lattice.cells_x >= 12 and case.lattice.cells_y == 3:
@@ -70,7 +71,7 @@ def kind_of(case):
 
 
 def outcome(found):
-    """Status of a scene, with what it says where it stopped, but for the place."""
+    """Status of a scene, with its message if it stopped, except the place."""
     if found.status == "converged" and found.retry:
         return RETRIED
     if found.status != "stopped":
@@ -88,7 +89,7 @@ def has_no_answer(case, found):
 
 
 def _folds_flat(case):
-    """Whether a dead load is far above what walls without contact bear."""
+    """Whether a dead load is far above the strength of walls without contact."""
     if not isinstance(case.loading, DeadLoad) or case.contact.model != "none":
         return False
     lattice, modulus = case.lattice, case.material.modulus
@@ -97,7 +98,7 @@ def _folds_flat(case):
 
 
 def counted(cases, audits):
-    """Rows of the table: how many scenes of each kind ended in which way, and what they violate."""
+    """Rows of the table: how many scenes of each kind ended in which way, and their violations."""
     counts = {}
     for case, found in zip(cases, audits, strict=True):
         for kind in (kind_of(case), ALL):
@@ -112,7 +113,9 @@ def counted(cases, audits):
 
 
 def shares(counts):
-    """Rows of the table: the share of scenes that converge, in %, and of those with an answer."""
+    """Rows of the table: the share of scenes that converge, in %, of all and of those with an
+    answer.
+    """
     ended = [name for name in counts if name not in (UNANSWERED, VIOLATED, BALANCED)]
     rows = {"converged, % of all": [], "converged, % of those with an answer": []}
     for kind in KINDS:
@@ -144,7 +147,7 @@ def scenes():
 
 
 def main(folder, every=1):
-    """Print the table of every Nth scene; write it and, while it goes on, what each scene did."""
+    """Print the table of every Nth scene; write it and, meanwhile, the outcome of each scene."""
     cases, audits = scenes()[::every], []
     folder.mkdir(parents=True, exist_ok=True)
     with (

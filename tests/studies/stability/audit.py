@@ -2,11 +2,11 @@
 
 The last step of every stage of loading is taken by itself, with what was before and after it kept:
 the balance there is computed anew, with contact listed afresh and friction lagged at the start of
-the step, and what the walls store is compared with `model`, unless the material has a memory: then
-its dissipation must not fall. What nothing holds has to move: a structure that stays where it is,
-at rest, has to bear its load there.
+the step, and the stored energy of the walls is compared with `model`, unless the material has a
+memory: then its dissipation must not fall. A structure that nothing holds has to move: one that
+stays at rest has to bear its load there.
 
-Time limits count processor time, so that other programs do not change what ends in time.
+Time limits count processor time, so that other programs do not change which scenes end in time.
 """
 
 import time
@@ -35,17 +35,17 @@ MARCH, FOLLOW = march.march, arc_length.follow
 CLOCK = SimpleNamespace(monotonic=time.process_time)  # of this process, which has one case
 GRACE = 10.0  # s beyond its limit that a case may take
 SAME = 1e-9  # of the largest force: two sums of the same forces
-EARNED = 1e-6  # of the work done: what an energy may be off
-REACH = 4.0  # times that of a contact: what may touch before the friction of a step is corrected
-MADE = 5e-3  # of the work done: what backward Euler may make
+EARNED = 1e-6  # allowed error of an energy, as a share of the work done
+REACH = 4.0  # times the reach of contact: pairs that may touch before friction is corrected
+MADE = 5e-3  # energy that backward Euler may generate, as a share of the work done
 STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
 # where walls part since then, it is less at the end of the step
-BORNE = 1e-3  # of a load: what is left of it where nothing moves
+BORNE = 1e-3  # share of a load that may remain where nothing moves
 SAID = "the time integration gained energy", "work and energies do not balance"
 
 
 class Seen(NamedTuple):
-    """One step: its scene, allowed residuals, itself, what damping expects, where it has ended.
+    """One step: its scene, allowed residuals, itself, data of damping, and its end.
 
     whole: not divided into shares. corrected: friction lags between start and end of the step.
     """
@@ -63,8 +63,8 @@ class Seen(NamedTuple):
 class Watch:
     """Marches as `march` does, and keeps the last step of every stage.
 
-    noise: energy in J that residuals may add up to, each along the size of the lattice. still: what
-    has not moved although its load was not borne.
+    noise: energy in J that residuals may add up to, each along the size of the lattice. still:
+    bodies that have not moved although their load was not borne.
     """
 
     def __init__(self):
@@ -107,7 +107,7 @@ class Watch:
 
 
 def _next_step(terms, stage, state):
-    """The undivided step of a stage that comes next, and what damping expects of it."""
+    """The undivided step of a stage that comes next, and the data of its damping."""
     dt, last, x0 = stage.duration, state.totals[0].last, state.x.copy()
     y, x_pred, move = x0.copy(), x0.copy(), np.zeros_like(x0)
     rate = state.rates.position.copy()
@@ -123,7 +123,7 @@ def _next_step(terms, stage, state):
 
 
 def _unborne(terms, state, step):
-    """A load under which nothing has moved in a step, and nothing moves, if it is not borne."""
+    """A load that is not borne although nothing has moved in a step; 0 if there is none."""
     if not np.array_equal(state.x, step.x0) or state.v.any():
         return
     coordinates, left = terms.coordinates, np.zeros_like(state.x)
@@ -153,8 +153,8 @@ def _part(out, rows):
 
 
 class Audit(NamedTuple):
-    """Status and message of a scene, its retry if it needs one, what it violates, how many steps
-    were balanced, its CPU.
+    """Status and message of a scene, its retry if it needs one, its violations, how many steps were
+    balanced, its CPU time.
     """
 
     status: str
@@ -166,7 +166,7 @@ class Audit(NamedTuple):
 
 
 def audit(case):
-    """Simulate ``case`` as sweeps do, with its retries, and look for what must not be."""
+    """Simulate ``case`` as sweeps do, with its retries, and look for violations."""
     runs, started = [], time.process_time()
 
     def watched(case, stop, seconds):

@@ -1,6 +1,6 @@
 """Draw the scenes of `configs/extreme.toml`: python -m tests.studies.stability.draw FILE
 
-Every scene is drawn by a generator of its own, from its number; what no lattice can be is drawn
+Every scene is drawn by a generator of its own, from its number; an impossible lattice is drawn
 again.
 """
 
@@ -21,7 +21,7 @@ MEMORY = 1000  # beyond `COUNT`: first number of a scene with a memory
 MOST_NODES = 1200
 CONFIGS = Path(__file__).parents[3] / "configs"
 SWAY = 0.474  # buckling stress of a square grid / (Y' (t / L)^3), rows swaying
-# Those of the product when the scenes were drawn: with one more, other scenes would come out.
+# As in the product when the scenes were drawn: one more would change the scenes.
 FAMILIES = "brick", "circle", "diamond", "hex", "kagome", "reentrant", "square", "triangle"
 RECORDS = (
     "cheetah",
@@ -94,7 +94,9 @@ def second_order(number):
 
 
 def remembering(number):
-    """The case of a scene beyond those of `second_order` whose material has a memory."""
+    """The case of a scene whose material has a memory; its numbers follow the ones of
+    `second_order`.
+    """
     keys, _ = scene(COUNT + MEMORY + number)
     keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
     draw = Draws(number, SEED + 1)
@@ -162,7 +164,7 @@ def _memory(draw, keys):
 
 
 def case_of(keys):
-    """The case that these keys make; what is pressed at no speed has no damping."""
+    """The case of these keys; a loading without speed has no damping."""
     if keys["loading.mode"] == "displacement" and "loading.speed" not in keys:
         keys = {key: value for key, value in keys.items() if not key.startswith("damping.")}
     return Case.of(**{name: _values(ALIKE | keys, name) for name in TABLES})
@@ -178,7 +180,9 @@ def _values(keys, name):
 
 
 def _material(draw):
-    """From foam to steel by numbers, or a measured curve, or one with a plateau or softening."""
+    """A material: foam to steel by numbers, a measured curve, or one with a plateau or
+    softening.
+    """
     plane = {"material.plane": draw.one("strain", "stress", "strain_bending")}
     if draw.chance(0.6):
         return plane | {

@@ -1,4 +1,5 @@
-"""What walls store, written a second time: numpy over all elements and pairs, from the formulas.
+"""Stored energy of walls, written a second time: numpy over all elements and pairs, from the
+formulas.
 
 It shares with the kernels the data of a scene, and no code.
 """
@@ -23,7 +24,7 @@ class Stored(NamedTuple):
 
 
 def stored(x, terms, x0):
-    """What the walls of a scene store at ``x`` (n,) in a step from ``x0``, see `_turns`."""
+    """Stored energy of the walls of a scene at ``x`` (n,) in a step from ``x0``, see `_turns`."""
     g, edges, stretch = np.zeros_like(x), terms.walls.edges, terms.stretch
     vector = np.diff(x[: 2 * terms.layout.n_nodes].reshape(-1, 2)[edges], axis=1)[:, 0]
     length, turn = np.hypot(*vector.T), _turns(x, x0, vector, terms.walls)

@@ -24,7 +24,7 @@ def structure_scene(number):
     while True:
         try:
             return _scene(draw)
-        except RefusedError:  # what has no statics, or no load along arcs
+        except RefusedError:  # structures without statics, or without a load along arcs
             continue
 
 

@@ -1,4 +1,4 @@
-"""Scenes of `configs/extreme.toml` under observation: does the observer see what is wrong?"""
+"""Scenes of `configs/extreme.toml` under observation: does the observer see violations?"""
 
 from unittest.mock import patch
 
@@ -75,7 +75,7 @@ def test_light_scenes_violate_nothing(drawn):
     ids=["struck", "rough", "released"],
 )
 def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
-    """A soft coordinate was not balanced beside a stiff one, nor friction at the end of a step."""
+    """A soft coordinate was not balanced next to a stiff one, nor friction at the end of a step."""
     warm_up()
     assert audit.audit(case.changed(solver={"retry": False})).violations == ()
 
@@ -127,7 +127,7 @@ SECOND_ORDER = (6, 12, 15, 25, 29)
 
 
 def test_custom_structures_violate_nothing():
-    """Under all loadings and integrators; two of them stood still under their load before."""
+    """All loadings and integrators; two structures once stood still under their load."""
     warm_up(["marches", "arcs"])  # none waits for a compiler
     cases = [structures.structure_scene(number) for number in STRUCTURES]
     assert {case.solver.integrator for case in cases} == {*IN_TIME, "static", "arc_length"}

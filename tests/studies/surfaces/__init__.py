@@ -1,1 +1,1 @@
-"""Small-strain moduli of one period of a sheet: shells beside voxels of a solid wall."""
+"""Small-strain moduli of one period of a sheet: shells against voxels of a solid wall."""

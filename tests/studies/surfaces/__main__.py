@@ -1,4 +1,4 @@
-"""Moduli of a gyroid of shells beside those of the solid wall, at three densities and five meshes.
+"""Moduli of a gyroid of shells against the solid wall, at three densities and five meshes.
 
 Run by `make surfaces`. The material has modulus 1 and Poisson's ratio 0.3 or 0.45, the period is 1.
 Shells become thinner as incompressible ones, whatever their ratio; trilinear bricks of more than

@@ -43,7 +43,7 @@ def of_shells(quads, side, sheet, perimeters, walled, poisson):
 
 
 def of_bricks(n, side, sheet, perimeters, walled, poisson):
-    """The same of the solid, of cubes of 1 / n, on whose grid its faces lie."""
+    """The same for the solid, of cubes of 1 / n, on whose grid its faces lie."""
     margin = np.zeros(3)
     margin[[axis for axis in walled if axis != 2]] = 0.5 * perimeters
     size = np.rint((side + 2.0 * margin) * n).astype(int)
@@ -66,8 +66,8 @@ def of_bricks(n, side, sheet, perimeters, walled, poisson):
 
 
 def limit(n, *block):
-    """The stiffness of the solid in the limit of fine grids, of order 2, from cubes of 1 / n and
-    half of it.
+    """The stiffness of the solid in the limit of fine grids, of order 2, from cubes of 1 / n and of
+    half that size.
     """
     coarse, fine = (of_bricks(k * n, *block) for k in (1, 2))
     return fine + (fine - coarse) / 3.0

@@ -62,7 +62,7 @@ def line(case, history, row):
 
 
 def main(folder, nodes=NODES):
-    """Run what is missing, and print the table; return whether a crush stopped."""
+    """Run the missing cases, and print the table; return whether a crush stopped."""
     cases = [crush(count) for count in nodes]
     folder.mkdir(parents=True, exist_ok=True)
     file = str(folder / "mesh.h5")

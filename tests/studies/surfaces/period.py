@@ -1,4 +1,4 @@
-"""A net of quads on a gyroid that repeats along all axes: that of `nets`, without planes.
+"""A net of quads on a gyroid that repeats along all axes, as in `nets` but without planes.
 
 Its period is 1. The nets of `sweep.design.surfaces.nets` end at two planes, on curves which differ
 from one plane to the other, so that they do not repeat along z.

@@ -17,8 +17,8 @@ from tests.support.kernels.shells import element_hessians, smooth
 
 
 def structure(net, thickness, modulus, poisson):
-    """The shells of a `period.Period`, with a node of its own for each image of a node; and the
-    node of which each one is an image.
+    """The shells of a `period.Period`, with a node for each image of a node; and the original of
+    each node.
     """
     key = np.dstack([net.quads, net.shift]).reshape(-1, 4)
     images, quads = np.unique(key, axis=0, return_inverse=True)

@@ -1,7 +1,7 @@
 """Symmetries of a gyroid that keep the axes: a sixteenth of the period is a model of the whole.
 
 An operation moves a point x to s x + h / 2, with signs s and with h of zeros and ones, in periods.
-The group, that of Ia-3d without its turns about diagonals, has all products of
+The group, Ia-3d without its turns about diagonals, has all products of
 
     the translation by half a period along all axes,   the inversion at the origin,
     half turns about x, y and z with a shift.
@@ -40,13 +40,13 @@ def group(generators=GENERATORS):
 
 
 def characters(members, component):
-    """By which factor each operation multiplies a strain with this one of the `PAIRS`, (g,)."""
+    """Factors (g,) by which each operation multiplies a strain with this one of the `PAIRS`."""
     i, k = PAIRS[component]
     return np.array([sign[i] * sign[k] for sign, _ in members])
 
 
 def images(members, at, n, inside):
-    """Numbers (g, m) of what each operation makes of nodes or cells ``at`` (m, 3) of n^3.
+    """Numbers (g, m) to which each operation maps nodes or cells ``at`` (m, 3) of n^3.
 
     inside: 1 for cells, which lie between node i and i + 1, 0 for nodes.
     """

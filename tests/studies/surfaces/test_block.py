@@ -1,4 +1,4 @@
-"""A block of shells within perimeters beside bricks of the solid, whose joints have a width."""
+"""A block of shells within perimeters against bricks of the solid, whose joints have a width."""
 
 import pytest
 
@@ -17,6 +17,6 @@ def test_a_block_of_shells_is_nearly_as_stiff_as_the_solid(walled):
 
 
 def test_perimeters_alone_are_a_tube():
-    """Of a sheet without thickness: four walls in plane stress, whose ends cannot widen."""
+    """The sheet has no thickness: four walls in plane stress remain, whose ends cannot widen."""
     found = block.of_shells(8, 0.5, 1e-6, THICKNESS, (0, 1), 0.0)
     assert found == pytest.approx(4 * THICKNESS, rel=1e-3)

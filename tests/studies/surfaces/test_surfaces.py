@@ -1,4 +1,4 @@
-"""Shells of one period of a gyroid: flat ones against exact numbers, then all beside bricks."""
+"""Shells of one period of a gyroid: flat ones against exact numbers, then all against bricks."""
 
 import sys
 
@@ -44,7 +44,7 @@ def test_the_gyroid_of_shells_is_cubic():
 
 @pytest.mark.parametrize(("share", "poisson", "most"), [(0.1, 0.3, 0.012), (0.3, 0.45, 0.015)])
 def test_shells_have_the_moduli_of_a_solid_wall(share, poisson, most):
-    """Of 12 quads a period."""
+    """The shells have 12 quads per period."""
     of = limit(share, 16, poisson)
     found, _ = shells.stiffness(best_period(12), of.thickness, 1.0, poisson)
     away = moduli.cubic(found)[0].moduli / of.moduli - 1.0

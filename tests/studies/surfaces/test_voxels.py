@@ -101,7 +101,7 @@ def test_a_flat_plate_of_bricks_is_in_plane_stress(weighted):
 
 
 def test_bricks_tend_to_a_limit_from_above_with_order_two():
-    """To which the other rule for cut cubes leads, too."""
+    """The other rule for cut cubes leads to the same limit."""
     of = limit(0.3, 16)
     np.testing.assert_allclose(of.order, 2.0, atol=0.2)
     assert of.error.max() < 2e-3
@@ -111,8 +111,8 @@ def test_bricks_tend_to_a_limit_from_above_with_order_two():
 
 
 def test_a_net_of_one_period_is_closed():
-    """With the Euler characteristic -8 of a gyroid, each side between two quads that go round it
-    oppositely, and normals to one side.
+    """It has the Euler characteristic -8 of a gyroid, each side lies between two quads that go
+    round it in opposite directions, and normals point to one side.
     """
     net = best_period(8)
     one, two = net.quads, np.roll(net.quads, -1, axis=1)

@@ -87,7 +87,7 @@ def cubes(n, thickness, members):
 
 
 class Solid(NamedTuple):
-    """What the bricks tell of a wall: its stiffnesses, and its solid share of the period."""
+    """Results of the bricks for a wall: its stiffnesses, and its solid share of the period."""
 
     cubic: Cubic
     density: float

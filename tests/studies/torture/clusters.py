@@ -53,7 +53,7 @@ class Killed(NamedTuple):
 
 
 class _Heard(io.StringIO):
-    """What is written to a stream, which gets it too."""
+    """A stream that also records the text that is written to it."""
 
     def __init__(self, stream: TextIO) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Damages a results file in many ways, and looks what its readers make of it.
+"""Damages a results file in many ways, and records how its readers react.
 
 Each damaged copy is read as a whole in a process of its own, which is given up after `PATIENCE`.
 """
@@ -74,7 +74,7 @@ def everything(path: Path) -> str:
 
 
 def outcome(path: Path, whole: str) -> str:
-    """What a reader makes of a file whose digest was `whole`."""
+    """Reaction of a reader to a file whose digest was `whole`."""
     try:
         return HARMLESS if everything(path) == whole else SILENT
     except StoreError:
@@ -93,7 +93,9 @@ def damage(path: Path, count: int, seed: int = 1) -> dict[str, Counter[str]]:
 
 
 def damage_part(path: Path, folder: Path, count: int, seed: int = 2) -> dict[str, Counter[str]]:
-    """The same of a part with the rows of a results file, as a run seals it; in an empty folder."""
+    """The same for a part with the rows of a results file, as a run seals it; in an empty
+    folder.
+    """
     copy, part = folder / "damaged.h5", new_part(folder / "damaged.h5", 1, 1).path
     part.parent.mkdir()
     with ExitStack() as stack:
@@ -105,9 +107,9 @@ def damage_part(path: Path, folder: Path, count: int, seed: int = 2) -> dict[str
 def _damage(
     content: bytes, copy: Path, path: Path, whole: str, how: tuple[int, int]
 ) -> dict[str, Counter[str]]:
-    """Of copies of some content, which are read under a path.
+    """Outcomes for damaged copies of some content, which are read under a path.
 
-    whole: digest of what is read there without damage. how: count and seed.
+    whole: digest of the undamaged content. how: count and seed.
     """
     (count, seed), counts = how, {}
     rng = np.random.default_rng(seed)
@@ -134,5 +136,5 @@ def sheet(counts: dict[str, Counter[str]]) -> Sheet:
 
 
 def is_sound(counts: dict[str, Counter[str]]) -> bool:
-    """Whether every damage was told, or changed nothing that is read."""
+    """Whether every damage was reported, or changed no data that are read."""
     return all(found.keys() <= ALLOWED for found in counts.values())

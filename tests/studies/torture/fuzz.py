@@ -1,4 +1,4 @@
-"""Mutates inputs of all kinds, and looks what the command line says of them.
+"""Mutates inputs of all kinds, and records how the command line reacts.
 
 An input may be used, or be refused in at most `LINES` lines, after at most `SECONDS` of processor
 time. A call that gives no answer at all is given up after `PATIENCE`, since other programs may run.
@@ -48,7 +48,7 @@ class Input(NamedTuple):
 
 
 def inputs(results: Path) -> dict[str, list[Input]]:
-    """What is mutated, by kind. results: a results file."""
+    """The inputs to mutate, by kind. results: a results file."""
     configs = ROOT / "configs"
     tomls = [path for path in sorted(configs.glob("*.toml")) if path.stem not in LEFT_OUT]
     of_files = {path.stem: path.read_text("utf-8") for path in configs.glob("*.toml")}
@@ -102,7 +102,7 @@ def mutated(content: bytes, rng: np.random.Generator) -> bytes:
 
 
 def outcome(folder: Path, words: tuple[str, ...]) -> str:
-    """What the command line makes of words, in a folder; notes on what is used may be longer."""
+    """Reaction of the command line to words, in a folder; notes on accepted input may be longer."""
     said, started = io.TextIOWrapper(io.BytesIO()), time.process_time()
     with (
         contextlib.chdir(folder),
@@ -128,7 +128,7 @@ def fuzz(
 ) -> dict[str, Counter[str]]:
     """How often inputs of each kind, `count` in all, had which outcome.
 
-    found: is told each outcome that is not allowed, and the file that has it.
+    found: is called with each outcome that is not allowed, and its file.
     """
     rng, counts, kinds = np.random.default_rng(seed), {}, inputs(results)
     with Reader(outcome, PATIENCE, SLOW) as reader:

@@ -41,8 +41,10 @@ VERBS = {
 
 
 class Killed(NamedTuple):
-    """Of a command that was killed again and again: kills while it ran, rows that were lost or
-    computed twice, and how often it came to its end.
+    """A command that was killed again and again.
+
+    Counts kills while it ran, rows that were lost or computed twice, and how often it came to its
+    end.
     """
 
     kills: int

@@ -1,4 +1,4 @@
-"""How long a case holds Python's lock: all the time that it is not in compiled kernels."""
+"""How long a case holds Python's lock: all the time that it spends outside of compiled kernels."""
 
 import time
 from collections.abc import Iterator
@@ -47,11 +47,11 @@ def timed_kernels() -> Iterator[list[float]]:
 
 
 def held(name: str, count: int) -> Held:
-    """What about `count` cases of a config take in the mean."""
+    """Mean time for about `count` cases of a config."""
     cases = load_config(name).cases
     chosen = cases[:: max(len(cases) // count, 1)]
     simulate = real_simulate(chosen)
-    simulate(chosen[0], np.zeros(2, np.int64))  # loads what is loaded at the first call
+    simulate(chosen[0], np.zeros(2, np.int64))  # loads the modules that the first call loads
     with timed_kernels() as spent:
         started = time.thread_time()
         for case in chosen:

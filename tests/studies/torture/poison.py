@@ -1,8 +1,8 @@
 """Sweeps with poisoned cases, on threads, in processes and on a cluster.
 
-One case kills its process, one needs more memory than there is, and one does not end by itself, but
-when it is told to. In processes, which can be killed, another one does not end even then. All of
-them must be rows with the status that is theirs, and none of the others may be lost.
+One case kills its process, one needs more memory than there is, and one ends only when it is
+requested to. In processes, which can be killed, another one does not end even then. All of them
+must become rows with the right status, and none of the others may be lost.
 """
 
 import os
@@ -38,8 +38,8 @@ PROGRAM = "import sys; from tests.studies.torture.poison import die; die({!r}, {
 
 
 class Poisoned(NamedTuple):
-    """What became of a sweep: cases; those that are lost; those with a status that is not theirs;
-    seconds that it took.
+    """The outcome of a sweep: cases; lost cases; cases with a wrong status; seconds that it
+    took.
     """
 
     cases: int

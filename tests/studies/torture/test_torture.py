@@ -89,7 +89,9 @@ def test_a_killed_worker_costs_no_row(tmp_path):
 
 
 def test_refusals_are_heard():
-    """Of another source; not of a worker that cannot run Crumple at all."""
+    """Workers with another source count as refused; a worker that cannot run Crumple at all does
+    not.
+    """
     said = "worker other (tcp://127.0.0.1:1) is refused: it has source ab (this run: cd)"
     assert clusters.REFUSED.search(said)
     assert not clusters.REFUSED.search(said.replace("has source ab", "cannot run Crumple"))

@@ -1,4 +1,4 @@
-"""Reference problems: our value at three meshes beside a truth from elsewhere (`make validate`)."""
+"""Reference problems: our value at three meshes against a known truth (`make validate`)."""
 
 from tests.studies.validation import beams, frames, joints, motion, touching
 

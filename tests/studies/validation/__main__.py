@@ -17,7 +17,7 @@ NOTES = "\n".join(f"{source}: {more}." for source, more in SOURCES.items())
 
 
 def row(problem, found):
-    """What a problem says: the cells of `HEAD`, then those of `MORE`, of the finest mesh."""
+    """The results of a problem: the cells of `HEAD`, then `MORE`, of the finest mesh."""
     return [
         problem.name,
         problem.source,

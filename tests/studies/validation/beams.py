@@ -93,7 +93,7 @@ def bent(clamped):
 
 
 def bent_exactly(clamped):
-    """The same of exact rods, sought near a sine or a cosine of the inextensible deflection."""
+    """The same for exact rods, sought near a sine or a cosine of the inextensible deflection."""
 
     def truth():
         frame = Frame(column(BEYOND, 0.0, clamped))

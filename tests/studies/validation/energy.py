@@ -1,4 +1,4 @@
-"""What integrators make of the energy of undamped structures, in fifty steps a period."""
+"""Energy of undamped structures under each integrator, in fifty steps a period."""
 
 import numpy as np
 
@@ -53,7 +53,7 @@ def gained(result):
 
 
 def rows():
-    """What is left at the end, by integrator; a run that is stopped says so."""
+    """Energy that remains at the end, by integrator; a run that is stopped says so."""
     scenes = {
         "cantilever, 100 periods of 1 %": cantilever,
         "pendulum, 20 swings": lambda integrator: pendulum(integrator, SOFT),

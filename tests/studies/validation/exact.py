@@ -23,7 +23,7 @@ POINTS = 7
 @dataclass
 class Frame:
     """A structure of straight walls with supports, pins, loads and prescribed moves; lengths over
-    ``unit``, forces times unit^2 / YI of the first wall. Searches start from what was found last.
+    ``unit``, forces times unit^2 / YI of the first wall. Searches start from the last solution.
     """
 
     parts: dict
@@ -72,7 +72,7 @@ class Frame:
         return np.stack([dx, dy, turn, h * dy - v * dx, zero, zero], axis=1).reshape(y.shape)
 
     def _joints(self, first, last, factor):
-        """What is left of continuity and balance at every node."""
+        """Residuals of continuity and balance at every node."""
         ends = np.stack([first, last]).reshape(2, self.walls, 6)
         left = []
         for node, meeting in self.at.items():

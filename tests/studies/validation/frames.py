@@ -105,7 +105,7 @@ def williams_limit(pieces):
 
 
 def williams_exactly():
-    """The same of exact rods."""
+    """The same for exact rods."""
     return Frame(WILLIAMS).greatest(1, "y", -0.0015, load)
 
 
@@ -137,7 +137,7 @@ def truss_exactly():
 
 
 def sway_exactly():
-    """The same of exact rods."""
+    """The same for exact rods."""
     return Frame(PORTAL).solve(1.0, 4).place(1, "x")
 
 

@@ -37,7 +37,7 @@ def joint(kind):
 
 
 def shared(kind):
-    """The same of linear beams whose joint may move, too: 3 x 3 stiffness of direct summation."""
+    """The same for linear beams whose joint may move, too: 3 x 3 stiffness by direct summation."""
     whole, turning = np.zeros((3, 3)), 0.0
     for length, along in zip(MM * np.array(LENGTHS), WAYS[kind], strict=False):
         along = np.array([*along, 0.0])
@@ -70,7 +70,7 @@ def turned(pieces):
 
 
 def turned_exactly():
-    """The same of exact rods."""
+    """The same for exact rods."""
     frame = Frame(CROSS | {"loads": [{"node": 0, "moment_Nmm": UNIT / MM}]})
     for turn in (0.1, 0.2, 0.3, 0.4, TURN):
         moment = frame.lead(0, "rotation", turn)

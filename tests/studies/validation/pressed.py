@@ -1,4 +1,4 @@
-"""Columns, a cross, cells, grids and a patch of hexagons, of which some nodes are moved far."""
+"""Columns, a cross, cells, grids and a patch of hexagons, with some nodes moved far."""
 
 import numpy as np
 
@@ -78,7 +78,7 @@ def _glued(lattice, thickness, share):
 
 
 def _held(nodes, fix, moved, direction):
-    """Supports of nodes, but for the ``direction`` in which some are moved."""
+    """Supports of nodes, except in the ``direction`` in which some are moved."""
     return [
         {"node": node, "fix": [way for way in fix if node not in moved or way != direction]}
         for node in nodes

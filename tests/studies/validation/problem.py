@@ -1,4 +1,4 @@
-"""A reference problem, and what three meshes say of it."""
+"""A reference problem, and its results on three meshes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Finding:
-    """Values at three meshes, the truth, and what follows from them."""
+    """Values at three meshes, the truth, and derived numbers."""
 
     values: tuple[float, ...]
     truth: float
@@ -43,7 +43,7 @@ class Finding:
 
     @property
     def order(self) -> float:
-        """From the differences of the values alone; NaN where they are round-off."""
+        """Order from the differences of the values alone; NaN where they are round-off."""
         first, second, third = self.values
         if min(abs(second - first), abs(third - second)) < NOISE * abs(third):
             return nan

@@ -1,7 +1,7 @@
-"""Problems that compare elements: a structure, a number that is measured of it, and its truth.
+"""Problems that compare elements: a structure, a measured number, and its truth.
 
-The truth is that of exact rods (`exact`), for cantilevers that of the elastica in elliptic
-integrals, and where walls touch that of a mesh of `FINEST` elements.
+The truth comes from exact rods (`exact`), for cantilevers from the elastica in elliptic integrals,
+and where walls touch from a mesh of `FINEST` elements.
 """
 
 from collections.abc import Callable, Mapping
@@ -45,7 +45,7 @@ class Scene:
         return pushed(parts, self.steps, self.contact, **options)
 
     def value(self, pieces, element="cubic"):
-        """What is measured with so many elements in every wall."""
+        """The measured number with this many elements in every wall."""
         return self.measure(self.solve(pieces, element))
 
 

@@ -1,4 +1,4 @@
-"""The comparison of elements of `make elements`: orders, truths, and what the README says of it."""
+"""The comparison of elements of `make elements`: orders, truths, and its summary in the README."""
 
 from math import isnan, log2, nan
 
@@ -36,7 +36,7 @@ def test_order_on_a_smooth_path(name, element):
 
 
 def test_second_order_share_of_stout_walls_is_their_axial_strain():
-    """What a stout column has more than a slender one, of the cubic element by 5 %."""
+    """The excess of a stout column over a slender one, with the cubic element by 5 %."""
     share, found = 0.05, {}
     for slenderness in (0.01, 0.064):
         scene = driven("column", pressed.column(True, slenderness, share), 5)

@@ -57,7 +57,7 @@ PILE = 5e3  # times as heavy as on Earth, so that walls yield
 
 
 def piled(pieces):
-    """Distance of two walls over their thickness, of which one has come to rest upon the other."""
+    """Distance of two walls over their thickness, after one has come to rest upon the other."""
     parts = {
         "nodes_mm": [[0, 0], [LENGTH, 0], [0, 1.1], [LENGTH, 1.1]],
         "walls": [[0, 1], [2, 3]],

@@ -1,4 +1,4 @@
-"""Lattices that repeat, for tests: a period of one, pressed, and what its unknowns lead."""
+"""Lattices that repeat, for tests: a pressed period, and the coordinates that its unknowns lead."""
 
 from unittest.mock import patch
 
@@ -40,7 +40,9 @@ def pressed(
 
 
 def follow(scene):
-    """Matrix (n, free + 1) from what is free, and the height of the period, to all coordinates."""
+    """Matrix (n, free + 1) from the free coordinates and the height of the period to all
+    coordinates.
+    """
     leader, images, driven = (
         getattr(scene.terms.layout, name) for name in ("leader", "images", "driven")
     )

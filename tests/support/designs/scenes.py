@@ -1,4 +1,4 @@
-"""The specimen of the acceptance tests, crushed and loaded, and what is read off a result.
+"""The specimen of the acceptance tests, crushed and loaded, and values read from its results.
 
 A 3 x 3 grid, 12.5 mm over centre lines, walls of 0.8 mm, of the linear material of `figures`.
 """
@@ -111,7 +111,7 @@ def trapezoid(history):
 
 
 def slopes(errors):
-    """Orders log2(e / e') of errors of which each belongs to half the step of the one before."""
+    """Orders log2(e / e') of errors, each for half the step of the previous one."""
     errors = np.abs(np.asarray(errors))
     return np.log2(errors[:-1] / errors[1:])
 

@@ -3,7 +3,7 @@
 from sweep.config.kinds.lattice import lattice_of
 from sweep.config.kinds.material import material
 
-DENSITY = 1190.0  # kg/m^3, that of ninjaflex
+DENSITY = 1190.0  # kg/m^3, as ninjaflex
 
 
 def material_with(**values):

@@ -38,15 +38,15 @@ class Output(NamedTuple):
 
 
 class Neighbours(NamedTuple):
-    """Where the list was made (n,), and how often one was (1,)."""
+    """Positions at which the list was made (n,), and how often a list was made (1,)."""
 
     anchor: np.ndarray
     made: np.ndarray
 
 
 class Buffers(NamedTuple):
-    """Normal forces (n,) as they were lagged; pivots and off-diagonal (n,) of the factor, diagonal
-    before it; place (1,) of the first negative pivot, -1 if there is none.
+    """Lagged normal forces (n,); pivots and off-diagonal (n,) of the factor, diagonal before it;
+    place (1,) of the first negative pivot, -1 if there is none.
     """
 
     normal: np.ndarray
@@ -307,7 +307,7 @@ def covers_projection(problem, x):
 
 @jit_exact
 def write_share(problem, out, k, state, found):
-    """Nothing: a row has what it has at its end."""
+    """Nothing: a row has only the values at its end."""
 
 
 @jit_exact

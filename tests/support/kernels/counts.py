@@ -1,4 +1,4 @@
-"""How often a march calls what it is made of: that runs compiled, all that calls it as Python."""
+"""Counts the calls in a march: its kernels run compiled, all their callers as Python."""
 
 from collections import Counter
 from unittest.mock import patch

@@ -122,7 +122,7 @@ def joint_of_four() -> Frame:
 
 
 def scaled(of: Frame, length: float) -> Frame:
-    """The same frame in a unit of length of which ``length`` make a millimetre (forces in N)."""
+    """The same frame in a unit of length, ``length`` of which make a millimetre (forces in N)."""
     return replace(
         of,
         points=of.points * length,
@@ -259,7 +259,9 @@ def layout_of(of: Frame, held=(), tied=(), driven: bool = False) -> analysis.Lay
 
 
 def terms_of(of: Frame, law: Fibre, measure: int, damped: damping.Damp) -> PlanarScene:
-    """What damping reads: law, walls, stretch, bend, damp and mass; no folds and no contact."""
+    """The data that damping reads: law, walls, stretch, bend, damp and mass; no folds and no
+    contact.
+    """
     share = np.bincount(of.edges.ravel(), np.repeat(of.l0 * of.thickness, 2), len(of.points))
     n = of.rest.size
     mass, one, none = np.zeros(n), np.ones(n), np.empty(0)

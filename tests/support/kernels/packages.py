@@ -22,7 +22,7 @@ def make(folder, **sources):
 
 
 def run(package, script, **environment):
-    """What a new process that keeps its code beside the package prints, as words."""
+    """Output of a new process that keeps its code beside the package, as words."""
     done = subprocess.run(
         [sys.executable, "-c", script],
         cwd=package.parent,

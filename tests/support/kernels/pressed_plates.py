@@ -1,7 +1,7 @@
 """The inside of a step of a tube that is pressed along its cell, as tests reach it.
 
 `CASES` are four tubes of 3 x 6 quads a wall with the same kinds of arrays, so that one program
-serves them all: glued to a driven platen that presses on folds too, the same of a material that
+serves them all: glued to a driven platen that presses on folds too, the same with a material that
 relaxes, the quarter of a tube between loose platens, and a tube glued to a striker that flies.
 """
 
@@ -68,7 +68,7 @@ def unit(of):
 
 
 def shaken(of, x, seed, amount):
-    """State ``x`` with all that is not held moved at random, in units of each coordinate."""
+    """State ``x`` with all free coordinates moved at random, in units of each coordinate."""
     move = amount * unit(of) * np.random.default_rng(seed).uniform(-1, 1, x.size)
     return x + np.where(of.terms.layout.leader >= 0, move, 0.0)
 
@@ -105,7 +105,7 @@ class WholeOfPlates(Whole):
     """All that a step minimises, as one term, with the matrix of its unknowns."""
 
     def factored(self, x, projected=False, through=False):
-        """What `factor` returns at ``x``: its result, and the negative pivot."""
+        """Result of `factor` at ``x``, and the negative pivot."""
         _, found = self.found(x)
         met, pivot = self.problem.factor(x, self.step, found, False, through)
         if projected:
@@ -173,7 +173,7 @@ def _remember(problem, step, of, seed):
 
 
 def reduction(of):
-    """Matrix (n, u): moves of all coordinates by those of the unknowns."""
+    """Matrix (n, u): moves of all coordinates by the moves of the unknowns."""
     layout = of.terms.layout
     R = np.zeros((layout.unknown.size, layout.size.sum()))
     follows = layout.unknown >= 0

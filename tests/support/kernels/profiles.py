@@ -1,4 +1,4 @@
-"""Rigid profiles beside a small frame, carried by the upper platen."""
+"""Rigid profiles next to a small frame, carried by the upper platen."""
 
 from types import SimpleNamespace
 
@@ -24,7 +24,7 @@ SHAPES = {
 
 
 def resized(shape: Profile, length: float) -> Profile:
-    """The shape in a unit of length of which ``length`` make a millimetre."""
+    """The shape in a unit of length, ``length`` of which make a millimetre."""
     return shape._replace(chain=shape.chain * length, radius=shape.radius * length)
 
 

@@ -1,4 +1,4 @@
-"""Sheets for tests: neo-Hookean ones, given by a curve too, and those of shipped materials."""
+"""Sheets for tests: neo-Hookean ones, also given by a curve, and sheets of shipped materials."""
 
 from typing import Any, NamedTuple
 

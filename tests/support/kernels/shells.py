@@ -57,7 +57,7 @@ def structure(
 ) -> Structure:
     """Walls (pairs of joints of a ``plan``) of ``height`` with ``pieces`` x ``layers`` quads each.
 
-    Joints of several walls have the frame I, other nodes that of their wall, (e_s, e_z, n).
+    Joints of several walls have the frame I, other nodes the frame of their wall, (e_s, e_z, n).
     """
     joints = np.array(plan, float)
     columns = [*joints]
@@ -129,7 +129,9 @@ def smooth(
     modulus: float = MODULUS,
     poisson: float = 0.5,
 ) -> Structure:
-    """Quads of a smooth surface with ``normals`` (n, 3) to the side of those of the quads."""
+    """Quads of a smooth surface with ``normals`` (n, 3) to the same side as the normals of the
+    quads.
+    """
     aside = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
     one = np.cross(aside, normals)
     one /= np.linalg.norm(one, axis=1)[:, None]

@@ -48,7 +48,7 @@ class Whole:
         return self.beside(referred(self.neighbours)._replace(lagged_contacts=lagged_contacts))
 
     def found(self, x, projected=False) -> tuple[float, Evaluation]:
-        """Energy and what else `evaluate` finds at ``x``."""
+        """Energy and other results of `evaluate` at ``x``."""
         found = make_workspace(x.size, STORED).evaluation
         return self.problem.evaluate(x, self.step, found, projected), found
 
@@ -127,9 +127,9 @@ def problem_of(terms, neighbours, buffers):
 
 
 def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
-    """A step from x0 (``x``) and v (0), near ``x`` and what is in ``reach``; friction lags at x.
+    """A step from x0 (``x``) and v (0), with pairs within ``reach`` of ``x``; friction lags at x.
 
-    It is static where ``dt`` is infinite.
+    It is static if ``dt`` is infinite.
     """
     terms, x0 = scene.terms, (x if x0 is None else x0).copy()
     dynamic = bool(dt < np.inf)
@@ -144,7 +144,7 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
 
 
 def reduction(scene):
-    """Matrix (n, free) from what is solved for to coordinates: tied ones go with their leader."""
+    """Matrix (n, free) from unknowns to coordinates: tied ones follow their leader."""
     leader, free = scene.terms.layout.leader, free_of(scene)
     return (leader[:, None] == np.array(free)).astype(float)
 

@@ -52,7 +52,7 @@ def assembled(sizes, pairs, points, full, spans):
 
 
 def factored(matrix, rounded=ROUNDED, shift=0.0, weights=None, scale=1.0):
-    """What `factor` returns for the same ``scale`` of all unknowns."""
+    """Result of `factor` with the same ``scale`` for all unknowns."""
     n = matrix.home.size
     weights = np.ones(n) if weights is None else weights
     return ldlt.factor(matrix, np.full(n, scale), weights, shift, rounded)

@@ -82,7 +82,7 @@ def matrices(stiffness: elements.Stiffness) -> np.ndarray:
 
 
 def assembled(walls: elements.Walls, stiffness: elements.Stiffness, n: int) -> np.ndarray:
-    """Hessian (n, n) of walls from those of their elements."""
+    """Hessian (n, n) of walls from the Hessians of their elements."""
     moved = motions(walls, n)
     pulled = matrices(stiffness) @ moved
     return moved.reshape(-1, n).T @ pulled.reshape(-1, n)
@@ -112,7 +112,7 @@ def of_walls(walls: elements.Walls, write, x0=None) -> Term:
 
 
 def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None, along=NO_STRETCH) -> Term:
-    """Bending; turns count from x0 (or x). along: what sections know of the stretching."""
+    """Bending; turns count from x0 (or x). along: stretching data of the sections."""
 
     def write(shape, resultants, projected):
         return bend.evaluate(bending, along, NO_MEMORY, shape, resultants, projected)

@@ -112,13 +112,13 @@ class Problem:
         return y
 
     def reduction(self):
-        """Matrix (n, free) from what is solved for to coordinates."""
+        """Matrix (n, free) from unknowns to coordinates."""
         leader = self.layout.leader
         free = [c for c in np.unique(leader[leader >= 0]) if c != self.layout.driven]
         return (leader[:, None] == np.array(free)).astype(float)
 
     def is_factored(self, b, rtol=1e-9):
-        """Whether the solution for ``b`` is that of dense algebra."""
+        """Whether the solution for ``b`` agrees with dense algebra."""
         R = self.reduction()
         expected = R @ np.linalg.solve(R.T @ self.dense() @ R, R.T @ b)
         return np.allclose(self.solve(b), expected, rtol=0, atol=rtol * np.abs(expected).max())

@@ -15,7 +15,7 @@ NO_SOFTENING = (0.0, 0.0, 0.0)
 
 
 class Path(NamedTuple):
-    """What a point has after each step: stress, work by the trapezoidal rule, stored energy, and
+    """Values of a point after each step: stress, work by the trapezoidal rule, stored energy, and
     dissipation so far; (steps,) each.
     """
 

@@ -1,4 +1,4 @@
-"""Results files of designs that never ran, for tests of what is exported from them."""
+"""Results files of designs that never ran, for tests of their exports."""
 
 from sweep.config.case import Case
 from sweep.design.lattice import build_network

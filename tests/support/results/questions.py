@@ -47,7 +47,7 @@ def curve(factor):
 def random_sweep(rng, other, count=16):
     """Designs in two scenes, a crush and one of `OTHERS`, and the factors of their curves.
 
-    Values are equal, equal but for round-off, at the border of the model, or missing; some failed.
+    Values are equal, equal up to round-off, at the border of the model, or missing; some failed.
     """
     rows, factors = [], []
     masses, energies = rng.uniform(0.5, 4.0, 5), np.round(rng.uniform(0.01, 0.3, 5), 3)
@@ -132,7 +132,7 @@ def write_curves(path, table, factors):
 
 
 def random_question(rng, table):
-    """Budgets (kg), a panel, an allowed force (N), requirements in SI, and what they are of."""
+    """Budgets (kg), a panel, an allowed force (N), requirements in SI, and to what they apply."""
     panel = PANELS[rng.integers(len(PANELS))]
     per = "panel" if panel and rng.random() < 0.4 else "specimen"
     count = 1.0 if panel is None else float(rng.choice([1.0, 5.0, 28.0, 35.0]))

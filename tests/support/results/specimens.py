@@ -1,4 +1,4 @@
-"""Results made by hand, for tests of what reads them."""
+"""Results made by hand, for tests of their readers."""
 
 from dataclasses import dataclass
 from itertools import count
@@ -70,10 +70,10 @@ SPARSE |= {"peak_strain": 0.5, "peak_force_N": 25.0}
 
 
 def summary(*rows):
-    """Table with a row for each dict of what differs from a 3 x 3 grid crushed to one half.
+    """Table with a row for each dict of differences from a 3 x 3 grid crushed to one half.
 
     Ids count from 0...0; J/g follows from energy and mass; energy and force until packed down, and
-    energy within the model, are those of the whole crush; columns not named are 0.
+    energy within the model, equal the values of the whole crush; columns not named are 0.
     """
     ids = count()
     full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]
@@ -165,7 +165,7 @@ def tube(frames=3):
 
 @dataclass(frozen=True)
 class Named:
-    """What a row that is made by hand has in place of a case: an id."""
+    """The id that a row made by hand has in place of a case."""
 
     case_id: str
 
@@ -176,8 +176,8 @@ class Named:
 
 
 def write(path, table, attributes=None, cases=()):
-    """A results file with these rows; finished cases have curves and shapes. cases: those of rows
-    that are of real ones.
+    """A results file with these rows; finished cases have curves and shapes. cases: of the rows
+    with real ones.
     """
     known = {case.case_id: case for case in cases}
     history = {name: column.to_numpy() for name, column in there_and_back().items()}

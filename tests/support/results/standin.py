@@ -1,4 +1,6 @@
-"""Cases that cost nothing and a `simulate` that invents their results, to test what lies around."""
+"""Cases that cost nothing and a `simulate` that invents their results, to test the code around
+it.
+"""
 
 import os
 import time
@@ -100,7 +102,7 @@ def write_older(path, batch):
 
 
 def make_older(path):
-    """Make the rows of a results file those of the first version of the model."""
+    """Change the rows of a results file to the first version of the model."""
     forge(path, "summary/model_version", lambda versions: versions.__setitem__(slice(None), 1))
 
 

@@ -1,4 +1,4 @@
-"""The verb `card`: each infill once, what is left out, what it writes."""
+"""The verb `card`: each infill once, the omitted ones, and its files."""
 
 import pytest
 

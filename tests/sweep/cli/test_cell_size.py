@@ -1,4 +1,4 @@
-"""The sentence that says what a size of cells has become."""
+"""The sentence on the result of a size of cells."""
 
 from sweep.cli.cell_size import cell_sentences
 from sweep.config.case import Case

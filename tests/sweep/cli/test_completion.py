@@ -1,4 +1,4 @@
-"""What a shell offers after the words that are there."""
+"""The words that a shell offers after the present ones."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture
 def offered(tmp_path):
-    """What is offered for the last word of a line."""
+    """The words offered for the last word of a line."""
 
     def words(line):
         answer = tmp_path / "answer"

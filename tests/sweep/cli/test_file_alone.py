@@ -1,6 +1,6 @@
 """A results file that is copied alone: its cases are ranked, shown, exported and run again from it.
 
-The config, the file of its structure and that of its material are deleted.
+The config, the file of its structure and the file of its material are deleted.
 """
 
 import shutil
@@ -65,7 +65,7 @@ strain = 0.01
 load_steps = 2
 """,
 }
-SHARES = {"cpu_s": 0.0, "git_revision": ""}  # what differs from run to run
+SHARES = {"cpu_s": 0.0, "git_revision": ""}  # columns that differ from run to run
 
 
 @pytest.fixture(params=CONFIGS)

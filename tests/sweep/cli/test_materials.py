@@ -1,4 +1,4 @@
-"""The verb `materials`: what it lists, draws and fits, and what it refuses."""
+"""The verb `materials`: its lists, pictures, fits and refusals."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""First configs: each runs as it is, is explained, and takes nobody's file."""
+"""First configs: each runs unchanged, is explained, and overwrites nobody's file."""
 
 import re
 import tomllib

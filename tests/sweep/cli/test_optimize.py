@@ -1,4 +1,4 @@
-"""The verb `optimize`: what it tells, what it leaves, what it refuses."""
+"""The verb `optimize`: its output, its files, its refusals."""
 
 import shlex
 from importlib import import_module

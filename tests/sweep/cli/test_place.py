@@ -1,4 +1,6 @@
-"""--processes, --scheduler and --wait: where a command runs, and what it says of what cannot be."""
+"""--processes, --scheduler and --wait: where a command runs, and its messages on impossible
+places.
+"""
 
 from contextlib import contextmanager
 

@@ -1,4 +1,4 @@
-"""The command line as a process: what its terminal, its pipes and its disk do to it."""
+"""The command line as a process: effects of its terminal, its pipes and its disk."""
 
 import os
 import subprocess

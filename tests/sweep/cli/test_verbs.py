@@ -1,4 +1,4 @@
-"""The command line: what it answers, what it refuses, and with which exit status."""
+"""The command line: its answers, its refusals, and its exit status."""
 
 import io
 import json
@@ -331,7 +331,7 @@ def test_that_nothing_meets_what_is_asked_is_an_answer(capsys, tmp_path):
 
 
 def test_stroke_up_to_an_allowed_force_is_shown(capsys, tmp_path):
-    """Of the stored curve, 24 N after 2 of 4 mm."""
+    """The stored curve reaches 24 N after 2 of 4 mm."""
     row = {"absorbed_energy_at_24N_J": 0.044, "peak_force_N": 28.0}
     file = write(tmp_path / "trial.h5", summary(row))
     out = crumple(capsys, "rank", file, "--allowed-force", "24 N")[1]

@@ -1,4 +1,4 @@
-"""The verb `verify`: it names what cannot be read, and numbers that do not come out again."""
+"""The verb `verify`: it names unreadable parts, and numbers that cannot be reproduced."""
 
 import re
 

@@ -32,7 +32,7 @@ def lines(load):
 
 @pytest.fixture
 def refused(lines):
-    """The one line of a refused config, in which stand a key with its value, and more words."""
+    """Return the one line of a refused config; it must contain a key, its value and other words."""
 
     def line_of(config, key, *words):
         (line,) = lines(config)

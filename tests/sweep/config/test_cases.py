@@ -1,4 +1,4 @@
-"""Cases that are made when they are asked for are those from which they were made."""
+"""Cases that are made when they are requested equal the cases from which they were made."""
 
 from itertools import islice
 
@@ -15,7 +15,7 @@ MOST = 40  # cases of an example that are compared
 
 
 def same(one, other):
-    """Whether two cases cannot be told from each other, by what they hold or by its order."""
+    """Whether two sets of cases cannot be distinguished, by content or order."""
     assert (one, one.case_id) == (other, other.case_id)
     assert one.to_json() == other.to_json()
     assert one.model_fields_set == other.model_fields_set

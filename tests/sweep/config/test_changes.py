@@ -1,4 +1,4 @@
-"""Cases changed to other values: what is replaced, what is computed anew, what stays."""
+"""Cases changed to other values: which are replaced, which computed anew, which stay."""
 
 import json
 
@@ -89,7 +89,7 @@ def test_walls_stay_if_their_mass_is_taken_away():
 
 
 def test_a_memory_that_a_change_adds_has_its_constants():
-    """As the file of the material has them."""
+    """The constants are those in the file of the material."""
     case = Case.of(loading=dict(mode="displacement"))
     relaxing = case.changed(material={"loss": 0.4})
     assert (

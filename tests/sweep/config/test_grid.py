@@ -1,4 +1,4 @@
-"""From a config to its cases: products, zips, what is excluded, and faults of many cases."""
+"""From a config to its cases: products, zips, exclusions, and faults of many cases."""
 
 from dataclasses import replace
 

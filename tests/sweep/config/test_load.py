@@ -1,4 +1,4 @@
-"""From TOML to a sweep in SI: what is refused, light imports."""
+"""From TOML to a sweep in SI: refusals, light imports."""
 
 import subprocess
 import sys

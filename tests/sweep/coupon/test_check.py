@@ -1,4 +1,4 @@
-"""What no record is, and the option that mends a unit."""
+"""Impossible records, and the option that corrects a unit."""
 
 import numpy as np
 import pytest

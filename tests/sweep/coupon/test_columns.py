@@ -1,4 +1,4 @@
-"""Columns by the words and units of their heads, and what is asked of the user."""
+"""Columns by the words and units of their heads, and questions to the user."""
 
 import numpy as np
 import pytest

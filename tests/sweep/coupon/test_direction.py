@@ -1,4 +1,4 @@
-"""Pulled or pressed: what the file says, what the stiffness says, what is asked."""
+"""Pulled or pressed: by the file, by the stiffness, or by a question to the user."""
 
 import numpy as np
 import pytest

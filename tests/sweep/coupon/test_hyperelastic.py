@@ -1,4 +1,4 @@
-"""Rubbers that are pressed give back their tension; what is no rubber gives none."""
+"""The tension of a pressed rubber is recovered; a material that is no rubber has none."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ STRAIN = np.linspace(0.01, 0.4, 40)
 
 
 def neo_hookean(strain):
-    """Of a shear modulus of 4 MPa, in closed form."""
+    """Stress of a neo-Hookean solid with a shear modulus of 4 MPa, in closed form."""
     stretch = 1.0 + strain
     return 4e6 * (stretch - stretch**-2)
 
@@ -26,7 +26,7 @@ def test_one_constant_is_neo_hookean():
 
 @pytest.mark.parametrize(("at", "off"), [(0.1, 0.13), (0.2, 0.32), (0.3, 0.58), (0.4, 0.95)])
 def test_tension_of_a_pressed_rubber_is_that_of_the_rubber(at, off):
-    """By the two rules it is too stiff."""
+    """The two rules make it too stiff."""
     pressed, place = -neo_hookean(-STRAIN), np.searchsorted(STRAIN, at - 1e-9)
     true = neo_hookean(STRAIN)[place]
     assert tension(STRAIN, pressed)[place] == pytest.approx(true, rel=1e-6)

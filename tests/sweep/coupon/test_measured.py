@@ -15,7 +15,7 @@ READY = (("time", "strain", "stress"), ("s", "", "Pa"))
 
 
 def read(heads, values, answers, preamble=()):
-    """What was measured, and the columns with notes and questions."""
+    """The measured curve, and the columns with notes and questions."""
     table = Table(*heads, np.column_stack(values), [*map(list, preamble)], ".", ())
     columns: Columns = columns_of(table, {}, {})
     return measured(table, columns, answers), columns

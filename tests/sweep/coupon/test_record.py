@@ -1,4 +1,4 @@
-"""Records of coupons: what is read, what is shifted, and a sentence for each fault."""
+"""Records of coupons: how they are read and shifted, and a sentence for each fault."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Standard errors are those of repeated measurements, with white and with slow noise."""
+"""Standard errors agree with repeated measurements, with white and with slow noise."""
 
 import numpy as np
 import pytest

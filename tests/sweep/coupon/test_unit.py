@@ -1,4 +1,4 @@
-"""Units in heads: where they stand, how machines write them, what is none."""
+"""Units in heads: where they stand, how machines write them, and texts that are no unit."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The file of a fitted material is one that a config can name, and says what was found."""
+"""The file of a fitted material is one that a config can name, and reports the results."""
 
 import re
 from dataclasses import replace

@@ -91,7 +91,7 @@ def test_a_wall_much_thinner_than_another_takes_no_more_lines_than_there_may_be(
 
 
 def test_the_error_falls_with_the_lines(monkeypatch):
-    """Of order 3/2 at least, which is that of a disc."""
+    """The order is 3/2 at least, as for a disc."""
     exact, errors, lines = by_shapely(*tangle()), [], (4, 64)
     for count in lines:
         monkeypatch.setattr(area, "LINES", count)

@@ -24,7 +24,7 @@ T, W, H = 0.8e-3, 12.5e-3, 12.5e-3
     ],
 )
 def test_an_outline_is_as_thick_as_its_lines(lines, sides, caps):
-    """Outer box less the openings: those at the sides lose half of the outline."""
+    """Outer box less the openings: openings at the sides lose half of the outline."""
     lattice = lattice_with(**lines)
     network, pitch = build_network(lattice.geometry), W / 3
     across = [pitch - 0.5 * (sides + T), pitch - T, pitch - 0.5 * (sides + T)]

@@ -41,7 +41,7 @@ def test_a_wall_ends_where_a_third_one_meets_it():
 
 
 def test_ends_between_the_rows_are_loose():
-    """Not those that stand on a platen."""
+    """Ends that stand on a platen are not."""
     joints = ((0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (2.0, 2.0), (1.0, 1.0))
     network = build_drawn(Drawing(joints, ((0, 2), (1, 3), (0, 1), (0, 4))), 0.1)
     assert loose_ends(network).tolist() == [4]

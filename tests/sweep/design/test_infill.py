@@ -1,4 +1,4 @@
-"""Families of infill: what they draw, how much of it, and that it rests."""
+"""Families of infill: their drawings, how much of it, and that it rests."""
 
 import numpy as np
 import pytest
@@ -106,7 +106,7 @@ def test_walls_without_a_vertex_are_found(walls, places):
 @pytest.mark.parametrize("cells", [(1, 1), (3, 3), (2, 4)])
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_a_lattice_fills_its_box_and_hangs_together(kind, way, cells, edge):
-    """No wall ends in the air but those of solid layers, which end with the box."""
+    """No wall ends in the air, except in solid layers, which end with the box."""
     network = build_network(lattice_of(kind, way, cells, **EDGES[edge]).geometry)
     points, walls = network.points, network.walls
     assert points.min(axis=0).tolist() == [0.0, 0.0]
@@ -136,7 +136,7 @@ def overlaps(points, walls):
 @pytest.mark.parametrize("t", [0.02e-3, 0.2e-3])
 @pytest.mark.parametrize(("kind", "way"), KINDS)
 def test_printed_area_counts_joints_once(kind, way, t):
-    """T L - t^2/4 sum cot(g/2): what two arms share between them, or lack outside a corner."""
+    """T L - t^2/4 sum cot(g/2): the area that two arms share, or lack outside a corner."""
     low, high = extent(kind, way, (3, 3))
     width, height = 4e-3 * (high - low)  # regular: no corner is sharper than 60 degrees
     network = build_network(

@@ -50,7 +50,7 @@ def test_gaps_and_overshoots_of_a_drawing_do_not_count():
 
 
 def test_walls_that_overlap_are_one_and_the_last_counts():
-    """As the common sides of hexagons that are drawn one by one."""
+    """Common sides of hexagons that are drawn one by one overlap in this way."""
     made, walls = network([((0, 0), (6, 0)), ((4, 0), (9, 0)), ((9, 0), (4, 0)), ((0, 0), (0, 5))])
     assert walls == {((0, 0), (4, 0)), ((4, 0), (6, 0)), ((6, 0), (9, 0)), ((0, 0), (0, 5))}
     assert sorted(made.line) == [0, 2, 2, 3]

@@ -29,7 +29,7 @@ def test_all_families_have_a_period(kind):
 
 @pytest.mark.parametrize("kind", families())
 def test_all_families_repeat_between_rows_of_any_number(kind):
-    """One column of three rows is what a wide lattice has more per column."""
+    """One column of three rows is the increment of a wide lattice per column."""
     (one, _), (wide, _), (wider, width) = (
         drawn(kind, cells, sides) for cells, sides in ((2, True), (24, False), (28, False))
     )

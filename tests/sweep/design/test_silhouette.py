@@ -77,7 +77,7 @@ def test_sharp_corner_of_unlike_walls_stays_between_their_sides(angle):
 @pytest.mark.parametrize("thin", [0.05 * T, 0.4 * T, T])
 @pytest.mark.parametrize("angle", np.linspace(0.05, 2.0 * np.pi - 0.05, 24))
 def test_all_polygons_are_convex(angle, thin):
-    """As the exact area of a print needs them, however sharp a bend and unlike its walls."""
+    """The exact area of a print needs convex ones, however sharp a bend and unlike its walls."""
     position = np.array([[-9.0, 0.0], [0.0, 0.0], [9.0 * np.cos(angle), 9.0 * np.sin(angle)]])
     loops = np.array(silhouette(position, np.array([[0, 1], [1, 2]]), np.array([T, thin])))
     sides = np.diff(loops, axis=1)

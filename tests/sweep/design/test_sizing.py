@@ -1,4 +1,4 @@
-"""Lattices asked for by a share of infill or by their mass."""
+"""Lattices sized by a share of infill or by their mass."""
 
 from itertools import product
 
@@ -35,7 +35,7 @@ def test_a_share_of_infill_is_met_as_nearly_as_cells_allow(kind, share):
 
 
 def test_share_of_a_square_grid_is_that_of_slicers():
-    """Two lines of width w each pitch, in either direction; those on the outline are no infill."""
+    """Two lines of width w each pitch, in either direction; lines on the outline are no infill."""
     lattice = lattice_with(width=0.1, height=0.1, infill=0.2, perimeters=1)
     assert (lattice.cells_x, lattice.cells_y) == (26, 26)
     assert infill_share(lattice.geometry) == pytest.approx(2 * 0.4e-3 / 0.1 * 25)
@@ -72,7 +72,7 @@ def test_cells_of_a_size_are_the_whole_numbers_that_come_nearest(kind):
 
 
 def test_cells_are_measured_as_they_are_drawn():
-    """Of square cells, the box over their numbers; of honeycomb, the distance of its columns."""
+    """Square cells: the box over their numbers; honeycomb: the distance of its columns."""
     square = lattice_with(width=0.1, height=0.015, cell_size=4e-3)
     assert cell_of(square.geometry) == pytest.approx((4e-3, 3.75e-3))
     comb = lattice_with(kind="hex", width=0.1, height=0.015, cell_size=4e-3)

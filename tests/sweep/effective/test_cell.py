@@ -1,4 +1,4 @@
-"""The period of an infill: its size, its axes, its walls, and what has none."""
+"""The period of an infill: its size, its axes, its walls, and infills without one."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ KINDS = ["square", "brick", "hex", "reentrant", "diamond", "circle", "triangle",
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_part_has_the_cells_of_the_endless_lattice_that_fills_it(kind):
-    """Its period is that of the boundary "periodic" with the same cells."""
+    """Its period equals the period of the boundary "periodic" with the same cells."""
     part = infill_of(of(kind=kind, cells_x=4, cells_y=4))
     frame = frame_of(part)
     again = infill_of(part.case)
@@ -69,7 +69,9 @@ def test_a_lateral_lattice_is_one_of_diamonds():
 
 
 def test_honeycomb_bends_as_its_double_walls_do():
-    """Walls 2 s, s, s thick in turn: the mean second moment is 1.41 times that of the mean."""
+    """Walls 2 s, s, s thick in turn: the mean second moment is 1.41 times the value of the mean
+    wall.
+    """
     lattice = {"slicer": "prusa", "pattern": "honeycomb", "infill": 0.03}
     case = Case.of(
         lattice=BOX | {"width": 0.3, "height": 0.3} | lattice,

@@ -1,4 +1,4 @@
-"""Effective materials: what belongs to what, and what they say of themselves."""
+"""Effective materials: their parts, and their descriptions."""
 
 from math import pi
 

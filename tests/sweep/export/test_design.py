@@ -1,4 +1,4 @@
-"""The design of a case: its drawing, its mass, and what is no part."""
+"""The design of a case: its drawing, its mass, and cases that are no parts."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from tests.support.designs.tables import lattice_with
 
 
 def assert_of_its_volume(case):
-    """Mass / density is the volume of what is drawn; that is returned."""
+    """Mass / density is the volume of the drawing, which is returned."""
     found = design_of(case)
     assert found.volume == pytest.approx(1e-3 * found.grams / case.material.density, rel=1e-12)
     return found

@@ -98,7 +98,7 @@ def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
 
 @pytest.mark.parametrize("sides", [("100 mm", "50 mm"), ("4 in", "2 in"), ("30 mm", "17 mm")])
 def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
-    """Number, true size and mass of the file are those of the ranking and of the search."""
+    """Number, true size and mass in the file agree with the ranking and the search."""
     from sweep.config.grid import Config
     from sweep.running.searching.design_space import DesignSpace
 

@@ -38,7 +38,7 @@ def printed(name, direction):
 
 @pytest.mark.parametrize("name", ["gyroid", "schwarz_p", "schwarz_d"])
 def test_walls_have_the_volume_between_parallel_surfaces(name):
-    """Steiner: area x t + t^3 / 12 x 2 pi x the Euler characteristic."""
+    """Steiner: volume = area x t + t^3 / 12 x 2 pi x the Euler characteristic."""
     lattice = case(name).lattice
     t, periods = lattice.wall_thickness, 1.5 * lattice.depth / lattice.period
     volume = 1.5 * lattice.area * t + 2 * pi * EULER[name] * periods * t**3 / 12

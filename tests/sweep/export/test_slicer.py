@@ -1,4 +1,4 @@
-"""What slicers are asked for: the fields that their code reads.
+"""The settings for slicers: the fields that their code reads.
 
 The readers: PrusaSlicer at commit 68e6f8ad, `src/libslic3r/Format/3mf.cpp` (line 88 and
 `_3MF_Exporter::_add_model_config_file_to_archive` name the file and its fields;

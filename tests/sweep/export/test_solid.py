@@ -1,4 +1,4 @@
-"""Bodies are closed and weigh what was computed."""
+"""Bodies are closed and have the computed mass."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Predictions: ranges over cases, ratios over a key; and those that are stored."""
+"""Predictions: ranges over cases, ratios over a key; and stored predictions."""
 
 from dataclasses import replace
 
@@ -122,7 +122,7 @@ def test_stored_predictions_come_out_again(name, tmp_path):
     ],
 )
 def test_slow_configs_hold_a_number(name, column, value):
-    """Of their first case."""
+    """The number belongs to their first case."""
     summary = simulate(load_config(f"published/{name}").cases[0]).summary
     assert summary["status"] == "converged"
     assert summary[column] == pytest.approx(value, rel=2e-3)

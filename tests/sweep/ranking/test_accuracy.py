@@ -1,4 +1,4 @@
-"""Accuracy studies: errors and orders of made-up and of real sweeps, and what they answer."""
+"""Accuracy studies: errors and orders of made-up and of real sweeps, and their answers."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What designs are worth to a search, and the front of two aims."""
+"""Values of designs in a search, and the front of two aims."""
 
 import pytest
 
@@ -59,7 +59,7 @@ def test_rows_without_the_allowed_force_are_refused():
 
 
 def test_front_of_two_aims():
-    """The design of 3 g absorbs less than that of 2 g."""
+    """The design of 3 g absorbs less than the design of 2 g."""
     found = front(table(), asked(by="absorbed_energy_J"), "mass_g")
     assert list(found["mass_g"]) == [1.0, 2.0, 4.0]
     found = front(table(max_crossings=1), asked(by="absorbed_energy_J"), "mass_g")

@@ -1,4 +1,4 @@
-"""Which mass a budget limits, and what is within it."""
+"""Which mass a budget limits, and which designs are within it."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from tests.support.results.specimens import designs, ids, summary
 
 
 def test_a_design_that_weighs_just_the_budget_is_within_it():
-    """But for round-off, that is, which no scale would tell; in the notes of the table too."""
+    """Round-off, which no scale would show, does not count; in the notes of the table neither."""
     table = summary(*designs([25.0000000000012, 25.000001], [0.1, 0.2]))
     ranking = ranked(table, budget="25 g")
     assert ids(ranking.table) == [0]

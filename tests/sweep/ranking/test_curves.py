@@ -15,7 +15,7 @@ PANEL = ("130 mm", "50 mm")
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
-    """Three crushes, one of a specimen twice as wide, and one that failed; all curves are those of
+    """Three crushes, one of a specimen twice as wide, and one that failed; all curves come from
     `there_and_back`: 20 N + 2 N/mm over 4 mm.
     """
     rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.1, 0.1, 0.1])
@@ -41,7 +41,7 @@ def test_any_force_of_a_specimen_can_be_ranked_by(file):
 
 
 def test_round_off_of_stored_curves_is_no_doubt(file):
-    """What is absorbed up to a force that is never reached is all that was absorbed."""
+    """The energy up to a force that is never reached is all absorbed energy."""
     before = read_summary(file).head(3)
     whole = with_allowed(file, before, Question(allowed_force=1e3))[AT_ALLOWED]
     barely = before.assign(absorbed_energy_within_model_J=whole * (1.0 - 1e-7))

@@ -45,7 +45,9 @@ def test_a_foam_of_constant_stress_slows_every_weight_by_stress_over_static_stre
 
 @pytest.mark.parametrize("height", [1e-6, 0.01, 0.5])
 def test_a_spring_slows_a_weight_as_the_textbook_says(height):
-    """Of stiffness K, m g at its end: G = 1 + sqrt(1 + 2 K H / (m g)); K / (m g) = k / (p T)."""
+    """With the stiffness K, and m g at its end: G = 1 + sqrt(1 + 2 K H / (m g)); K / (m g) = k / (p
+    T).
+    """
     static, peak = cushion_curve(SPRING, height)
     known = 1.0 + np.sqrt(1.0 + 2.0 * 200e3 * height / (static * THICKNESS))
     np.testing.assert_allclose(peak, known)
@@ -53,7 +55,9 @@ def test_a_spring_slows_a_weight_as_the_textbook_says(height):
 
 
 def test_a_weight_stops_where_it_first_may():
-    """Under no stress beyond 40 % the weight goes on, and what is below that is not for it."""
+    """Under no stress beyond 40 % the weight moves on, and stresses below that do not count for
+    it.
+    """
     work = 50e3 * STRAIN.clip(max=0.4)
     static, peak = cushion_curve(crushed(np.full(801, 50e3), work), 0.01)
     assert np.all(np.diff(static) > 0.0)
@@ -87,7 +91,7 @@ def test_a_shoulder_is_within_the_curve():
 
 
 def test_energy_below_a_stress():
-    """Of a spring, stress^2 / (2 k), up to 160 kPa; a foam has all below any stress but its own."""
+    """A spring absorbs stress^2 / (2 k) up to 160 kPa; a foam absorbs all at its own stress."""
     stresses = np.array([0.1, 80e3, 160e3, 500e3])
     found = absorbed_below(SPRING, stresses)
     np.testing.assert_allclose(found, [np.nan, 16e3, 64e3, 64e3], rtol=1e-6)

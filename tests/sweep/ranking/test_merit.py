@@ -1,4 +1,4 @@
-"""What counts: energy up to a force or until packed, of a panel, and force under a striker."""
+"""Counted values: energy up to a force or until packed, of a panel, and force under a striker."""
 
 import pandas as pd
 import pytest
@@ -20,7 +20,7 @@ def struck(force, energy, **other):
 
 
 def test_steps_are_coarse_by_the_measure_of_their_loading():
-    """A crush may lose what snaps, and statics has no share."""
+    """A crush may lose much energy in snaps, and statics has no such share."""
     loads = [{"loading_mode": "force", "force_N": 5.0, "path_error": e} for e in (0.004, 0.006)]
     blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
     crushed = [{"integrator_share": share} for share in (0.9, NAN)]

@@ -1,4 +1,6 @@
-"""Rankings of few columns are those of all, and no column that places are decided by is missing."""
+"""Rankings with few columns equal rankings with all, and no column that decides places is
+missing.
+"""
 
 import ast
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Rankings: who is compared with whom, by what, and what is left out."""
+"""Rankings: which designs are compared, by which column, and which are left out."""
 
 import itertools
 
@@ -68,7 +68,7 @@ def test_budgets_are_refused_for_periods_without_a_panel():
 
 
 def test_periods_fill_a_panel_in_parts():
-    """Of twice the area a period is twice as heavy: both panels weigh and absorb the same."""
+    """A period of twice the area is twice as heavy: both panels weigh and absorb the same."""
     rows = designs([4.0, 2.0], [0.4, 0.2], depth_m=0.01, sides="tied, fixed period")
     for row, width in zip(rows, (0.04, 0.02), strict=True):
         row["outer_width_m"] = width

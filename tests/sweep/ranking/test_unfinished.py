@@ -159,8 +159,8 @@ def first(ranking):
 
 @pytest.mark.parametrize("seed", range(GRIDS))
 def test_no_first_place_changes_without_a_word(seed):
-    """The first design of a grid with stopped cases is that of the whole grid, or the case that is
-    first there is named; no case is promised a place that it does not have.
+    """The first design of a grid with stopped cases is also first in the whole grid, or the case
+    that is first there is named; no case is promised a place that it does not have.
     """
     rng = np.random.default_rng([38, seed])
     (whole, broken), asked = grids(rng), question(rng)

@@ -15,7 +15,7 @@ IDS = [f"{k:016x}" for k in range(3)]
 
 @pytest.fixture
 def results(tmp_path):
-    """Three designs of a grid, of which the last one has failed."""
+    """Three designs of a grid, the last of which has failed."""
     rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
     for row, cells in zip(rows, (2, 3, 4), strict=True):
         row |= {"lattice.cells_x": cells, "lattice.cells_y": 3}

@@ -17,7 +17,7 @@ def test_flat_platens_have_none():
 
 
 def test_a_striker_and_ribs_come_back_from_a_file(tmp_path):
-    """Beside a case without them, and in mm."""
+    """The file also has a case without them; outlines are in mm."""
     shapes = dict(striker="round", striker_at=0.2, base="ribs", base_span=8e-3)
     results = [simulate(pressed(**SMALL)), simulate(pressed(**SMALL, **shapes))]
     with Writer(tmp_path / "hit.h5") as writer:

@@ -101,7 +101,7 @@ def test_patterns_of_both_directions_have_their_drawings(published):
 
 @pytest.mark.usefixtures("unpainted")
 def test_masses_of_unequal_periods_are_in_no_picture(published):
-    """As in a ranking, whose Pareto front then is per pressed area."""
+    """Their ranking, too, has its Pareto front per pressed area."""
     rows = designs([1.0, 4.0], [0.2, 0.4], depth_m=0.01, sides="tied, fixed period")
     equal = [row | {"outer_width_m": 0.02} for row in rows]
     assert "absorption.png" in published(summary(*equal))

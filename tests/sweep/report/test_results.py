@@ -16,7 +16,7 @@ PNG = b"\x89PNG"
 
 @pytest.fixture
 def file(tmp_path):
-    """Three designs with curves and shapes, of which the last one has failed."""
+    """Three designs with curves and shapes, the last of which has failed."""
     rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
     rows[2]["status"] = "stopped"
     return write(tmp_path / "trial.h5", summary(*rows))

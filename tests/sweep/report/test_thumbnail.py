@@ -1,4 +1,4 @@
-"""Small drawings: their lines, their size, what is left out."""
+"""Small drawings: their lines, their size, and omitted drawings."""
 
 import re
 
@@ -23,7 +23,7 @@ def test_the_shape_at_rest_is_drawn():
 
 
 def test_elements_of_a_straight_wall_are_one_line():
-    """A cross of which each arm has three elements, and a kinked wall beside it."""
+    """A cross with arms of three elements each, and a kinked wall next to it."""
     arms = [[k * x, k * y] for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1)) for k in (1, 2, 3)]
     kinked = [[5, 0], [6, 0], [6.5, 1]]
     edges = [edge for a in (1, 4, 7, 10) for edge in ((0, a), (a, a + 1), (a + 1, a + 2))]

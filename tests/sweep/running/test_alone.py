@@ -50,7 +50,7 @@ def test_of_several_only_the_one_that_kills_is_such_a_row():
 
 
 def test_a_case_that_does_not_end_by_itself_is_killed_in_time():
-    """Neither those before it nor those after it are lost."""
+    """Neither the cases before it nor the cases after it are lost."""
     batch = [case.changed(solver={"time_limit": 1.0}) for case in cases(4)]
     started = time.monotonic()
     first, late, defect = run_alone(poisonous, [batch[0], *batch[2:]])

@@ -1,4 +1,4 @@
-"""Requirements of which no case has a value."""
+"""Requirements for which no case has a value."""
 
 from pathlib import Path
 

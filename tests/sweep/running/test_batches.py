@@ -29,7 +29,7 @@ def test_shortest_case_first_then_the_longest():
 
 
 def test_cases_of_a_lattice_follow_one_another():
-    """So that it is built once; those that take longer go first none the less."""
+    """The lattice is then built once; longer cases go first nevertheless."""
     made = [
         Case.of(
             lattice=dict(width=0.01 * w, cells_x=n),
@@ -54,7 +54,7 @@ def test_batches_hold_about_a_second_and_shrink_towards_the_end():
     while batch := plan.take():
         sizes.append(len(batch))
         plan.learn(batch, 0.02 * len(batch))
-    assert sizes[:6] == [1, 2, 4, 8, 16, 32]  # no more than have told of the pace
+    assert sizes[:6] == [1, 2, 4, 8, 16, 32]  # no more than have been measured
     assert 49 <= sizes[6] <= max(sizes) <= 50
     assert sizes[-1] <= 5
     assert sum(sizes) == 999

@@ -1,4 +1,4 @@
-"""What may be given as a scheduler, and what is said of anything else."""
+"""Allowed schedulers, and the messages for anything else."""
 
 import asyncio
 import json
@@ -140,7 +140,7 @@ def test_slurm_without_its_package_names_the_extra(monkeypatch):
 
 @pytest.fixture
 def jobqueue(monkeypatch, dask_cluster):
-    """A module in place of dask-jobqueue; its cluster notes what is asked of it."""
+    """A module in place of dask-jobqueue; its cluster records the requests to it."""
     asked = {}
     module = ModuleType("dask_jobqueue.slurm")
     module.SLURMCluster = lambda: dask_cluster

@@ -161,7 +161,7 @@ class Unfinished:
 
 
 class Recorded:
-    """A run on workers that do nothing, and what is submitted to them."""
+    """A run on workers that do nothing, and the calls that are submitted to them."""
 
     def __init__(self, batch=(), kernels=("marches",)):
         self.calls, self.lines = [], []
@@ -189,14 +189,14 @@ class Recorded:
         return future
 
     def end(self, value):
-        """The first call ends with a value; return who was called and what."""
+        """End the first call with a value; return the called worker and function."""
         worker, function, _, future = self.calls.pop(0)
         self.run._land(future, value)
         return worker, function
 
     @property
     def waiting(self):
-        """Who is called, and what."""
+        """The called workers and functions."""
         return [(worker, function) for worker, function, *_ in self.calls]
 
 

@@ -81,6 +81,6 @@ def test_killed_run_is_completed_to_the_same_table(config, tmp_path):
         one, other = (read_history(path, case_id) for path in (out, reference))
         pd.testing.assert_frame_equal(one, other)
 
-    # The processor time of a run is never the same twice: what was finished was not touched again.
+    # The processor time of a run is never the same twice: finished rows were not computed again.
     times = after.set_index("case_id")["cpu_s"]
     assert (times[before["case_id"]].to_numpy() == before["cpu_s"].to_numpy()).all()

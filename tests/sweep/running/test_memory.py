@@ -1,4 +1,4 @@
-"""The limit of memory: what is free, in the machine and in the control groups of the process."""
+"""The limit of memory: the free memory of the machine and of the control groups of the process."""
 
 from resource import RLIMIT_DATA, getrlimit
 

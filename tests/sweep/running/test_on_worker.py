@@ -1,4 +1,4 @@
-"""What a worker does when it is asked, and what it does not do for another run."""
+"""Requests that a worker fulfils, and requests of another run that it refuses."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Cases that a config computed before it was edited: kept, counted and told of."""
+"""Cases that a config computed before it was edited: kept, counted and reported."""
 
 from importlib import import_module
 

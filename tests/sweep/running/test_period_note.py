@@ -1,4 +1,4 @@
-"""A run says of which cases one period stands for a wide panel, and whether it keeps its width."""
+"""A run says in which cases one period represents a wide panel, and whether it keeps its width."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Where cases run if little or nothing is said of it."""
+"""Where cases run if few or no options say so."""
 
 import dask
 import pytest

@@ -42,7 +42,7 @@ def pid_of(case, control):
 
 
 def test_processes_stay_for_the_next_sweep(tmp_path):
-    """As in a search, whose sweeps are many and short."""
+    """A search has many short sweeps."""
     ids = []
     with open_place(PROCESSES) as place:
         for first in (0, 20):

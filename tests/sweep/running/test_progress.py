@@ -1,4 +1,4 @@
-"""What a user is told while a sweep runs."""
+"""Output for the user while a sweep runs."""
 
 import io
 import sys
@@ -13,7 +13,7 @@ from tests.support.results.standin import cases, simulate
 
 
 class Clock:
-    """Time that passes only when it is told to."""
+    """Time that passes only on request."""
 
     def __init__(self):
         self.now = 100.0
@@ -92,7 +92,7 @@ def test_terminal_has_a_bar_with_failures():
 
 
 def test_last_line_is_told_once(clock):
-    """Also if time passes after it."""
+    """It is not repeated if time passes after it."""
     batch, out = cases(2), io.StringIO()
     with Progress(len(batch), 1.0, console=Console(file=out)) as told:
         clock.now += 9.0

@@ -64,7 +64,9 @@ def test_elastic_walls_and_a_measured_loss_are_never_told():
 
 
 def test_what_is_told_is_true():
-    """Walls whose branches are a hundred times slower than the crush lose 1 % of it at most."""
+    """Walls whose branches are a hundred times slower than the crush lose 1 % of its work at
+    most.
+    """
     shares = []
     for rate in (0.6, 1200.0):
         loading = dict(mode="displacement", strain=0.3, strain_rate=rate)

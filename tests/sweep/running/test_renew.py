@@ -1,4 +1,4 @@
-"""Rows of an older model: kept and told of, or computed anew, and never lost on the way."""
+"""Rows of an older model: kept and reported, or computed anew, and never lost on the way."""
 
 import os
 import signal

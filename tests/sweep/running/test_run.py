@@ -1,4 +1,4 @@
-"""A sweep from Python: what runs, and what comes back."""
+"""A sweep from Python: its cases, and its results."""
 
 import tomllib
 from contextlib import nullcontext
@@ -67,7 +67,9 @@ def test_a_panel_that_holds_no_specimen_is_refused_before_anything_runs(config):
     ],
 )
 def test_where_cases_run(config, monkeypatch, given, scheduler):
-    """In the scheduler that is given, else that of the environment, unless threads are."""
+    """In the given scheduler, else in the scheduler of the environment, unless threads are
+    given.
+    """
     places = []
     monkeypatch.setattr("sweep.running.run.run_sweep", lambda *how: places.append(how[3]))
     monkeypatch.setattr("sweep.running.run.open_place", nullcontext)

@@ -63,7 +63,9 @@ def numbers(jobs):
 
 
 def is_running(number):
-    """Whether a job has processes left; those that have ended and are not waited for are none."""
+    """Whether a job has processes left; processes that have ended and are not waited for do not
+    count.
+    """
     try:
         os.killpg(number, 0)
     except ProcessLookupError:

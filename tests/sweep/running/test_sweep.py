@@ -171,7 +171,7 @@ def test_the_results_file_is_finished_however_often_it_is_interrupted(tmp_path, 
 
 
 def test_last_results_become_a_part_where_the_one_file_cannot_be_finished(tmp_path, monkeypatch):
-    """Somebody has removed the file that grows."""
+    """The growing file has been deleted."""
     fold, out = Writer.fold, tmp_path / "sweep.h5"
 
     def robbed(writer, last):
@@ -207,18 +207,18 @@ def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
 
 
 @pytest.fixture
-def told():
+def progress():
     return Progress(9, 9.0)
 
 
 def took(share, numbers):
-    """Results that each took this share of what may be at risk for a worker."""
+    """Results that each took this share of the time that a worker may lose."""
     found = [simulate(case) for case in cases(len(numbers), numbers[0])]
     return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
 
 
 class AtOnce:
-    """A pool of threads that does in this one what it is asked to."""
+    """A pool of threads that runs its calls at once in this thread."""
 
     def __init__(self, *_):
         pass
@@ -234,20 +234,20 @@ class AtOnce:
 
 
 def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
-    tmp_path, told, monkeypatch
+    tmp_path, progress, monkeypatch
 ):
-    """Two workers: what is at risk is at most twice as much. NaN might be any time."""
+    """Two workers: the time at risk is at most twice as much. NaN might be any time."""
     monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", AtOnce)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
-    with Writer(out) as writer, result_sink(writer, Plan([], workers=2), told) as keep:
+    with Writer(out) as writer, result_sink(writer, Plan([], workers=2), progress) as keep:
         for share, numbers in batches:
             keep(took(share, numbers))
             sealed.append(len(read_summary(out)))
-            assert told.done == sealed[-1]
+            assert progress.done == sealed[-1]
         assert len(parts_of(out)) == 3
     assert sealed == [1, 1, 4, 4, 6, 6]
-    assert len(read_summary(out)) == told.done == 7
+    assert len(read_summary(out)) == progress.done == 7
     assert [entry.name for entry in tmp_path.iterdir()] == ["sweep.h5"]
 
 
@@ -268,9 +268,9 @@ def test_error_of_the_writer_thread_ends_the_sweep_and_keeps_what_is_sealed(tmp_
     assert 0 < len(read_summary(out)) < 40
 
 
-def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, told):
+def test_error_in_the_middle_of_a_sweep_loses_no_result_that_has_come_in(tmp_path, progress):
     def broken_off(out):
-        with Writer(out) as writer, result_sink(writer, Plan([], workers=2), told) as keep:
+        with Writer(out) as writer, result_sink(writer, Plan([], workers=2), progress) as keep:
             keep(took(0.1, [0]))
             keep(took(0.1, [1, 2]))
             raise ClusterError("lost the scheduler")

@@ -99,7 +99,7 @@ def test_error_of_the_sink_ends_the_sweep():
 
 
 def test_stop_reaches_running_cases_and_forgets_them():
-    """Two cases run at a time; those that the stop cuts short are not results."""
+    """Two cases run at a time; cases that the stop cuts short are not results."""
     stop, running = Stop(), threading.Semaphore(0)
 
     def endless(case, control):

@@ -1,4 +1,4 @@
-"""The kernels of cases: which they are, and that those that are cold are announced."""
+"""The kernels of cases: which they are, and that uncached ones are announced."""
 
 import pytest
 
@@ -12,7 +12,7 @@ ALONG = {"direction": "out_of_plane"}
 
 @pytest.fixture
 def cold(monkeypatch):
-    """Kernels none of which is kept, and the names of those that are loaded."""
+    """Kernels none of which is cached, and the names of the loaded ones."""
     loaded = []
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda name: name not in loaded)
     monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda name: None)

@@ -1,4 +1,4 @@
-"""Arcs along the path of a structure: how long they are, what weighs in them, what is kept."""
+"""Arcs along the path of a structure: their length, their weights, their history."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What of a scene may touch: walls, and nodes with platens."""
+"""Parts of a scene that may touch: walls, and nodes with platens."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Coordinates: where they are, which of them are held, and what leads the others."""
+"""Coordinates: their order, which of them are held, and which lead the others."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from tests.support.designs.grids import LOADINGS, row_of_nodes, scene_of
 @pytest.mark.parametrize("elements", [1, 3])
 @pytest.mark.parametrize("platen", LOADINGS)
 def test_what_is_held_and_what_moves_with_the_platen(platen, elements):
-    """A clamped row is held in x, y and phi; a glued upper one too, but for y, the platen's."""
+    """A clamped row is held in x, y and phi; a glued upper one too, except in y, the platen's."""
     scene = scene_of(elements, platen)
     leader = scene.terms.layout.leader
     low, high = leader.size - 2, leader.size - 1

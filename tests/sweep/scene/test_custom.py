@@ -186,7 +186,7 @@ def test_nothing_but_inner_nodes_moves():
 
 
 def test_spring_bears_its_share():
-    """A spring under the end of a beam, 3 Y I / l^3 beside its own stiffness."""
+    """A spring under the end of a beam, 3 Y I / l^3 compared with its own stiffness."""
     beam = 3.0 * BENDING / L**3
     parts = BEAM | {
         "nodes_mm": [[0, 0], [LENGTH, 0], [0, -50], [LENGTH, -50]],

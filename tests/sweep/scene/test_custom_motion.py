@@ -110,7 +110,7 @@ def on_incline(slope, friction, duration):
 
 @pytest.mark.parametrize("friction", [0.1, 0.3, 0.6])
 def test_block_on_an_incline(friction):
-    """It sticks, but for a creep below the slip speed, up to atan(mu), and slides above."""
+    """It sticks, except for a creep below the slip speed, up to atan(mu), and slides above."""
     below, above = (np.arctan(share * friction) for share in (0.99, 1.01))
     assert 0.0 < on_incline(below, friction, 0.4) < 1e-3
     assert on_incline(above, friction, 0.4) > 1.5e-3

@@ -1,4 +1,4 @@
-"""Kinds of solid joints: which are known by their openings, and what their arms yield."""
+"""Kinds of solid joints: which are known by their openings, and the compliance of their arms."""
 
 import numpy as np
 import pytest

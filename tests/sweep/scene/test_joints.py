@@ -1,4 +1,4 @@
-"""Solid joints: what their elements yield, which walls they are in, and their mesh."""
+"""Solid joints: compliance of their elements, which walls have them, and their mesh."""
 
 import numpy as np
 import pytest
@@ -110,7 +110,7 @@ def lengths(network):
 
 
 def test_joints_are_continuous_in_the_thickness():
-    """Also where they begin to fill their walls, which they do in some of these thicknesses."""
+    """Some of these thicknesses lie where joints begin to fill their walls."""
     full = 0
     for thickness in np.linspace(0.4e-3, 1.4e-3, 11):
         one, two = (

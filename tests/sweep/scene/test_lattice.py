@@ -1,4 +1,4 @@
-"""A lattice between platens: what loads it, how it moves with them, where it is read."""
+"""A lattice between platens: its loads, its motion with them, and where it is measured."""
 
 import numpy as np
 import pytest

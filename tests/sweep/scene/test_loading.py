@@ -1,4 +1,4 @@
-"""Stages of loading, and what counts as converged."""
+"""Stages of loading, and the criteria of convergence."""
 
 import numpy as np
 import pytest
@@ -52,7 +52,7 @@ def test_a_crush_is_repeated():
 
 
 def test_a_load_moves_the_free_mass_by_the_height_in_the_time_of_a_fall():
-    """As far as a constant force accelerates it; other integrators and loadings take no account."""
+    """A constant force accelerates it; other integrators and loadings do not use this time."""
     case = Case.of(loading=dict(force=30.0))
     scene = build_scene(case)
     y_masses = scene.terms.coordinates.mass[1 : 2 * scene.terms.layout.n_nodes : 2]

@@ -156,7 +156,7 @@ def test_a_record_that_ends_early_goes_on_straight(own_record):
 
 @pytest.mark.parametrize("name", ["pla", "abs"])
 def test_a_plastic_is_first_straight_and_then_hardens(name):
-    """As the kernels' law pulls it in one step from rest."""
+    """The curve equals the law of the kernels, strained in one step from rest."""
     material = material_with(name=name)
     law = law_in_stretch(material, 1.0).yielding
     memory = Memory(np.zeros((1, STATE)), np.empty((1, 2)), None)

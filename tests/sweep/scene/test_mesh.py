@@ -76,7 +76,7 @@ def test_the_mesh_of_a_lattice_has_its_nodes_and_its_imperfection():
 
 @pytest.mark.parametrize("kind", ["square", "hex"])
 def test_an_outer_row_has_the_nodes_of_its_walls(kind):
-    """Those of a honeycomb are corners of cells, with no wall between them."""
+    """The nodes of a honeycomb are corners of cells, with no wall between them."""
     network = network_of(kind)
     mesh = split_walls(network, 4, 0.0)
     for joints, y in ((network.bottom, 0.0), (network.top, 18e-3)):

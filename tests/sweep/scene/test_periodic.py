@@ -1,4 +1,4 @@
-"""An endless lattice: what it may not depend on, its book, its derivatives."""
+"""An endless lattice: its invariances, its book, its derivatives."""
 
 from unittest.mock import patch
 
@@ -88,7 +88,7 @@ def test_the_book_is_closed_and_the_work_is_that_of_the_mean_stress():
 
 
 def crushed(lattice, strain, steps=20):
-    """Scene and coordinates of a lattice that is pressed, and what a step there minimises."""
+    """Scene and coordinates of a pressed lattice, and the potential of a step there."""
     case = pressed(lattice)
     scene = periodic.build_periodic(case)
     state = at_rest(scene)

@@ -1,4 +1,4 @@
-"""Scenes with strikers and ribs: where they touch at rest, what is held, what is in contact."""
+"""Scenes with strikers and ribs: where they touch at rest, held rows, and contact."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,9 @@ def scene_of(mode="displacement", lattice=HEX, **loading):
 @pytest.mark.parametrize("at", [0.0, 0.3, 0.5, 1.0])
 @pytest.mark.parametrize("striker", ["round", "edge", "punch"])
 def test_a_striker_touches_the_lattice_at_rest(striker, at):
-    """By the surface of a wall, half a thickness off its centre line, no higher than a plate."""
+    """It touches the surface of a wall, half a thickness off its centre line, no higher than a
+    plate.
+    """
     scene, flat = scene_of(striker=striker, striker_at=at), scene_of()
     touch = scene.terms.contact
     assert profile.least_gap(scene.x_rest, touch.profiles) == pytest.approx(0.4e-3, abs=1e-9)

@@ -30,7 +30,7 @@ def test_the_modulus_falls_as_a_power_of_time(loss):
 
 @pytest.mark.parametrize("loss", LOSSES)
 def test_the_exponent_is_that_of_the_loss(loss):
-    """Against the closed form of a strip, integrated without it; 4 ln 2 beta if small."""
+    """The closed form of a strip, integrated independently; 4 ln 2 beta if small."""
     beta = exponent(loss)
     assert lost_share(beta) == pytest.approx(loss, rel=1e-12)
 

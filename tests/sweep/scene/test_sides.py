@@ -134,7 +134,7 @@ def test_the_book_is_closed(platen, friction):
 
 
 def crushed(case, steps=20):
-    """Scene and coordinates of a lattice that is pressed, and what a step there minimises."""
+    """Scene and coordinates of a pressed lattice, and the potential of a step there."""
     scene = build_tied(case)
     state = at_rest(scene)
     outcome, _ = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, case.loading.stroke)))
@@ -160,7 +160,7 @@ STRUCK = {"glued": 0.3, "sliding": 0.3, "contact": 0.3}
 @pytest.mark.parametrize("integrator", ["backward_euler", "bdf2", "newmark"])
 @pytest.mark.parametrize("platen", STRUCK)
 def test_images_move_with_their_originals_in_an_impact(platen, integrator):
-    """And the support bears the momentum of the striker."""
+    """The support bears the momentum of the striker."""
     case = Case.of(
         lattice=strip("hex", (1, 2), 0.1),
         material=MATERIAL,
@@ -207,7 +207,7 @@ def test_two_periods_below_twice_the_mass_are_as_good_as_one(platen, falls):
 
 
 def test_a_load_does_the_work_on_a_period_that_a_wide_lattice_gains():
-    """With the same load on every column, of which free sides have one more."""
+    """With the same load on every column; a lattice with free sides has one more."""
 
     def work(sides, n, columns):
         lattice = dict(kind="square", cells_x=n, cells_y=2, width=n * L, height=2 * L, sides=sides)

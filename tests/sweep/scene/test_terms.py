@@ -1,4 +1,4 @@
-"""The terms of a scene: masses, what the solver is told, plane stress, damping, friction."""
+"""The terms of a scene: masses, data for the solver, plane stress, damping, friction."""
 
 import numpy as np
 import pytest

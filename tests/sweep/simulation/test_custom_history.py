@@ -1,4 +1,4 @@
-"""History columns of structures: what loads them, where their probes are, what they bear."""
+"""History columns of structures: their load, their probes, and their reactions."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What each cycle of a crush absorbs, loses and passes on."""
+"""Energy absorbed and lost, and force transmitted, in each cycle of a crush."""
 
 import numpy as np
 import pytest

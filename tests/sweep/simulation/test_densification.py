@@ -87,7 +87,8 @@ def bumpy(seed):
 def slope(force):
     """Bound of the change of each column / greatest change of the force, for small changes.
 
-    Of a mean of x: that of x itself, and range of x times change of the weights / their integral.
+    For a mean of x: the bound of x itself, and range of x times change of the weights / their
+    integral.
     """
     eta, work = gained(force), np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * 1e-3))
     near = eta > (1.0 - BAND) * eta.max()
@@ -130,7 +131,7 @@ def test_a_narrow_band_gives_the_maximum():
 def test_a_foam_packs_a_little_before_its_maximum():
     """10 N up to 50 %: eta = e - 0.05 up to 0.45 there, then falls below 0.36 within 0.7 %.
 
-    The mean over the triangle from 41 to 50 % is 47 %; what follows adds 0.2 %.
+    The mean over the triangle from 41 to 50 % is 47 %; the strains beyond add 0.2 %.
     """
     foam = np.interp(STRAIN, [0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])
     energy, force, strain = measured(foam)

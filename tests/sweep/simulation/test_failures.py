@@ -1,4 +1,6 @@
-"""A case that cannot finish is a row with a sentence: nothing raises, what was done is kept."""
+"""A case that cannot finish is a row with a message: nothing raises, and finished steps are
+kept.
+"""
 
 import threading
 import time
@@ -150,7 +152,7 @@ def test_a_load_of_which_round_off_is_left_over_is_too_small(newton, status):
 
 
 def test_every_end_of_the_solver_has_its_advice():
-    """But for those after which the march goes on, or calls the solver again."""
+    """Except those after which the march continues, or calls the solver again."""
     known = {value for name, value in vars(outcomes).items() if name.isupper()}
     goes_on = {outcomes.CONVERGED, outcomes.OUTGROWN, outcomes.UNFINISHED}
     assert {*ADVICE, outcomes.INTERRUPTED} == known - goes_on

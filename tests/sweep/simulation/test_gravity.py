@@ -37,7 +37,9 @@ def column(steps=2000, integrator="newmark", damping=None, **loading):
 
 
 def test_a_drop_on_a_spring():
-    """Of sag d: x = d (1 - cos w t) + v / w sin w t; G = 1 + (1 + 2 H / d)^0.5 = 3 at H = 1.5 d."""
+    """With the sag d: x = d (1 - cos w t) + v / w sin w t; G = 1 + (1 + 2 H / d)^0.5 = 3 at H = 1.5
+    d.
+    """
     result = run(column())
     history, swing = result.history, np.sqrt(STIFFNESS / MASS)
     time, speed = history["time_s"], np.sqrt(2 * STANDARD_GRAVITY * FALL)
@@ -124,7 +126,7 @@ def test_drops_have_gravity(loading, gravity):
 
 
 def test_a_heavy_box_set_down_hard():
-    """544 g from 100 mm: 17 to 20 g0, as of the curve of a crush at the speed of the touch.
+    """544 g from 100 mm: 17 to 20 g0, by the curve of a crush at the speed of the touch.
 
     Impact and curve differ as the striker slows down, and the walls have mass.
     """

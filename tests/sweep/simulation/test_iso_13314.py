@@ -22,7 +22,7 @@ def foam(end=0.7):
 
 
 def test_a_foam():
-    """Up to 50 %: 5 + 40 J/m^3. The plateau ends at 63 %, after 5 + 50 + 3 x 1.15 J/m^3."""
+    """Energy up to 50 %: 5 + 40 J/m^3. The plateau ends at 63 %, after 5 + 50 + 3 x 1.15 J/m^3."""
     assert foam() == pytest.approx(
         {
             "plateau_stress_iso_Pa": 100.0,
@@ -74,7 +74,9 @@ def test_a_first_peak_is_no_end_of_the_plateau_but_lowers_the_efficiency():
 
 
 def test_a_spring_leaves_its_plateau_within_it():
-    """Of 1000 Pa x strain the mean is 300 Pa; 390 Pa are met at 39 %, with half of the square."""
+    """With 1000 Pa x strain, the mean is 300 Pa; 390 Pa are met at 39 %, with half of the
+    square.
+    """
     found = measured([0.0, 0.7], [0.0, 700.0])
     assert found["plateau_stress_20_30_Pa"] == pytest.approx(250.0)
     assert found["plateau_end_strain"] == pytest.approx(0.39)

@@ -1,4 +1,4 @@
-"""Retries of a case that stops: what is tried, which result counts, and what its row says."""
+"""Retries of a case that stops: which are tried, which result counts, and the text of its row."""
 
 from dataclasses import replace
 
@@ -207,7 +207,7 @@ def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones()
 
 
 def test_an_impact_of_far_too_many_steps_is_followed_until_the_striker_is_back():
-    """A light striker that bounces off one wall, of which the usual duration is a million steps."""
+    """A light striker that bounces off one wall, whose usual duration is a million steps."""
     loading = dict(mode="impact", striker_mass=3e-6, striker_speed=0.05, duration=40.0)
     solver = dict(integrator="bdf2", time_step=0.05)
     result = simulate_again(Case.of(loading=loading, solver=solver))

@@ -1,4 +1,4 @@
-"""What is read off stored shapes, on shapes made by hand."""
+"""Measures of stored shapes, on shapes made by hand."""
 
 from itertools import combinations
 

@@ -32,7 +32,7 @@ def before(first, function):
 
 @pytest.fixture
 def seconds(monkeypatch):
-    """Processor time of a small case, of which some part does something else before."""
+    """Processor time of a small case, which starts with other work."""
     warm_up()
     case = Case.of(loading=dict(release_time=1e-4, duration=2e-4))
 

@@ -1,4 +1,4 @@
-"""What is solid of a sheet: the same on any mesh, and by the slicer's lines."""
+"""The solid of a sheet: the same on any mesh, and by the slicer's lines."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def test_the_mass_of_a_sheet_is_area_times_thickness(nodes):
 
 
 def test_a_slicer_draws_a_little_more_than_it_extrudes():
-    """Where the sheet lies flat, a line is a layer high."""
+    """A line is a layer high where the sheet lies flat."""
     values = {"slicer": "prusa", "pattern": "gyroid", "infill": 0.2, "nodes_per_wall": 4}
     case = Case.of(lattice=values, loading={"direction": "out_of_plane"})
     of = build_scene(case)

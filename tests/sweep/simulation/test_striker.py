@@ -150,7 +150,7 @@ def test_impulse_of_the_striker_s_force_is_its_change_of_momentum(platen, count,
 
 @pytest.mark.parametrize("count", [2000, 30.5])
 def test_what_pushes_the_striker_is_what_its_support_bears(count):
-    """Walls without mass pass on what a striker exerts, at the end of a backward Euler step."""
+    """Walls without mass transmit the force of a striker, at the end of a backward Euler step."""
     history = run(column(count / 2)[0]).history
     off = np.abs(history["reaction_top_N"] - history["reaction_bottom_N"])[1:]
     assert off.max() < 2e-3 * history["reaction_bottom_N"].max()
@@ -212,7 +212,7 @@ def test_columns_of_an_impact(platen):
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_work_on_the_lattice_is_the_area_under_the_striker_s_force(platen):
-    """Until 20 N are first passed on; what flies with the striker brings its own."""
+    """Until 20 N are first transmitted; the row that flies with the striker brings its own."""
     case = struck(platen, 0.3, SEED, striker_mass=0.05, energy=0.1, allowed_forces=(20.0,))
     history, summary = run(case).history, run(case).summary
     force, speed = history["reaction_top_N"], history["striker_speed_m_per_s"]
@@ -331,7 +331,7 @@ def test_the_shipped_sweep_over_hit_energies():
 
 
 def test_the_usual_integrator_of_an_impact_errs_less():
-    """By the stroke left in steps of the usual length, against steps of a quarter of it."""
+    """Error in the stroke left, in steps of the usual length, against steps of a quarter of it."""
 
     def left(integrator, steps=1000):
         return run(struck(damping=SEED, steps=steps, integrator=integrator)).summary[
@@ -344,7 +344,7 @@ def test_the_usual_integrator_of_an_impact_errs_less():
 
 
 def test_the_stroke_left_below_a_tooth_is_known_in_a_crush_too():
-    """And marks it as untrustworthy where it goes through the solid, as that of an impact."""
+    """A crush is marked as doubtful where the tooth goes through the solid, as an impact is."""
 
     def pressed(**loading):
         lattice = dict(cells_x=6, cells_y=3, width=25e-3, height=12.5e-3)

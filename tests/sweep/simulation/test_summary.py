@@ -119,7 +119,7 @@ def test_the_plateau_of_the_standard_is_between_fixed_strains():
 def test_mean_over_greatest_force_until_packed_and_in_the_whole_loading():
     """10 N up to 50 %, packed at 47 % after 42.3 mJ (test_densification); 45 + 30 mJ, 50 N, 6 mm.
 
-    Ideality and cushion factor are those of Miltz & Gruenbaum: their product is 1 / strain.
+    Ideality and cushion factor as by Miltz & Gruenbaum: their product is 1 / strain.
     """
     found = measured(*FOAM)
     assert found["ideality"] == pytest.approx(42.3 / (10.06 * 4.72), rel=5e-3)
@@ -167,7 +167,7 @@ def test_a_struck_lattice_passes_on_what_its_support_bears():
 
 
 def test_work_is_split_where_the_platen_turns():
-    """45 mJ down to 50 %, of which a force of 2 N gives 10 mJ back on the way up."""
+    """45 mJ down to 50 %, 10 mJ of which a force of 2 N returns on the way up."""
     strain, force = (column[:501] for column in FOAM[:2])
     there_and_back = np.append(strain, strain[-2::-1])
     history = {"work_in_J": worked(there_and_back, np.append(force, np.full(500, 2.0)))}

@@ -1,4 +1,4 @@
-"""Time limits: what takes too long is told so, by one thread for all."""
+"""Time limits: cases that take too long are stopped, by one thread for all."""
 
 import os
 import threading

@@ -136,7 +136,7 @@ def loaded(**solver):
 
 @pytest.mark.parametrize("integrator", LOCAL)
 def test_local_errors_of_a_path_fall_with_the_order_of_the_integrator(integrator):
-    """Of u = 1 - cos t until t = pi: C h^(p+1) max |u^(p+1)| / 2."""
+    """The path u = 1 - cos t until t = pi has the error C h^(p+1) max |u^(p+1)| / 2."""
     order, constant = LOCAL[integrator]
     case = loaded(integrator=integrator)
     for rows in (100, 400):
@@ -184,7 +184,7 @@ def test_the_peak_of_a_dead_load_needs_a_row_beside_it(force, row):
 
 
 def test_the_force_of_a_blow_between_two_rows_is_not_known():
-    """Of the load on its plate, which backward Euler softens."""
+    """A sudden load acts on its plate; backward Euler softens the blow."""
     hard, soft = (simulate(loaded(integrator=each)).summary for each in ("bdf2", "backward_euler"))
     assert np.isnan([hard["peak_force_N"], hard["peak_force_at_densification_N"]]).all()
     assert soft["peak_force_N"] == soft["peak_force_at_densification_N"] >= 10.0

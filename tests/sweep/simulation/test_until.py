@@ -1,4 +1,4 @@
-"""What a curve has reached when it first bears a force."""
+"""Energy and stroke of a curve when it first reaches a force."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A results file or a part that is not what it was: one line that names it and says what to do."""
+"""A damaged results file or part: one line that names it and says what to do."""
 
 import os
 import subprocess
@@ -188,7 +188,7 @@ def test_no_text_lies_in_a_heap(path, fold):
 
 
 def test_the_references_to_the_scale_are_not_read(path):
-    """A heap that has no end, at which `h5dump` would not come to one either."""
+    """A heap without an end, which `h5dump` would read for ever too."""
     write(path, cases(2), fold=True)
     before = read_summary(path), read_history(path, cases(1)[0].case_id)
     flipped(path, path.read_bytes().find(b"GCOL") + 16, 0)

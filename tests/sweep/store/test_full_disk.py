@@ -1,4 +1,4 @@
-"""A disk that fills up: one line, no crash, and what is sealed stays."""
+"""A disk that fills up: one line, no crash, and sealed results stay."""
 
 import os
 import subprocess

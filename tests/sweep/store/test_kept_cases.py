@@ -1,4 +1,4 @@
-"""The case of every row: kept in parts and in the folded file, read only when it is asked for."""
+"""The case of every row: kept in parts and in the folded file, read only when it is requested."""
 
 import h5py
 import numpy as np
@@ -60,7 +60,7 @@ def test_cases_are_read_as_they_were(path, folded, monkeypatch):
 
 
 def test_fold_after_fold_keeps_the_cases_of_all_runs(path):
-    """Also where rows of the file are computed again, and others come between them."""
+    """Rows of the file are computed again, and others come between them."""
     write(path, cases(5), fold=True)
     write(path, cases(5, first=3))
     with Writer(path, {case.case_id: case.axes for case in reversed(cases(10))}) as writer:
@@ -168,7 +168,7 @@ def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path
 
 
 def test_texts_written_otherwise_are_compared_by_their_ids(path):
-    """As those of an older Crumple are."""
+    """An older Crumple wrote some numbers in another form."""
     batch = cases(3)
     write(path, batch, fold=True)
     edited(path, b'"imperfection":0.002', b'"imperfection":2e-03')

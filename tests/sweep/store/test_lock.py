@@ -72,7 +72,7 @@ def test_other_errors_are_errors(tmp_path):
 
 
 def test_the_system_releases_the_lock_of_a_dead_holder(tmp_path):
-    """What it has left of the file is no lock."""
+    """The file that it has left behind is no lock."""
     (tmp_path / "lock").write_text(str(dead_process()))
     with exclusive(tmp_path / "lock"):
         pass

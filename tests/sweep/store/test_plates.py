@@ -1,4 +1,6 @@
-"""Shapes of plates, whose nodes have three coordinates, beside those of walls in the plane."""
+"""Shapes of plates, whose nodes have three coordinates, together with shapes of walls in the
+plane.
+"""
 
 import h5py
 import numpy as np

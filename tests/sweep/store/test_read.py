@@ -1,4 +1,4 @@
-"""The results file: what is sealed is read back, whatever happens to the writer."""
+"""The results file: sealed results are read back, whatever happens to the writer."""
 
 import subprocess
 import sys

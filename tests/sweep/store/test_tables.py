@@ -1,4 +1,4 @@
-"""Tables whose columns are made when they are asked for have the values of tables in memory."""
+"""Tables whose columns are made on request have the values of tables in memory."""
 
 import numpy as np
 import pytest
@@ -76,7 +76,7 @@ def test_a_column_of_one_value_takes_the_memory_of_one(values, alike):
 
 @pytest.fixture
 def path(tmp_path):
-    """Nine cases, in a file that this process has checked, of which no number is kept."""
+    """Nine cases, in a file that this process has checked, with no numbers kept."""
     write(tmp_path / "a.h5", cases(9), fold=True)
     read_summary(tmp_path / "a.h5")
     return tmp_path / "a.h5"

@@ -1,4 +1,4 @@
-"""What lies in the folder of the parts and is none of this sweep is refused, and stays."""
+"""Files in the folder of the parts that do not belong to this sweep are refused, and stay."""
 
 import errno
 import json
@@ -20,7 +20,7 @@ def named(name):
 
 
 def put_part(tmp_path, about=None):
-    """A part of other.h5 among those of armor.h5."""
+    """A part of other.h5 among the parts of armor.h5."""
     write(tmp_path / "other.h5", cases(2, first=50), **(about or {}))
     (tmp_path / "armor.parts").mkdir(exist_ok=True)
     place = tmp_path / "armor.parts" / "00000009-00000009.h5"

@@ -83,7 +83,7 @@ def test_of_a_point_and_a_triangle(place, height, size):
 @pytest.mark.parametrize("tilt", [1.0, 0.05])
 @pytest.mark.parametrize("shift", [-0.3, -1.999e-1, 0.4, 0.999, 1.3])
 def test_of_two_edges(shift, tilt, size):
-    """Over the middle, beyond the ends, and nearly parallel."""
+    """Edges that are closest in the middle, beyond the ends, or nearly parallel."""
     begin, along = np.array([shift, -0.2 * tilt, 0.3]), np.array([1.0, tilt, 0.1])
     y = turned([(0, 0, 0), (1, 0, 0), begin, begin + along], size)
     assert derivative_error(EDGES, y, size, 2e-5 * tilt) < 1e-5

@@ -1,4 +1,4 @@
-"""Analysis of a linear system: which walls are condensed, what has room, many blocks."""
+"""Analysis of a linear system: which walls are condensed, which entries have room, many blocks."""
 
 import numpy as np
 import pytest

@@ -145,7 +145,7 @@ def test_a_coordinate_without_any_stiffness_gets_a_share_of_the_scale():
 
 @pytest.mark.parametrize("apart", [1, 3])
 def test_a_small_but_true_negative_pivot_is_seen(apart):
-    """In the same block, and in another one."""
+    """The large entry beside it is in the same block, or in another one."""
     full = np.eye(6)
     full[apart, 0] = full[0, apart] = 1.0
     full[apart, apart] -= 1e-6

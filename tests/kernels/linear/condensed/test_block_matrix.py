@@ -1,4 +1,4 @@
-"""Matrix of blocks: its pattern, homes and room, what is tied, held or led."""
+"""Matrix of blocks: its pattern, homes and room, and tied, held and led coordinates."""
 
 import numpy as np
 import pytest
@@ -78,7 +78,9 @@ NO_ROOM = [(0, 5, True), (0, 3, False), (0, 7, True), (6, 7, False), (1, 0, Fals
 
 @pytest.mark.parametrize(("i", "j", "missing"), NO_ROOM)
 def test_an_entry_without_room_is_missed(i, j, missing):
-    """Between blocks that do not couple, or with what is eliminated inside its wall."""
+    """Entries between blocks that do not couple, or with an unknown that is eliminated inside its
+    wall.
+    """
     joined = np.eye(3, dtype=bool)
     joined[1, 0] = joined[0, 1] = True
     home = np.array([0, 1, 2, 3, 4, 6, HELD, INNER, INNER, DRIVEN])

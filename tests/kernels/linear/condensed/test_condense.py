@@ -60,11 +60,11 @@ class Wall:
 
     @property
     def outer(self):
-        """What the wall adds to its joints (6, 6)."""
+        """Contribution of the wall to its joints (6, 6)."""
         return self._lane(self.all_outer, 6, 6)
 
     def dense(self):
-        """Hessian (m + 6, m + 6): inner unknowns, then those of the joints."""
+        """Hessian (m + 6, m + 6): inner unknowns, then unknowns of the joints."""
         return self.full + np.diag([*self.diagonal[:, self.lane], *np.zeros(6)])
 
     def eliminate(self):
@@ -131,7 +131,7 @@ def test_what_is_left_is_the_schur_complement(seed, pieces, size):
 @pytest.mark.parametrize("pieces", PIECES)
 @pytest.mark.parametrize("seed", range(3))
 def test_forward_and_backward_solve_for_what_is_inside(seed, pieces):
-    """With forces on inner unknowns and on joints, and with joints that move."""
+    """Forces act on inner unknowns and on joints, and joints move."""
     wall, rng = Wall(pieces, seed), np.random.default_rng(seed)
     full, m = wall.dense(), wall.m
     inner, mixed = full[:m, :m], full[:m, m:]
@@ -150,7 +150,7 @@ def test_forward_and_backward_solve_for_what_is_inside(seed, pieces):
 @pytest.mark.parametrize("pieces", [2, 3, 4, 12])
 @pytest.mark.parametrize("seed", range(4))
 def test_descent_along_a_negative_pivot(seed, pieces):
-    """From rest at the first negative pivot: d^T A d is that pivot."""
+    """The direction starts at rest at the first negative pivot: d^T A d is that pivot."""
     wall = Wall(pieces, seed)
     bad = int(np.random.default_rng(seed).integers(0, wall.m))
     wall.diagonal[bad, wall.lane] -= 1.5 * wall.dense()[bad, bad]

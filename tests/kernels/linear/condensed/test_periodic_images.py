@@ -5,7 +5,7 @@ import pytest
 
 from kernels.linear.condensed.periodic_images import NONE, collect, spread
 
-IMAGES = np.array([[4, 0, 6, 2], [5, -1, 7, -1], [3, 1, 7, 0]])  # one of what is held
+IMAGES = np.array([[4, 0, 6, 2], [5, -1, 7, -1], [3, 1, 7, 0]])  # one of a held coordinate
 FOLLOWS = np.eye(8)
 FOLLOWS[[3, 4, 5]] = 0.0
 FOLLOWS[4, [0, 6]] = 1.0, 2.0

@@ -41,7 +41,7 @@ def test_it_can_be_factored_again(support, coupled):
 
 
 def weakened(problem, c):
-    """Make the stiffness of coordinate ``c`` and of those tied to it negative."""
+    """Make the stiffness of coordinate ``c`` and of all coordinates tied to it negative."""
     moved = (problem.layout.leader == c).astype(float)
     problem.diagonal[c] -= 1.5 * moved @ problem.dense() @ moved
 
@@ -50,7 +50,9 @@ def weakened(problem, c):
 @pytest.mark.parametrize("support", SUPPORTS)
 @pytest.mark.parametrize("seed", range(4))
 def test_descent_along_a_negative_pivot(seed, support, coupled):
-    """d^T A d is that pivot; d is admissible: what is tied moves together, what is held stays."""
+    """d^T A d is that pivot; d is admissible: tied coordinates move together, held ones do not
+    move.
+    """
     of = web(MIXED)
     problem = Problem(of, supported(of, support), couplings(of, coupled), seed)
     rng = np.random.default_rng(seed)
@@ -88,7 +90,7 @@ def test_a_negative_pivot_inside_a_condensed_wall_names_the_wall():
 
 @pytest.mark.parametrize("pieces", [3, MIXED])
 def test_of_several_walls_with_a_negative_pivot_the_first_is_named(pieces):
-    """In whatever bundles they are."""
+    """The first wall is named in whatever bundles the walls are."""
     of = web(pieces)
     problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
     for wall in (7, 3, 2, 1):

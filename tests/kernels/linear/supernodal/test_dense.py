@@ -7,7 +7,7 @@ from kernels.linear.supernodal import dense
 
 
 def strip_of(array):
-    """A strip (12, depth) as it is stored: column by column."""
+    """A strip (12, depth) in its storage order: column by column."""
     return np.ascontiguousarray(array.T).ravel()
 
 

@@ -138,7 +138,7 @@ def test_an_unknown_without_any_stiffness_gets_a_share_of_the_scale():
 
 @pytest.mark.parametrize("size", [2, 1])
 def test_a_small_but_true_negative_pivot_is_seen(size):
-    """In the same block, and in another one."""
+    """The large entry beside it is in the same block, or in another one."""
     full = np.array([[1.0, 1.0], [1.0, 1.0 - 1e-6]])
     spans = [slice(i, i + size) for i in range(0, 2, size)]
     pairs = np.array([(0, 1)])[: 2 - size]

@@ -66,7 +66,7 @@ def test_parallel_sheets_count_once_at_any_mesh(meshes, gap):
 
 @pytest.mark.parametrize("shift", [(0.21, 0.0), (0.4, 0.33)])
 def test_above_the_inside_of_a_sheet_one_contact_is_left_for_a_node(shift):
-    """A small sheet over a large one: what cancels leaves the list, half the sum is exact."""
+    """A small sheet over a large one: cancelling contacts leave the list, half the sum is exact."""
     x, touch = two_sheets(
         0.4, Sheet(6, 6, 6, 6), Sheet(2, 2, 2, 2, (2 + shift[0], 2 + shift[1], 0))
     )
@@ -113,7 +113,7 @@ def strip(angles, fine, length=3.0):
 
 
 def energy_of_one(place, angles, fine, t=T):
-    """Energy of one node of area 2 beside walls that meet along a line."""
+    """Energy of one node of area 2 near walls that meet along a line."""
     surface, triangles = strip(angles, fine)
     points = np.vstack([surface, place])
     area = np.zeros(len(points))
@@ -137,7 +137,7 @@ ANGLE = np.radians([0.0, 100.0])
      (ANGLE, (-0.2, -0.4)), (ANGLE, (-0.5, 0.3)), ([0.0, np.pi], (0.3, 0.4)), ([0.0], (-0.4, 0.3))],
 )  # fmt: skip
 def test_walls_that_meet_count_once_beyond_their_line(angles, place, fine, along):
-    """Each wall counts; the line counts once, with k walls of it k - 1 times taken off."""
+    """Each wall counts; the line of k walls counts once, as it is subtracted k - 1 times."""
     expected = -(len(angles) - 1) * phi(np.hypot(*place))
     for angle in angles:
         u = np.array([np.cos(angle), np.sin(angle)])
@@ -258,7 +258,9 @@ def test_units_change_nothing():
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (1.5, 1.5), (0.375, 0.75), (1.5, 0.75), (3.0, 0.75)])
 def test_touching_surfaces_take_infinite_energy(place):
-    """At corners and sides too, where what is taken off is infinite as well."""
+    """The energy is infinite at corners and sides too, where the subtracted energy is infinite as
+    well.
+    """
     x, touch = two_sheets(0.5, Sheet(2, 2, 3, 3), Sheet(1, 1))
     x[9 * SIZE : 9 * SIZE + 3] = *place, 0.0
     assert term_of(x, touch).energy(x) == np.inf

@@ -23,7 +23,7 @@ GAP = 0.4
 
 
 def lagged(x, touch, mu=MU):
-    """What is gripped at ``x``, without contact of edges, which has no friction."""
+    """The contacts lagged at ``x``, without contact of edges, which has no friction."""
     listed = pairs_of(x, touch)
     found = friction.no_contacts(listed, touch, Friction(mu, 1.0))
     friction.lag(found, x, touch, listed, 0.0, Friction(mu, 1.0))
@@ -88,7 +88,7 @@ def test_sliding_sheets_are_held_by_mu_times_the_normal_force(direction):
 
 
 def pressed_together(x, touch):
-    """Sum of the normal forces of nodes and triangles, N: half is that of the upper nodes."""
+    """Sum of the normal forces of nodes and triangles, N: half is due to the upper nodes."""
     listed = pairs_of(x, touch)
     found = touching.no_contacts(touch, listed)
     touching.detect(x, touch, listed, 0.0, found)
@@ -200,7 +200,7 @@ def test_curvature_is_semi_definite_for_any_dual():
 
 
 def held(slip):
-    """One contact whose slip are the first two coordinates of node 0, with the load 1."""
+    """One contact with the load 1, whose slip is the first two coordinates of node 0."""
     contacts = friction._room(1, None)
     contacts.nodes[:], contacts.size[:], contacts.slopes[:] = 0, 1, 0.0
     contacts.slopes[0, 0, 0, 0] = contacts.slopes[0, 0, 1, 1] = 1.0
@@ -213,7 +213,7 @@ def held(slip):
     ("pull", "most"), [((0, 0), 15), ((0.6, -0.6), 15), ((3.0, 4.0), 15), ((0.6, 0.8), 40)]
 )
 def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
-    """At the least of |u|^2 / 2 + |u| - pull . u, whose second derivative is a spike at 0."""
+    """The minimum of |u|^2 / 2 + |u| - pull . u, whose second derivative is a spike at 0."""
     slip, contacts, steps, K = 1e-4, held(1e-4), 0, np.zeros((12, 12))
     x = np.zeros(SIZE)
     x[:2] = start

@@ -91,7 +91,7 @@ def test_near_parts_are_not_in_contact():
 
 
 def weights(x, touch, p):
-    """Weights by corner or side of what node ``p`` sees."""
+    """Weights of the corners or sides that node ``p`` sees."""
     listed = pairs_of(x, touch)
     own = slice(listed.lower_start[p], listed.lower_start[p + 1])
     return dict(zip(listed.lower[own].tolist(), listed.lower_weight[own].tolist(), strict=True))
@@ -131,7 +131,7 @@ def test_weights_where_walls_meet():
 
 @pytest.mark.parametrize("share", [0.5, 1.3])
 def test_thickness_that_changes(share):
-    """Contact starts at the present thickness, that of a pair is the mean."""
+    """Contact starts at the present thickness; a pair has the mean thickness."""
     x, touch = two_sheets(0.4, Sheet(3, 3, 4, 4), Sheet(2, 2, 4, 4), T)
     listed = pairs_of(x, touch)
     upper = slice(16, None)
@@ -170,7 +170,7 @@ def test_sides_take_the_least_distance_of_their_triangles():
 
 
 def test_walls_of_different_thickness_never_attract():
-    """Where t_c differs between triangles, what is taken off is never more than what is there."""
+    """Where t_c differs between triangles, no more is subtracted than there is."""
     x, touch = two_sheets(0.3, Sheet(4, 4, 3, 3), Sheet(2, 2, 2, 2, (0.4, 0.3, 0)), T)
     touch.thickness[:25] *= np.random.default_rng(0).uniform(0.4, 1.0, 25)
     for gap in (0.2, 0.35, 0.5, 0.6):

@@ -40,8 +40,8 @@ def test_nothing_is_longer_at_rest():
 
 @pytest.mark.parametrize("turn", [0.05, 0.2])
 def test_elements_on_a_circle_keep_their_length(turn):
-    """The chord of an arc of angle ``turn`` is short by its square / 24; the energy is that of an
-    error of the fourth order.
+    """The chord of an arc of angle ``turn`` is short by its square / 24; the energy has an error of
+    the fourth order.
     """
     of = plate(4, 1, 1.0, 0.3, 1e-3)
     h, found = 0.25, []

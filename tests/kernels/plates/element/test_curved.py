@@ -1,7 +1,7 @@
 """Shells of any quads: derivatives, patches, and the benchmarks of curved shells.
 
-The benchmarks are those of R. MacNeal and R. Harder (Finite Elements in Analysis and Design 1,
-1985) and of T. Belytschko et al. (CMAME 51, 1985), with their numbers.
+The benchmarks and their numbers are due to R. MacNeal and R. Harder (Finite Elements in Analysis
+and Design 1, 1985) and to T. Belytschko et al. (CMAME 51, 1985).
 """
 
 import numpy as np
@@ -148,7 +148,9 @@ def solved(of, law, held, load):
 
 
 def mirrored(of, on, axis):
-    """What a plane of symmetry normal to ``axis`` holds of the nodes ``on`` it, (n, 6)."""
+    """Coordinates of the nodes ``on`` a plane of symmetry normal to ``axis`` that it holds, (n,
+    6).
+    """
     held = np.zeros((len(of.points), 6), bool)
     held[on, axis] = True
     inside = np.abs(of.frames.reshape(-1, 3, 3)[:, axis]) < 1e-9  # axes of the nodes in the plane
@@ -227,6 +229,6 @@ def hemisphere(n):
     [(roof, 0.015, 0.01), (pinched, 0.25, 0.065), (hemisphere, 0.015, 0.01)],
 )
 def test_benchmarks_of_curved_shells(shape, coarse, fine):
-    """Deflections over those of the literature, with 8 and 16 quads a side."""
+    """Deflections over the values of the literature, with 8 and 16 quads a side."""
     assert shape(8) == pytest.approx(1.0, abs=coarse)
     assert shape(16) == pytest.approx(1.0, abs=fine)

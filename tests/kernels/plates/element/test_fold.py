@@ -79,7 +79,9 @@ def test_a_director_beyond_a_right_angle_is_folded():
 
 @pytest.mark.parametrize("turn", [72.0, 80.0])
 def test_derivatives_of_the_whole_element(turn):
-    """By coordinate, with all that an element stores; one director turns about the side along s."""
+    """Derivatives by coordinate of all that an element stores; one director turns about the side
+    along s.
+    """
     plate = shells.plate(1, 1)
     x = shells.shaken(plate, 0, 0.02, 0.02)
     x[3] = np.tan(np.radians(0.25 * turn))

@@ -63,7 +63,9 @@ def test_derivatives(name, law, rest):
 
 @pytest.mark.parametrize("stretch", [0.8, 1.3])
 def test_layers_of_a_cylinder_are_as_long_as_their_radius(stretch):
-    """Of the radius r, to R = l r: fibres at r + zeta become R + zeta j, j = 1 / l, long."""
+    """A cylinder of radius r is bent to R = l r: fibres at r + zeta become R + zeta j, j = 1 / l,
+    long.
+    """
     r = 0.35
     m = np.array([stretch**2 - 1, 0, 0, (stretch - 1) / r, 0, 0, 0, 0, 0])
     rest, total = curved([1 / r, 0, 0], [1 / r**2, 0, 0]), 0.0

@@ -57,7 +57,7 @@ def test_a_held_shear_relaxes_as_the_closed_form(surface, steps, held):
 
 @pytest.mark.parametrize("period", [1e-3, 0.3, 10.0])
 def test_work_of_even_ramps_is_stored_or_dissipated(period):
-    """To the second order, as the work is by the trapezoidal rule."""
+    """The book closes to second order, as the work follows the trapezoidal rule."""
     gaps = []
     for steps in (20, 40, 80):
         memory, work, lost, last = virgin(), 0.0, 0.0, np.zeros(4)

@@ -168,7 +168,9 @@ def test_a_plate_at_rest_has_only_the_motions_that_cost_nothing():
 
 
 def test_a_joint_turns_all_its_walls():
-    """By an angle about its line: D angle^2 / (2 l) per height in each wall of length l."""
+    """A turn by an angle about its line costs D angle^2 / (2 l) per height in each wall of length
+    l.
+    """
     of = cross()
     x, angle = of.rest, 1e-3
     for i in (0, len(of.points) // 2):

@@ -1,8 +1,8 @@
-"""A case in a process of its own: only there can its memory be told.
+"""A case in a process of its own: only there can its memory be measured.
 
     python -m tests.studies.bench.measuring.alone < case > summary
 
-Read from /proc: what `getrusage` tells includes the process that started this one.
+Read from /proc: the result of `getrusage` includes the process that started this one.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""What is timed: the seed's scene and crushes of square cells, all cells of one size."""
+"""The timed cases: the seed's scene and crushes of square cells, all cells of one size."""
 
 from sweep.config.case import Case
 from sweep.design.lattice import build_network

@@ -13,6 +13,6 @@ def seconds(action):
 
 
 def medians(sides, count):
-    """Median over ``count`` rounds of every side: a function that returns what it measured."""
+    """Median over ``count`` rounds of every side, a function that returns its measurement."""
     samples = [{name: measure() for name, measure in sides.items()} for _ in range(count)]
     return {name: float(np.median([sample[name] for sample in samples])) for name in sides}

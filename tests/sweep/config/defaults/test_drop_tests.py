@@ -1,4 +1,4 @@
-"""Drop tests of standards: their heights, and what a flat planar model cannot claim."""
+"""Drop tests of standards: their heights, and the limits of a flat planar model."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Lines and curves of a DXF file; what is no line is told, what cannot be read refused."""
+"""Lines and curves of a DXF file; other entities are reported, unreadable files refused."""
 
 import sys
 
@@ -13,7 +13,7 @@ from tests.support.designs.drawings import as_dxf
 
 
 def saved(path, draw, units=4):
-    """A file of what `draw` adds to a model space."""
+    """A file with the entities that `draw` adds to a model space."""
     document = ezdxf.new(units=units)
     draw(document, document.modelspace())
     document.saveas(path)

@@ -41,7 +41,7 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
 
 
 def test_beside_strokes_what_is_only_filled_is_left_out(tmp_path):
-    """Also where a style sheet or a group says so; the black fill of CSS is no stroke."""
+    """A style sheet or a group may say so too; the black fill of CSS is no stroke."""
     line = '<line x1="0" y1="0" x2="10" y2="5" {}/>'
     filled = '<rect width="9" height="9" style="fill:#fff;stroke:none"/><circle r="2"/>'
     style = "<style>.wall {stroke: red}</style>"

@@ -1,4 +1,4 @@
-"""Drawings as numbers: heads name what they are and their unit; what is missing is told."""
+"""Drawings as numbers: heads name quantities and units; missing data are reported."""
 
 import json
 
@@ -105,7 +105,7 @@ def test_bonds_of_lammps_are_walls_whatever_the_style(tmp_path):
 
 
 def test_bonds_around_a_periodic_box_are_left_out(tmp_path):
-    """And a comment of several words behind Atoms names no style."""
+    """Several words in a comment behind Atoms do not name a style."""
     path = tmp_path / "net.lmp"
     atoms = "1 1 1 0.0 0 0 0\n2 1 1 0.0 4 0 0\n3 1 1 0.0 9 0 0\n4 1 1 0.0 0 3 0"
     bonds = "1 1 1 2\n2 1 2 3\n3 1 3 1\n4 1 1 4"

@@ -1,4 +1,4 @@
-"""The table `lattice`: sizes that go together, openings, what of it follows from the rest."""
+"""The table `lattice`: sizes that fit together, openings, and values that follow from others."""
 
 import pytest
 

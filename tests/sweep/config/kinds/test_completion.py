@@ -1,4 +1,6 @@
-"""What a case leaves open, filled in: by its mode, by its contact; what cannot go together."""
+"""Open values of a case, completed by its mode and by its contact; values that exclude each
+other.
+"""
 
 import pickle
 

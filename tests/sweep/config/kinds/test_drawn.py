@@ -34,7 +34,9 @@ def grid(tmp_path_factory):
 
 
 def test_a_drawn_grid_is_the_built_in_one(grid):
-    """Of every column that does not name the design; until densification both absorb as much."""
+    """Every column that does not name the design is equal; until densification both absorb as
+    much.
+    """
     lattice = {"kind": "square", "cells": 3, "width": "12.5 mm", "height": "12.5 mm"}
     built_in = case(lattice=lattice, material={"name": "cheetah"}, loading=CRUSH)
     one, other = (converged(design).summary for design in (grid, built_in))
@@ -138,7 +140,7 @@ def test_all_that_does_not_fit_a_drawing_is_told_at_once(grid, tmp_path):
 
 
 def test_the_corner_of_a_sloppy_drawing_is_its_own(tmp_path):
-    """Where the lowest end is one that overshoots, the walls begin above it, and at 0."""
+    """If the lowest end overshoots, the walls begin above it, and at 0."""
     off = 5e-5 * SIDE
     lines = [
         ((x, y - off), (x, SIDE)) if y == 0.0 and x > 0.0 else ((x, y), e) for (x, y), e in GRID

@@ -30,7 +30,7 @@ class Ladder(WallLattice):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the infill."""
         return "ladder"
 
     @property

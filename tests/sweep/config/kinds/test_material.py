@@ -1,4 +1,4 @@
-"""The law of a material: what it goes by."""
+"""The law of a material: the curve or the modulus that it uses."""
 
 import pytest
 

@@ -1,6 +1,6 @@
-"""Keys of materials that soften, yield, or bend through fibres: what they imply, what is refused.
+"""Keys of materials that soften, yield, or bend through fibres: their consequences and refusals.
 
-Those of materials that relax: `test_relaxation`.
+Keys of materials that relax: `test_relaxation`.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""What does not print: in words, refused in a single case, left out of a grid."""
+"""Designs that do not print: described in words, refused in a single case, left out of a grid."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Keys of a material that relaxes: how branches are written, what cannot go with a memory."""
+"""Keys of a material that relaxes: how branches are written, and keys that exclude a memory."""
 
 import pytest
 
@@ -77,7 +77,7 @@ def test_a_curve_that_falls_does_not_relax(own_record):
 
 
 def test_a_curve_that_ends_level_does_not_relax(own_record):
-    """Its record rises, but the last tangent of its law, with which it goes on, is flat."""
+    """The record rises, but the law continues along its last tangent, which is flat."""
     path = own_record(HEADER + LEVEL)
     law = stress_law(material_with(name=str(path)))
     _, c1, c2, c3 = law.coefficients[-1]
@@ -105,7 +105,7 @@ def test_shipped_curves_rise(name):
     ],
 )
 def test_where_a_curve_does_not_rise(strain, stress, at):
-    """Its toe does not count, which is replaced by a straight line."""
+    """A straight line replaces its toe, which therefore does not count."""
     assert not_rising(strain, stress) == at
 
 

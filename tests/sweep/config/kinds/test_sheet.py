@@ -1,4 +1,4 @@
-"""Sheets: sizes that follow from a height, a mass, and what is refused."""
+"""Sheets: sizes that follow from a height or a mass, and refusals."""
 
 import pytest
 

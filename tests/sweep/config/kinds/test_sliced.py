@@ -1,4 +1,6 @@
-"""The table `lattice` with a slicer: what follows from its lines, and what it does not print."""
+"""The table `lattice` with a slicer: values that follow from its lines, and walls it does not
+print.
+"""
 
 import math
 import re

@@ -1,4 +1,6 @@
-"""Lattices that are refused: flat boxes, closed cells, too many nodes, and what has no period."""
+"""Lattices that are refused: flat boxes, closed cells, too many nodes, and lattices without a
+period.
+"""
 
 import re
 

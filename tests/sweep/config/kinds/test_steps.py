@@ -1,4 +1,4 @@
-"""The steps of a case: as many as are asked for, as fit, and as may be; the integrators."""
+"""The steps of a case: as requested, as fit, and as allowed; the integrators."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Keys of strikers and ribs: what each kind has, what follows, and what is refused."""
+"""Keys of strikers and ribs: keys of each kind, consequences, and refusals."""
 
 from math import pi
 
@@ -16,7 +16,7 @@ def struck(mode="displacement", **loading):
 
 @pytest.mark.parametrize("mode", ["displacement", "impact", "force"])
 def test_a_flat_striker_is_what_a_case_without_one_has(mode):
-    """The id too; and platens are what they were."""
+    """The id too; and platens are unchanged."""
     assert struck(mode, striker="flat", base="flat").case_id == struck(mode).case_id
     assert not struck(mode).loading.is_shaped
     assert struck(mode).loading.striker_at is None

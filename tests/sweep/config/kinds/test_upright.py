@@ -1,4 +1,4 @@
-"""A lattice pressed along its cells: what is filled in, what does not go with it, what is idle."""
+"""A lattice pressed along its cells: completed values, excluded values, idle values."""
 
 import json
 

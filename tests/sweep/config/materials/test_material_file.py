@@ -1,4 +1,4 @@
-"""Records of materials: what is stated wins, what cannot be used is refused by its name."""
+"""Records of materials: stated values win, unusable ones are refused by name."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Headers of materials: numbers with their ranges, the source, and what is assumed."""
+"""Headers of materials: numbers with their ranges, the source, and assumptions."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The check of plausibility: what is refused with the unit that was meant, what is not."""
+"""The check of plausibility: numbers refused with the unit that was meant, and numbers accepted."""
 
 import pytest
 

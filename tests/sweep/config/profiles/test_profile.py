@@ -1,4 +1,4 @@
-"""What profiles mean: numbers by the rule of each slicer, and what is told."""
+"""Meaning of profiles: numbers by the rule of each slicer, and notes."""
 
 import json
 import zipfile

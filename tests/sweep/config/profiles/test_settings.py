@@ -1,4 +1,4 @@
-"""Files of slicers: their settings, which preset is meant, what is refused, and how soon."""
+"""Files of slicers: their settings, the requested preset, refusals, and how soon."""
 
 import json
 import time

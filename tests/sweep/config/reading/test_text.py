@@ -1,4 +1,4 @@
-"""Files that cannot be read are refused in our own words, never in those of a library."""
+"""Files that cannot be read are refused in our own words, never in the words of a library."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Mechanisms: what can move without resistance, of frames, of trusses, and by a hair."""
+"""Mechanisms: motions without resistance, in frames, in trusses, and by a hair."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What is wrong with the file of a structure is said in one line each."""
+"""Faults of the file of a structure are reported in one line each."""
 
 import json
 
@@ -74,7 +74,7 @@ WRONG = {
 
 @pytest.fixture
 def lines(tmp_path):
-    """What is said about a config of a structure with these parts, a list of lines."""
+    """The messages on a config of a structure with these parts, a list of lines."""
 
     def said(parts, more=""):
         (tmp_path / "own.json").write_text(parts if isinstance(parts, str) else json.dumps(parts))

@@ -1,4 +1,4 @@
-"""Drawing, column, export and settings say the same of every slicer's pattern, and of families."""
+"""Drawing, column, export and settings agree for every slicer's pattern, and for families."""
 
 from math import degrees, hypot
 
@@ -108,9 +108,7 @@ def test_of_names_and_signs(slicer, pattern):
 
 @pytest.mark.parametrize(("kind", "way"), LIKE)
 def test_of_a_family(kind, way):
-    """The slicer's lines have the directions and the density of the drawn walls, whose thickness is
-    that of its walls.
-    """
+    """The slicer's lines have the directions, the density and the thickness of the drawn walls."""
     drawn = regular(kind, way)
     settings = settings_of(drawn)
     assert settings == slicer_settings(drawn)

@@ -49,8 +49,8 @@ def check_frame(network, box, least):
 
 
 def test_no_drawing_loses_its_frame():
-    """All slicers and patterns, 10 to 80 %, 1 to 6 perimeters. Refused is what has cells less than
-    twice as wide as their walls.
+    """All slicers and patterns, 10 to 80 %, 1 to 6 perimeters. Infills with cells less than twice
+    as wide as their walls are refused.
     """
     patterns = [(slicer, own) for slicer, patterns in SLICERS.items() for own in patterns]
     outcome = Counter()
@@ -85,7 +85,9 @@ def test_a_dense_drawing_is_the_same_upside_down():
 
 
 def test_parallel_lines_stay_apart_under_many_perimeters():
-    """Their ends are nearer to one another than what a single short wall would be joined over."""
+    """Their ends are nearer to one another than the length over which a single short wall is
+    joined.
+    """
     lattice = laid(SIZES[0], "prusa", "alignedrectilinear", 0.4, 6)
     network = build_network(lattice.geometry)
     ends = network.points[network.walls[network.wall_thickness < 1.5 * lattice.line]]

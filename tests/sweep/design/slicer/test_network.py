@@ -1,4 +1,4 @@
-"""The network that a slicer prints, and what is extruded."""
+"""The network that a slicer prints, and its extruded volume."""
 
 from math import radians
 
@@ -47,7 +47,7 @@ def test_other_patterns_extrude_what_they_say(pattern, share):
 
 
 def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
-    """With w instead of s: fewer lines, of which each extrudes more."""
+    """With w instead of s: fewer lines, each of which extrudes more."""
     width = line_of("cura", 0.4e-3, 0.2e-3)
     assert infill_density("grid", 0.2, width) == pytest.approx(0.2, rel=2e-3)
     assert distance_of("grid", 0.2, width) == pytest.approx(2 * 0.4e-3 / 0.2)
@@ -55,7 +55,7 @@ def test_lines_of_cura_are_as_far_apart_as_they_are_wide():
 
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_lines_turn_with_the_fill_angle(pattern):
-    """Those of a honeycomb have the directions of triangles."""
+    """Lines of honeycomb have the directions of triangles."""
     turned = {"honeycomb": 3, "lateral-honeycomb": 3, "lateral-lattice": 2}
     count = turned.get(pattern, PATTERNS[pattern].spacing)
     first = {"lateral-lattice": 45.0, "lateral-honeycomb": 30.0}.get(pattern, 0.0)

@@ -1,4 +1,6 @@
-"""Nets of quads on a surface: on it, closed but for the planes, even, and periodic; with walls."""
+"""Nets of quads on a surface: on it, closed except at the planes, even, and periodic; with
+walls.
+"""
 
 import numpy as np
 import pytest

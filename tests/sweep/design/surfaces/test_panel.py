@@ -23,7 +23,7 @@ def test_a_box_repeats_along_x_and_y(name, turned):
 
 @pytest.mark.parametrize("name", SHEETS)
 def test_all_axes_of_a_sheet_are_alike(name):
-    """So a straight panel has the print axis along any of its axes."""
+    """Therefore a straight panel has the print axis along any of its axes."""
     points = np.random.default_rng(3).uniform(0, 2 * np.pi, (50, 3))
     value = LEVEL_SETS[name].value
     np.testing.assert_allclose(value(points[:, [1, 2, 0]]), value(points), atol=1e-14)

@@ -1,4 +1,4 @@
-"""Pictures: what they show is what the numbers say."""
+"""Pictures show what the numbers say."""
 
 import numpy as np
 import pandas
@@ -51,7 +51,7 @@ def labels(ax):
 
 
 def area(filled):
-    """Area in J of what is filled in a diagram of N over % of the height."""
+    """Area in J that is filled in a diagram of N over % of the height."""
     x, y = filled.get_paths()[0].vertices.T
     return 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1))) / 100 * HEIGHT
 

@@ -86,7 +86,9 @@ def test_without_the_modulus_of_every_design_nothing_is_divided(designs):
 
 
 def test_the_envelope_is_of_the_softest_until_a_stiffer_absorbs_more():
-    """Up to 5 kPa nothing; the soft foam has all of its energy from 7 kPa on, the other 20 kPa."""
+    """It is zero up to 5 kPa; the soft foam has all its energy from 7 kPa on, the other from 20 kPa
+    on.
+    """
     soft, stiff = foam(5e3), foam(20e3)
     stresses, most = envelope([stiff, soft])
     between = (stresses > 7.5e3) & (stresses < 20e3)

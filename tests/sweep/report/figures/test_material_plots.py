@@ -1,4 +1,4 @@
-"""Pictures of materials: what they draw, in MPa."""
+"""Pictures of materials: their curves, in MPa."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Reactions of a structure of a user's own: what bears something is drawn, over what loads it."""
+"""Reactions of a user's own structure: reactions are drawn over the load."""
 
 import numpy as np
 import pandas as pd
@@ -26,7 +26,7 @@ def drawn():
 
 
 def curves(ax):
-    """What is drawn, by its name in the legend."""
+    """The drawn curves, by their names in the legend."""
     handles, labels = ax.get_legend_handles_labels()
     return dict(zip(labels, (line.get_xydata() for line in handles), strict=True))
 

@@ -1,4 +1,4 @@
-"""Plates as a camera sees them: what is in front, what is lit, what is true to scale."""
+"""Plates as a camera sees them: order in depth, light, and scale."""
 
 import numpy as np
 import pytest

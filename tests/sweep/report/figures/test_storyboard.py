@@ -1,4 +1,4 @@
-"""Which shapes of a case are drawn, and what stands above them."""
+"""Which shapes of a case are drawn, and their titles."""
 
 import pandas
 import pytest

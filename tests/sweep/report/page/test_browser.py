@@ -1,4 +1,4 @@
-"""The page in a browser: what its sliders rank, and that nothing in it fails."""
+"""The page in a browser: the rankings of its sliders, and that nothing in it fails."""
 
 import io
 import json
@@ -161,7 +161,7 @@ def test_budgets_in_ounces_stay_in_ounces(chromium, tmp_path, table):
 
 @pytest.mark.parametrize(("width", "seen"), [(390, True), (1280, False)])
 def test_a_phone_shows_the_whole_scene(chromium, file, width, seen):
-    """The end of what a narrow list shows is cut off."""
+    """The end of the text in a narrow list is cut off."""
     chromium.open(file.replace(".h5", ".html"), width, 800)
     put(chromium, "scene", "2", event="change")
     chosen = 'document.getElementById("scene").selectedOptions[0].textContent'

@@ -1,4 +1,4 @@
-"""Plates that move on the page: what its program sees of them, as `shaded.faces` does."""
+"""Plates that move on the page: its program draws them as `shaded.faces` does."""
 
 import json
 from base64 import b64decode

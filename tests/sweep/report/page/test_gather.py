@@ -1,4 +1,4 @@
-"""The data of a page: what ranks designs, thin curves, shapes while there is room."""
+"""The data of a page: values that rank designs, thin curves, shapes while there is room."""
 
 import json
 

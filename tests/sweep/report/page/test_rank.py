@@ -1,4 +1,4 @@
-"""The ranking of the page, `rank.js`, against that of Python, on random sweeps and questions."""
+"""The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
 import json
 from math import isclose
@@ -27,10 +27,10 @@ from tests.support.results.specimens import summary, there_and_back, write
 
 SCRIPT = Path(gather.__file__).with_name("rank.js")
 SWEEPS, ASKED = 5, 32
-DIGITS = 1e-3  # relative: of what the page reads from curves of four digits
+DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 ASK = """
-function told({ data, questions }) {
+function answersOf({ data, questions }) {
   return questions.map((question) => data.scenes.map((_, scene) => {
     const asked = { ...question, scene };
     const found = ranked(data, asked);
@@ -55,14 +55,14 @@ function told({ data, questions }) {
 
 
 @pytest.fixture(scope="module")
-def told():
+def page_answers():
     """Rankings by the script of the page: for each question a list of scenes."""
     with MiniRacer() as engine:
         engine.eval(SCRIPT.read_text("utf-8") + ASK)
 
         def ask(data, questions):
             asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-            return json.loads(engine.eval(f"JSON.stringify(told({asked}))"))
+            return json.loads(engine.eval(f"JSON.stringify(answersOf({asked}))"))
 
         yield ask
 
@@ -74,7 +74,7 @@ def on_the_page(question):
 
 
 def expected(table, question):
-    """For each budget and each scene, what `rank` says."""
+    """The answer of `rank` for each budget and each scene."""
     asked = {name: question[name] for name in ("panel", "require", "per")}
     budgets = question["budgets"]
     ranking = ranked(table, budgets, **asked, top=None, allowed_force=question["force"])
@@ -82,7 +82,7 @@ def expected(table, question):
 
 
 def _within(ranking, k, required):
-    """What a ranking says of each scene within its k-th budget."""
+    """The answer of a ranking for each scene within its k-th budget."""
 
     def own(rows):
         """The rows of this budget."""
@@ -126,14 +126,16 @@ def _of_requirements(outcome):
 
 
 def of_the_page(scene, names):
-    """What the page says of one scene, in the form of `expected`."""
+    """The answer of the page for one scene, in the form of `expected`."""
     misses = {name: share for name, share in scene["misses"].items() if share}
     needed = scene["needed"] and {name: scene["needed"][name] for name in NEEDED}
     return {name: (scene | {"misses": misses, "needed": needed})[name] for name in names}
 
 
 def blurred(scene):
-    """A scene but for which of two designs that miss alike is the nearest, which is round-off."""
+    """A scene without the choice of the nearest among designs that miss alike, which is
+    round-off.
+    """
     if "misses" not in scene:
         return scene
     worst = max(scene["misses"].values(), default=0.0)
@@ -152,8 +154,10 @@ def alike(one, other, tolerance):
     return one == other
 
 
-def asked_of_both(told, path, seed):
-    """Random questions of a random sweep, and for each scene what the page and Python say."""
+def asked_of_both(page_answers, path, seed):
+    """Random questions of a random sweep, and for each scene the answers of the page and of
+    Python.
+    """
     rng = np.random.default_rng(seed)
     table, factors = random_sweep(rng, OTHERS[seed % len(OTHERS)])
     file = write_curves(path / "random.h5", table, factors)
@@ -165,7 +169,7 @@ def asked_of_both(told, path, seed):
         asked = Question(None, question["panel"], None, None, question["force"])
         asked = asked._replace(per=question["per"])
         wanted += expected(with_allowed(file, table, asked, known), question)
-    answers = told(data, [on_the_page(one) for one in each])
+    answers = page_answers(data, [on_the_page(one) for one in each])
     for question, scenes, found in zip(each, wanted, answers, strict=True):
         for scene, answer in zip(data["scenes"], found, strict=True):
             if question["force"] is None or scene["mode"] == "displacement":
@@ -173,10 +177,10 @@ def asked_of_both(told, path, seed):
 
 
 @pytest.mark.parametrize("seed", range(SWEEPS))
-def test_page_and_python_rank_alike(told, tmp_path, seed):
-    """What the page reads from curves has four digits."""
+def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
+    """Values that the page reads from curves have four digits."""
     rows, missing, nearest, border, stopped, passed_over = [], 0, 0, 0, 0, 0
-    for question, found, wanted in asked_of_both(told, tmp_path, seed):
+    for question, found, wanted in asked_of_both(page_answers, tmp_path, seed):
         one, other = of_the_page(found, wanted), wanted
         if read_from_curves(question):
             assert alike(blurred(one), blurred(other), DIGITS), question
@@ -195,11 +199,11 @@ def test_page_and_python_rank_alike(told, tmp_path, seed):
     assert min(nearest, border) > 0
 
 
-def test_energies_between_the_stored_forces_are_read_from_curves(told, tmp_path):
+def test_energies_between_the_stored_forces_are_read_from_curves(page_answers, tmp_path):
     table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})
     data = page_data(write(tmp_path / "trial.h5", table, {"config": "{}"}), table, Question())
     asked = {"budget": 5.0, "panel": None, "per": "specimen"}
-    (between,), (stored,) = told(data, [asked | {"force": force} for force in (20.3, 20.0)])
+    (between,), (stored,) = page_answers(data, [asked | {"force": force} for force in (20.3, 20.0)])
     history = there_and_back()
     squares = history["reaction_top_N"][:21] ** 2
     work = np.interp(20.3**2, squares, history["work_in_J"][:21])

@@ -1,4 +1,6 @@
-"""A page that leaves designs out: what it holds is first among all, or it says that it may not."""
+"""A page that leaves designs out: its first designs are first among all, or it says that they may
+not be.
+"""
 
 import json
 
@@ -26,7 +28,7 @@ from tests.support.results.questions import (
 COUNT, SELECTED = 90, 40  # designs of each of two scenes; of both in the page
 QUESTIONS = 12
 ASK = """
-function told({ data, questions }) {
+function answersOf({ data, questions }) {
   return questions.map((question) => data.scenes.map((_, scene) => {
     const found = ranked(data, { ...question, scene });
     const { certain, better, nearest } = found;
@@ -38,15 +40,15 @@ function told({ data, questions }) {
 
 
 @pytest.fixture(scope="module")
-def told():
-    """What the page says to questions, for each a list of scenes."""
+def page_answers():
+    """The answers of the page to questions, for each a list of scenes."""
     script = gather.__file__.replace("gather.py", "rank.js")
     with MiniRacer() as engine, open(script, encoding="utf-8") as file:
         engine.eval(file.read() + ASK)
 
         def ask(data, questions):
             asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-            return json.loads(engine.eval(f"JSON.stringify(told({asked}))"))
+            return json.loads(engine.eval(f"JSON.stringify(answersOf({asked}))"))
 
         yield ask
 
@@ -59,7 +61,7 @@ def few(monkeypatch):
 
 
 def many(path, seed):
-    """A file of random designs, its summary and data; energies and forces are those of curves."""
+    """A file of random designs, its summary and data; energies and forces come from curves."""
     rng = np.random.default_rng(seed)
     table, _ = random_sweep(rng, OTHERS[seed % 4], COUNT)
     factors = rng.uniform(0.5, 2.0, len(table))
@@ -97,15 +99,17 @@ def on_the_page(question):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few, tmp_path, seed):
-    """Whatever is asked: budget, panel, allowed force, requirements."""
+def test_first_places_are_those_among_all_designs_or_the_page_says_so(
+    page_answers, few, tmp_path, seed
+):
+    """Any question may be asked: budget, panel, allowed force, requirements."""
     file, table, data, rng = many(tmp_path, seed)
     assert len(data["cases"]) == SELECTED
     assert sum(scene["designs"] for scene in data["scenes"]) > 3 * SELECTED
     drawn, cache = [random_question(rng, table) for _ in range(QUESTIONS)], {}
     questions = [each_budget(question)[0] for question in drawn]
     sure = better = 0
-    answers = told(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, [on_the_page(question) for question in questions])
     for question, scenes in zip(questions, answers, strict=True):
         every, outcomes = among_all(file, table, question, cache)
         for scene, found in zip(data["scenes"], scenes, strict=True):
@@ -126,7 +130,7 @@ def test_first_places_are_those_among_all_designs_or_the_page_says_so(told, few,
 
 
 def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
-    told, few, tmp_path, monkeypatch
+    page_answers, few, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(selection, "MOST", 2 * SELECTED)
     file, table, data, _ = many(tmp_path, 5)
@@ -134,7 +138,7 @@ def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
     plain = {"panel": None, "per": "specimen", "require": {}}
     budgets = [None, *(1e-3 * np.sort(masses)[len(masses) // 2 :: 8])]
     questions = [plain | {"budget": b, "force": f} for b in budgets for f in (None, *FORCES)]
-    answers = told(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, [on_the_page(question) for question in questions])
     for question, (found, *_) in zip(questions, answers, strict=True):
         rows = next(iter(among_all(file, table, question, {})[0].values()))
         sound = not (rows.iloc[0]["beyond_model"] or rows.iloc[0]["crossed"])

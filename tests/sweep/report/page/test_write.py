@@ -18,7 +18,7 @@ VOID = {"meta", "input", "br", "link", "img"}
 
 
 class Reader(HTMLParser):
-    """Collects elements, and complains of those that are not closed in their order."""
+    """Collects elements, and reports elements that are not closed in their order."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)

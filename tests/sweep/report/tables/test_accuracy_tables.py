@@ -1,4 +1,4 @@
-"""Accuracy studies in words: what to choose, what is not resolved, what failed."""
+"""Accuracy studies in words: recommended settings, unresolved measures, failed cases."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Effective materials as a table: units, axes that are turned, what is never."""
+"""Effective materials as a table: units, turned axes, stresses that are never reached."""
 
 from dataclasses import replace
 from math import pi

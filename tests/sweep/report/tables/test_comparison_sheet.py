@@ -1,4 +1,4 @@
-"""Predictions beside measured values, as text."""
+"""Predictions and measured values, as text."""
 
 import pytest
 

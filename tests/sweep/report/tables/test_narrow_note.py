@@ -1,4 +1,4 @@
-"""What is said of narrow lattices."""
+"""The note on narrow lattices."""
 
 import re
 from pathlib import Path

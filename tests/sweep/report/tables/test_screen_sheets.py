@@ -1,4 +1,4 @@
-"""Estimates beside values of whole models."""
+"""Estimates compared with values of whole models."""
 
 import pytest
 from pandas import Series

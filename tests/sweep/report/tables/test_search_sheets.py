@@ -1,4 +1,4 @@
-"""What a search tells of its finalists and of its front."""
+"""Tables of a search: its finalists and its front."""
 
 import pytest
 from pandas import DataFrame

@@ -1,4 +1,4 @@
-"""What is said of parts of unlike size."""
+"""The note on parts of different size."""
 
 from sweep.report.tables.size_note import size_note
 from tests.support.results.specimens import summary

@@ -1,4 +1,4 @@
-"""Error bars: which companions a design has, what they say, and that nothing runs twice."""
+"""Error bars: the companions of a design, their results, and that nothing runs twice."""
 
 import json
 import math
@@ -26,7 +26,7 @@ PRESSED = dict(mode="displacement", strain=0.3)
 
 
 def first_order(case, control=None):
-    """5 J, and what elements and steps of first order add."""
+    """5 J, plus errors of elements and steps of first order."""
     element, step = 1.0 / (case.lattice.nodes_per_wall + 1), 1.0 / case.solver.load_steps
     result = simulate(case)
     measured = {ENERGY: 5.0 + 3.0 * element + 20.0 * step, "peak_strain": 0.3}
@@ -321,7 +321,7 @@ def test_error_columns_have_the_unit_of_what_they_are_about():
 
 
 def test_error_bar_covers_the_error_of_a_crush():
-    """A slice of what `make bars` measures: four cells pressed to half their height."""
+    """A part of the study `make bars`: four cells pressed to half their height."""
     cells = {"cells_x": 2, "cells_y": 2, "wall_thickness": 0.5e-3}
     loading = dict(mode="displacement", strain=0.5)
     design = Case.of(lattice=cells, loading=loading, solver=dict(load_steps=50))

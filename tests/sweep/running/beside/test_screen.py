@@ -81,7 +81,7 @@ DESIGNS = [along(kind) for kind in WORTH]
 
 
 def crush(case, stop=None):
-    """A result whose energy is that of its walls, its forces and stresses too; brick fails."""
+    """A result whose energy is given by its walls, as are its forces and stresses; brick fails."""
     kind, weight = case.lattice.kind, grams(case)
     width, height = case.lattice.outer_size
     density = weight / (1e3 * case.material.density * case.lattice.depth * width * height)

@@ -1,4 +1,4 @@
-"""Which designs are finalists, and as what they are simulated again."""
+"""Which designs are finalists, and how they are simulated again."""
 
 import pytest
 
@@ -78,7 +78,7 @@ def test_plates_of_many_nodes_keep_their_mesh():
 
 @pytest.mark.parametrize("slicer", ["prusa", "cura"])
 def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
-    """So that 5 % more is extruded. The settings are a column of the results."""
+    """The wider lines extrude 5 % more. The settings are a column of the results."""
     laid = lattice_with(slicer=slicer, pattern="grid", infill=0.2, width=25e-3, height=25e-3)
     found = {
         corner.name: corner.case for corner in perturbed(Case.of(lattice=laid, loading=PRESSED))

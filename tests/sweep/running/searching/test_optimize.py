@@ -1,4 +1,4 @@
-"""A search from Python: what it finds, where that is kept, what is refused."""
+"""A search from Python: its results, their file, refusals."""
 
 import tomllib
 from importlib import import_module

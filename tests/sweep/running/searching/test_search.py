@@ -1,4 +1,4 @@
-"""The search: it finds a narrow peak, is resumed by replay, and survives what fails."""
+"""The search: it finds a narrow peak, is resumed by replay, and survives failures."""
 
 import json
 from math import exp
@@ -50,7 +50,7 @@ def test_a_narrow_peak_of_one_pattern_is_found(searched, seed):
 
 
 def test_same_seed_runs_nothing_again_and_continues(searched):
-    """Nor is anything else sought where a requirement is added that all fulfil."""
+    """An added requirement that all designs fulfil starts no evaluation either."""
     _, first = searched(evaluations=20)
     search, more = searched(evaluations=60)
     assert len(first) == 20

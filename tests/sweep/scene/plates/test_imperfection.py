@@ -33,7 +33,9 @@ def test_bow_is_a_product_of_sines_and_zero_at_all_edges():
 
 
 def test_seed_draws_another_shape_of_the_same_size():
-    """The mean square of normal numbers over 24 walls and 6 waves is that of one wave, a^2 / 2."""
+    """The mean square of normal numbers over 24 walls and 6 waves equals the value of one wave, a^2
+    / 2.
+    """
     plan, lattice = plan_and_lattice(imperfection=0.1, imperfection_seed=1)
     found, again = amplitudes(plan, lattice), amplitudes(plan, lattice)
     other = amplitudes(*plan_and_lattice(imperfection=0.1, imperfection_seed=2))

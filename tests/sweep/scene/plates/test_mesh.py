@@ -72,7 +72,7 @@ def test_third_axis_is_the_normal_just_where_all_quads_are_in_one_plane(mesh):
 
 
 def test_nodes_of_a_wall_have_its_axes(mesh):
-    """Rows of frames: a quad's own axes are those of its inner corners."""
+    """Rows of frames: a quad has the same axes as its inner corners."""
     inner = mesh.flat[mesh.quads] & (np.abs(mesh.directors[..., 2] - 1.0) < 1e-12)
     quad, corner = np.nonzero(inner)
     frames = mesh.frames.reshape(-1, 3, 3)[mesh.quads[quad, corner]]
@@ -94,7 +94,9 @@ def test_walls_share_the_nodes_of_their_joints(mesh):
 
 
 def test_triangles_cover_the_quads_and_share_their_edges(mesh):
-    """An edge inside a wall is of two triangles, that of a joint of two for each wall, else one."""
+    """An edge inside a wall belongs to two triangles, an edge of a joint to two for each wall,
+    others to one.
+    """
     flat = mesh.rest[mesh.triangles]
     sides = np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])
     area = 0.5 * np.linalg.norm(sides, axis=1)

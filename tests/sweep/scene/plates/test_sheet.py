@@ -92,7 +92,7 @@ def squeezed(of, seed=0):
 
 
 def tied(of, x):
-    """Images moved as their originals, and what follows the platen."""
+    """Images moved as their originals, and coordinates that follow the platen."""
     layout, rest = of.terms.layout, of.x_rest
     move = x - rest
     follows = layout.leader >= 0

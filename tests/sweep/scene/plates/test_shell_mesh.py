@@ -46,7 +46,7 @@ def test_images_are_a_period_away_and_frames_those_of_originals(kind):
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_the_walls_of_a_period_have_all_its_area(kind):
-    """As many cells of a lattice with free sides, without the walls of its last sides."""
+    """The area equals the same cells of a lattice with free sides, without its last walls."""
     mesh, case_ = scene(kind).mesh, case(kind, FAMILIES[kind])
     lattice = case_.lattice
     expected = sum(mesh.plan.length[: len(np.unique(mesh.wall))]) * lattice.depth
@@ -64,7 +64,7 @@ def test_positions_of_images_follow_from_those_that_are_stored():
 
 
 def test_two_periods_take_twice_the_energy_of_one():
-    """In any shape that repeats: walls bulge until they touch those of the next cell."""
+    """In any shape that repeats: walls bulge until they touch the walls of the next cell."""
     single, double = (build_scene(case(cells=(count, 2))) for count in (2, 4))
     x, y = single.x_rest.copy(), double.x_rest.copy()
     mesh, nodes = single.mesh, x[:-2].reshape(-1, 6)
@@ -124,7 +124,7 @@ def test_both_platens_bear_the_same_force(made):
 
 
 def test_an_endless_prism_carries_what_wide_ones_carry_per_cell():
-    """Before walls buckle, force over area is that of the walls, with or without a period."""
+    """Before walls buckle, force over area depends on the walls alone, with or without a period."""
     forces = []
     for cells in ((2, 2), (4, 2)):
         of = case(cells=cells, strain=0.005, imperfection=0.0)
