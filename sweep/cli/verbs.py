@@ -194,8 +194,8 @@ def export(arguments: Namespace) -> int:
 
 def report(arguments: Namespace) -> int:
     """Write a results file as one HTML page."""
+    from sweep.export.page import export_page
     from sweep.ranking.question import Question
-    from sweep.report.page.write import write_page
     from sweep.store.read import read_summary
 
     summary, stored = read_summary(arguments.file), stored_table(arguments.file, "rank")
@@ -207,8 +207,9 @@ def report(arguments: Namespace) -> int:
     )
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
     with writing(out.parent, out):
-        page = write_page(arguments.file, summary, question, out)
+        page, notes = export_page(arguments.file, summary, question, out)
     say(f"{page} ({text_in(page.stat().st_size, 'MB', 2)})")
+    say_all(notes)
     if arguments.open and not webbrowser.open(page.resolve().as_uri()):
         hint(["there is no browser to open it"])
     if failed := len(failed_cases(summary)):

@@ -2,5 +2,5 @@
 
 `export.py` chooses the format by the ending of the file's name. `design.py` and `outline.py`
 rebuild what was drawn from a results file. `solid.py` makes a closed body of it, and refuses one
-whose volume is not that of the mass.
+whose volume is not that of the mass. `page.py` writes the page of a sweep with such files in it.
 """

@@ -6,7 +6,7 @@ Nothing is half-written: a file is made in a folder beside, then gets its place.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -149,6 +149,21 @@ def export_case(
     path = Path(to)
     wish = check_export(path, panel, kind)
     return _written(path, lambda beside: _writer(path)(beside, _source(source, case_id), wish))
+
+
+def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[bytes | None]:
+    """What `export_case` writes as .3mf for cases of a results file; None where it refuses."""
+    from sweep.store.read import read_cases
+
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "print.3mf"
+        for case in read_cases(file, case_ids):
+            try:
+                _three_mf(path, Planned(case), Wish(None, "lattice"))
+            except ExportError:
+                yield None
+            else:
+                yield path.read_bytes()
 
 
 def check_export(

@@ -17,7 +17,7 @@ from sweep.ranking.merit import check_panel
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.spread import Spread, spread_table, spreads
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside

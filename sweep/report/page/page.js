@@ -19,6 +19,7 @@ const view = { sort: null, up: true, all: false, chosen: null, current: null, fr
 let now = null; // the ranking that is shown
 let player = null;
 let linking = null;
+let printed = null; // address of the file to print
 
 function scene() {
   return data.scenes[asked.scene];
@@ -332,8 +333,24 @@ function showAnswer() {
   showPicture(best);
   $("detail").textContent = detail(best).join(" ");
   showCommand();
-  if (scene().mode !== "custom")
-    $("print").append("To print it: ", element("code", {}, `crumple export ${fileWord()} ${best.design.id} --to best.3mf`));
+  showPrint(best.design);
+}
+
+function showPrint(design) {
+  const [file, command] = [data.prints[design.id], exportCommand(design, data.file, asked.panel)];
+  URL.revokeObjectURL(printed);
+  if (!command) return;
+  $("print").append(`To print ${asked.panel && !isPeriod(design) ? "a specimen" : "it"}: `);
+  if (file) {
+    printed = URL.createObjectURL(new Blob([bytesOf(file)], { type: "model/3mf" }));
+    const name = fileName(design, "3mf");
+    $("print").append(element("a", { id: "print-file", href: printed, download: name }, name), ", with 100 % infill; or ");
+  }
+  $("print").append(element("code", {}, command));
+}
+
+function fileName({ id }, ending) {
+  return `${data.name}_${id}.${ending}`.replace(/[^\w.-]/g, "_");
 }
 
 function* words(best) {
@@ -396,11 +413,6 @@ function* stoppedText() {
   if (more > 0) yield `${more} more unfinished cases could have had a place${others}: see the failed cases below.`;
 }
 
-// The name of the results file as a word of a shell.
-function fileWord() {
-  return /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
-}
-
 // The command that prints the same ranking, if there is one.
 function showCommand() {
   if (asked.per === "panel" && !asked.panel) return;
@@ -410,7 +422,7 @@ function showCommand() {
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number(inUnits(side, "mm").toPrecision(6))} mm"`).join(" ")}` : "";
   const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
-  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${fileWord()}${budget}${panel}${force}${requiredOptions()}`));
+  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${wordOf(data.file)}${budget}${panel}${force}${requiredOptions()}`));
 }
 
 // The options that differ from what the config of the file requires.

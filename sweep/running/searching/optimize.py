@@ -12,7 +12,7 @@ from sweep.config.load import Source, load_config
 from sweep.ranking.assessment import check_column, check_searched
 from sweep.ranking.question import Quantity, Question, check_units, in_si
 from sweep.ranking.requirements import limits
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.cluster import Scheduler
 from sweep.running.place import chosen_place, open_place

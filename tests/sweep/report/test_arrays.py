@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.store.read import StoreError, read_history
 from tests.support.results.specimens import designs, summary, write
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.ranking.question import RankError
-from sweep.report.results import Picture, Results
+from sweep.results import Picture, Results
 from sweep.store.errors import StoreError
 from sweep.store.read import read_history
 from tests.support.results.specimens import designs, summary, write

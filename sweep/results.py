@@ -177,10 +177,10 @@ class Results:
         out : the page, by default NAME.html beside the results. It has all cases of the file, and
         begins with the question of the config.
         """
-        from sweep.report.page.write import write_page
+        from sweep.export.page import export_page
 
         page = Path(out or self.path.with_suffix(".html"))
-        return write_page(str(self.path), read_summary(self.path), self._question, page)
+        return export_page(str(self.path), read_summary(self.path), self._question, page).file
 
     def to_xarray(self, curves: Sequence[str] | bool = ()) -> Dataset:
         """The table as an `xarray.Dataset` along `case_id`; needs xarray (`crumple[xarray]`).
