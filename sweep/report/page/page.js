@@ -487,12 +487,15 @@ function requiredColumns() {
   return found;
 }
 
+function isTied(row) {
+  return (now.bar || now.ranged) && row.sharing > 1;
+}
+
 function placeText(row) {
-  const tied = (now.bar || now.ranged) && row.sharing > 1 ? "=" : "";
   const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
   const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
   const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
-  return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
+  return `${row.place}${isTied(row) ? "=" : ""}${row.pareto ? "*" : ""}${marks}`;
 }
 
 function sorted(shown) {
@@ -573,9 +576,9 @@ function notes() {
         `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
-  if (now.bar)
-    lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
-  if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
+  if (now.bar) lines.push("±: estimated error from mesh and steps, not a bound.");
+  if (rows.some(isTied))
+    lines.push(`=: a tie, as ${now.bar ? "errors may reverse the order" : "the energy of a design with two maxima of the efficiency is a range, as is its densification"}.`);
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result. Placed behind all others.");
@@ -772,7 +775,7 @@ function showOne() {
   if (drawn) {
     URL.revokeObjectURL($("download").href);
     $("download").href = URL.createObjectURL(new Blob([drawingFile(drawn)], { type: "image/svg+xml" }));
-    $("download").download = `${data.name}_${design.id}.svg`.replace(/[^\w.-]/g, "_");
+    $("download").download = fileName(design, "svg");
   }
 }
 
