@@ -116,5 +116,5 @@ def check_question(config: Config) -> None:
     """
     if config.rank.panel:
         check_panel(config.rank.panel, config.cases)
-    if required := [name for name, limit in config.require if limit is not None]:
-        check_required(required, config.cases)
+    if any(limit is not None for _, limit in config.require):
+        check_required(dict(config.require), config.cases)

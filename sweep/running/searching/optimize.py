@@ -118,7 +118,7 @@ def start_of(config: Config, question: Question, out: str, how: Settings) -> lis
 
 def check_start(question: Question, start: Sequence[Case]) -> None:
     """Refuse a requirement of which no design has a value, and designs that are no parts."""
-    check_required(question.require or {}, start)
+    check_required(question.require, start)
     if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
         allowed = "lattices that are drawn with lines; sheets are compared in a [grid]"
         raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
