@@ -65,9 +65,11 @@ def by_number(
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why there is no number in a scene, and the id that takes its place."""
+    from sweep.numbers import budget_text
     from sweep.report.tables.design_text import named_case
 
-    why = f"no design is ranked{f' in {label}' if label else ''}"
+    limit = f" up to {budget_text(max(ranking.budgets_g))}" if ranking.budgets_g else ""
+    why = f"no design{limit} is ranked{f' in {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:
         return f"{why}; without CASE, show lists all ids"
     word, row = instead

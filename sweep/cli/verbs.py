@@ -243,10 +243,12 @@ def published(arguments: Namespace) -> int:
 def new(arguments: Namespace) -> int:
     """Write a first config."""
     from sweep.cli.new import new as write
+    from sweep.config.reading.examples import FOLDER
 
     path = quoted(str(write(arguments.name, arguments.kind, arguments.out)))
     say(f"{path}: change it, then: crumple run {path} --dry-run")
-    hint(["crumple.schema.json, beside it, lets an editor complete and mark its keys"])
+    editors = "crumple.schema.json, beside it, lets an editor complete and mark its keys"
+    hint([editors, f"all keys: {FOLDER / 'README.md'}"])
     return DONE
 
 

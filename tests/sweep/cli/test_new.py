@@ -21,8 +21,9 @@ MODES = {"crush": "displacement", "drop": "impact", "load": "force"}
 @pytest.mark.parametrize("kind", KINDS)
 def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind):
     monkeypatch.chdir(tmp_path)
-    status, out, _ = crumple(capsys, "new", "bumper", "--kind", kind)
+    status, out, err = crumple(capsys, "new", "bumper", "--kind", kind)
     assert (status, out) == (0, "bumper.toml: change it, then: crumple run bumper.toml --dry-run\n")
+    assert "`kind`" in Path(err.rpartition("all keys: ")[2].strip()).read_text("utf-8")
     config = load_config("bumper.toml")
     assert config.name == "bumper"
     cases = expand(config)
