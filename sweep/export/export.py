@@ -206,9 +206,14 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
     from sweep.store.read import read_summary
 
     summary = read_summary(source)
+    if not case_id:
+        ids = ", ".join(summary["case_id"].head(3))
+        raise ExportError(
+            f"{os.fspath(source)} has {len(summary)} cases; needed: case_id, of {ids} ..."
+        )
     rows = summary[summary["case_id"] == case_id]
     if rows.empty:
-        raise ExportError(f'{source} holds no case "{case_id}"')
+        raise ExportError(f'{os.fspath(source)} holds no case "{case_id}"')
     return Source(source, rows.iloc[0].to_dict())
 
 
