@@ -390,7 +390,7 @@ class Reader:
 
 def _is_share(key: Key, raw: object) -> bool:
     """Whether a number without a unit can only be a share."""
-    return key.unit == "1" and isinstance(raw, float) and 0.0 < raw < 1.0
+    return key.unit == "1" and not key.bare and isinstance(raw, float) and 0.0 < raw < 1.0
 
 
 def is_range(value: object) -> bool:
