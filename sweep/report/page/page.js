@@ -673,6 +673,7 @@ function dot(plot, row, shown, hue) {
       onclick: () => lookAt(row.design.id),
     }),
   );
+  if (row.design.coarse) plot.svg.append(shape("text", { class: "sign", x: x + 7, y: y - 5 }, "i"));
 }
 
 function showCard(plot, row, x, y) {
