@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.numbers import budget_text
+
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
@@ -52,7 +54,7 @@ def by_number(
         raise CaseError(_no_place(ranking, label, summary))
     budget = rows["budget_g"].iloc[0]
     rows = rows[rows["budget_g"].isna() if budget != budget else rows["budget_g"] == budget]
-    within = f", up to {budget:g} g" if budget > 0.0 else ""
+    within = f", up to {budget_text(budget)}" if budget > 0.0 else ""
     count = rows["contenders"].iloc[0]
     if number > count:
         allowed = f"allowed: 1 to {count}, or the beginning of an id"
@@ -65,7 +67,6 @@ def by_number(
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why there is no number in a scene, and the id that takes its place."""
-    from sweep.numbers import budget_text
     from sweep.report.tables.design_text import named_case
 
     limit = f" up to {budget_text(max(ranking.budgets_g))}" if ranking.budgets_g else ""

@@ -11,7 +11,7 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
-from sweep.numbers import counted
+from sweep.numbers import budget_text, counted
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import FilesOf, first_ranking, page_data
@@ -87,7 +87,7 @@ def _winners(table: DataFrame, summary: DataFrame) -> str:
     first = table.drop_duplicates(["budget_g", "scene"])
     labels, doubts = design_labels(first, summary), doubtful(first)
     lines = [
-        f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
+        f"The best design{f' up to {budget_text(row.budget_g)}' if row.budget_g > 0.0 else ''}, "
         f"{row.scene}: {label}{', whose result is unreliable' if doubt else ''}."
         for row, label, doubt in zip(first.itertuples(), labels, doubts, strict=True)
     ]
