@@ -252,6 +252,14 @@ def new(arguments: Namespace) -> int:
     return DONE
 
 
+def schema(_: Namespace) -> int:
+    """Print the JSON schema of a config."""
+    from sweep.cli.new import schema_text
+
+    say(schema_text().rstrip())
+    return DONE
+
+
 def completion(arguments: Namespace) -> int:
     """Print what a shell needs to complete words."""
     from sweep.cli.completion import script
@@ -262,7 +270,7 @@ def completion(arguments: Namespace) -> int:
 
 ALL = (
     *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
-    *(materials, card, published, new, completion),
+    *(materials, card, published, new, schema, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}
 

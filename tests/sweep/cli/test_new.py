@@ -1,5 +1,6 @@
 """First configs: each runs as it is, is explained, and takes nobody's file."""
 
+import json
 import re
 import tomllib
 from pathlib import Path
@@ -71,6 +72,14 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
         assert (status, out) == (2, "")
         assert why in err
     assert {path.name for path in tmp_path.iterdir()} == {"pad.toml", "crumple.schema.json"}
+
+
+def test_the_schema_beside_a_config_is_printed_too(capsys, tmp_path):
+    assert crumple(capsys, "new", "pad", "--out", str(tmp_path / "pad.toml"))[0] == 0
+    status, out, err = crumple(capsys, "schema")
+    assert (status, err) == (0, "")
+    assert out == (tmp_path / "crumple.schema.json").read_text("utf-8")
+    assert "lattice" in json.loads(out)["properties"]
 
 
 def test_every_family_is_offered(monkeypatch):
