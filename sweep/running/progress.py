@@ -86,7 +86,7 @@ class Progress:
         self.total = done + waiting
         self.done, self.failed = done, 0
         self._left = dict(work)
-        self._ended = defaultdict[Kind, float](float)  # weight of finished cases
+        self._ended = defaultdict[Kind, float](float)  # weight of the cases that tell the pace
         self._cpu = defaultdict[Kind, float](float)  # and their processor time, s
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, processor time
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
@@ -117,17 +117,19 @@ class Progress:
     def advance(self, results: Sequence[Result]) -> None:
         """Count finished cases, and report the first failures."""
         self.done += len(results)
-        before = sum(self._ended.values())
+        ended = 0.0
         for result in results:
             alike, weight = kind(result.case), self.weight(result.case)
             cpu = float(result.summary["cpu_s"])
             self._left[alike] = self._left.get(alike, 0.0) - weight
-            self._ended[alike] += weight
-            self._cpu[alike] += cpu if isfinite(cpu) else 0.0
+            ended += weight
+            if self._recent and isfinite(cpu):  # the first case loads the kernels too
+                self._ended[alike] += weight
+                self._cpu[alike] += cpu
             if result.status is not Status.CONVERGED:
                 self._report_failure(result)
         self._measure(time.monotonic())
-        self._bar.update(self._task, advance=sum(self._ended.values()) - before)
+        self._bar.update(self._task, advance=ended)
 
     def _report_failure(self, result: Result) -> None:
         self.failed += 1
