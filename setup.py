@@ -5,11 +5,14 @@
                                                       they import from `crumple.kernels` and so on
     crumple/configs/                                  this folder: materials and examples
 
-An editable install takes the checkout as it is. Everything else is in pyproject.toml.
+An editable install takes the checkout as it is. Everything else is in pyproject.toml, except what
+depends on the address of the repository, PROJECT_URL, which a release sets.
 """
 
+import os
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 from setuptools import setup
@@ -18,6 +21,7 @@ from setuptools.command.egg_info import egg_info
 
 ROOT = Path(__file__).parent
 OWN_IMPORT = re.compile(r"^( *from )(?=(?:kernels|sweep)\b)", re.MULTILINE)
+RELATIVE = re.compile(r"(!?)(\[[^\]]*\]\()(?![a-z]+:|#)")  # a link or a picture in Markdown
 MAIN = '''"""The command line, as `python -m crumple`."""
 
 from crumple import main
@@ -64,5 +68,24 @@ class OneName(egg_info):
         Path(self.egg_info, "top_level.txt").write_text("crumple\n", "utf-8")
 
 
+def about(url):
+    """The README and links of the project; with an address, links of the README lead there."""
+    readme = (ROOT / "README.md").read_text("utf-8")
+    pages = {}
+    if url:
+        tag = (
+            "v" + tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
+        )
+        folder = {"!": f"{url}/raw/{tag}/", "": f"{url}/blob/{tag}/"}
+        readme = RELATIVE.sub(lambda link: link[0] + folder[link[1]], readme)
+        pages = {"Source": url, "Issues": f"{url}/issues", "Changelog": folder[""] + "CHANGELOG.md"}
+    return {
+        "long_description": readme,
+        "long_description_content_type": "text/markdown",
+        "project_urls": pages,
+    }
+
+
 if __name__ == "__main__":
-    setup(cmdclass={"build_py": OnePackage, "egg_info": OneName})
+    own = {"build_py": OnePackage, "egg_info": OneName}
+    setup(cmdclass=own, **about(os.environ.get("PROJECT_URL", "")))

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from sweep.ranking.question import RankError
     from sweep.ranking.rank import rank, ranked
     from sweep.ranking.ranking import Ranking
-    from sweep.report.results import Picture, Results
     from sweep.result import Result, Status
+    from sweep.results import Picture, Results
     from sweep.running.cluster import ClusterError
     from sweep.running.run import run, spread
     from sweep.running.searching.optimize import OptimizeError, optimize
@@ -97,12 +97,12 @@ _HOME = {
     "Interrupted": "running.sweep",
     "MisfitError": "config.faults",
     "OptimizeError": "running.searching.optimize",
-    "Picture": "report.results",
+    "Picture": "results",
     "RankError": "ranking.question",
     "Ranking": "ranking.ranking",
     "Rerun": "store.read",
     "Result": "result",
-    "Results": "report.results",
+    "Results": "results",
     "Status": "result",
     "StoreError": "store.read",
     "__version__": "version",

@@ -49,6 +49,7 @@ EXAMPLES = """examples:
   crumple materials                             the materials, their numbers and sources
   crumple card infills --to card.inp            the infills as materials for CalculiX, Abaqus
   crumple published                             predictions beside what was measured
+  crumple schema > crumple.schema.json          for editors: all keys and their values
   crumple completion bash                       let the shell complete words: see its --help
 
 armor, search and accuracy/impact are examples that come with Crumple; your own is a file: mine.toml
@@ -115,6 +116,9 @@ RANK_EXAMPLES = """examples:
 NEW = """Write a config with comments that runs as it is: a crush, a drop of a rigid striker, or a
 dead load. An existing file is not overwritten. Beside it is written crumple.schema.json, the JSON
 schema of all keys, which its first line names: editors that know TOML complete and mark keys."""
+SCHEMA = """Print the JSON schema of a config: all keys, what they mean, what is allowed. Editors
+that know TOML complete and mark the keys of a config that begins with #:schema and the name of such
+a file; crumple new writes both."""
 COMPLETION = """Print what a shell needs to complete the words of crumple: verbs, options, examples,
 results files, columns and ids. To use it:
   bash   eval "$(crumple completion bash)"             in ~/.bashrc
@@ -568,6 +572,7 @@ def _add_helpers(verbs: Any) -> None:
     new.add_argument("name", metavar="NAME", help="of the sweep, such as bumper")
     new.add_argument("--kind", choices=KINDS, default="crush", help="of loading (default: crush)")
     new.add_argument("--out", type=_path, metavar="FILE", help="file to write (default: NAME.toml)")
+    verbs.add_parser("schema", help="the keys of a config, for editors", description=SCHEMA)
     completion = verbs.add_parser(
         "completion",
         help="complete words in a shell",

@@ -48,7 +48,7 @@ def explained(function: Callable[P, R]) -> Callable[P, R]:
             return function(*args, **kwargs)
         except (TypeError, AttributeError):
             if wrong := next(_misfits(function, args, kwargs), ""):
-                raise MisfitError(f"crumple.{function.__name__}: {wrong}") from None
+                raise MisfitError(f"crumple.{function.__qualname__}: {wrong}") from None
             raise
 
     called.__module__ = __name__.rpartition(".")[0]  # where pickle finds it
@@ -68,8 +68,9 @@ def _misfits(
     for name, value in bound.arguments.items():
         parameter = takes.parameters[name]
         types = _types(parameter)
-        if parameter.kind is not Parameter.VAR_KEYWORD and not _fits(value, types):
-            text = repr(value)
+        is_known = types and parameter.kind is not Parameter.VAR_KEYWORD
+        if is_known and not _fits(value, types):
+            text = " ".join(repr(value).split())
             text = text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
             words = [WORDS.get(word, word) for word in types]
             yield f"{name} = {text}; allowed: {', '.join(words)}"
@@ -78,13 +79,19 @@ def _misfits(
 def _names(takes: Signature) -> Iterator[str]:
     """The arguments of a function; for a dict of keywords, its keys."""
     for name, parameter in takes.parameters.items():
+        if parameter.annotation is Parameter.empty:  # self
+            continue
         packed = parameter.annotation.__args__ if parameter.kind is Parameter.VAR_KEYWORD else ()
         yield from packed[0].__annotations__ if packed else [name]
 
 
 def _types(parameter: Parameter) -> list[str]:
-    """The names of the types that a parameter may have, without modules and contents."""
+    """The names of the types that a parameter may have, without modules and contents; none of
+    `self`.
+    """
     text = parameter.annotation
+    if text is Parameter.empty:
+        return []
     text = text if isinstance(text, str) else formatannotation(text)
     while text != (text := _INSIDE.sub("", text)):
         pass

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sweep.numbers import budget_text
+
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
@@ -52,7 +54,7 @@ def by_number(
         raise CaseError(_no_place(ranking, label, summary))
     budget = rows["budget_g"].iloc[0]
     rows = rows[rows["budget_g"].isna() if budget != budget else rows["budget_g"] == budget]
-    within = f", up to {budget:g} g" if budget > 0.0 else ""
+    within = f", up to {budget_text(budget)}" if budget > 0.0 else ""
     count = rows["contenders"].iloc[0]
     if number > count:
         allowed = f"allowed: 1 to {count}, or the beginning of an id"
@@ -67,7 +69,8 @@ def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why a scene has no numbered places, and the id to use instead."""
     from sweep.report.tables.design_text import named_case
 
-    why = f"no design is ranked{f' in {label}' if label else ''}"
+    limit = f" up to {budget_text(max(ranking.budgets_g))}" if ranking.budgets_g else ""
+    why = f"no design{limit} is ranked{f' in {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:
         return f"{why}; without CASE, show lists all ids"
     word, row = instead

@@ -20,8 +20,8 @@ HEAD = """\
 #   crumple run {file}                    simulate, then rank
 #   crumple show {results} 1    pictures of the best design
 #
-# Every quantity has a unit. Keys that are left out have defaults; all of them are explained in
-# configs/README.md. A line that begins with # is a comment: remove the # to use its key.
+# Every quantity has a unit. Keys that are left out have defaults. configs/README.md of Crumple
+# explains all of them. A line that begins with # is a comment: remove the # to use its key.
 name = "{name}"
 
 [lattice]

@@ -90,10 +90,10 @@ def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Ca
         return question
     if arguments.allowed_force is not None:
         raise OptimizeError("--max-force with --allowed-force; allowed: one of them")
-    in_si(arguments.max_force, "N")
+    limit = in_si(arguments.max_force, "N")
     if not mode or MODES[mode].driven:
         return question._replace(allowed_force=arguments.max_force)
-    check_modes(["max_force"], [mode])
+    check_modes({"max_force": limit}, [mode])
     required = {**(question.require or {}), "max_force": arguments.max_force}
     return question._replace(require=required)
 

@@ -194,8 +194,8 @@ def export(arguments: Namespace) -> int:
 
 def report(arguments: Namespace) -> int:
     """Write a results file as one HTML page."""
+    from sweep.export.page import export_page
     from sweep.ranking.question import Question
-    from sweep.report.page.write import write_page
     from sweep.store.read import read_summary
 
     summary, stored = read_summary(arguments.file), stored_table(arguments.file, "rank")
@@ -207,8 +207,9 @@ def report(arguments: Namespace) -> int:
     )
     out = Path(arguments.out or Path(arguments.file).with_suffix(".html"))
     with writing(out.parent, out):
-        page = write_page(arguments.file, summary, question, out)
+        page, notes = export_page(arguments.file, summary, question, out)
     say(f"{page} ({text_in(page.stat().st_size, 'MB', 2)})")
+    say_all(notes)
     if arguments.open and not webbrowser.open(page.resolve().as_uri()):
         hint(["there is no browser to open it"])
     if failed := len(failed_cases(summary)):
@@ -242,10 +243,20 @@ def published(arguments: Namespace) -> int:
 def new(arguments: Namespace) -> int:
     """Write a first config."""
     from sweep.cli.new import new as write
+    from sweep.config.reading.examples import FOLDER
 
     path = quoted(str(write(arguments.name, arguments.kind, arguments.out)))
     say(f"{path}: change it, then: crumple run {path} --dry-run")
-    hint(["crumple.schema.json, beside it, lets an editor complete and mark its keys"])
+    editors = "crumple.schema.json, beside it, lets an editor complete and mark its keys"
+    hint([editors, f"all keys: {FOLDER / 'README.md'}"])
+    return DONE
+
+
+def schema(_: Namespace) -> int:
+    """Print the JSON schema of a config."""
+    from sweep.cli.new import schema_text
+
+    say(schema_text().rstrip())
     return DONE
 
 
@@ -259,7 +270,7 @@ def completion(arguments: Namespace) -> int:
 
 ALL = (
     *(run, optimize, accuracy, warm, status, verify, merge, rank, show, export, report),
-    *(materials, card, published, new, completion),
+    *(materials, card, published, new, schema, completion),
 )
 VERBS = {verb.__name__: verb for verb in ALL}
 

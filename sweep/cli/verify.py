@@ -61,9 +61,9 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
     import numpy as np
 
     from sweep.running.warming import real_simulate
-    from sweep.store.read import read_case
+    from sweep.store.read import read_cases
 
-    cases = [read_case(file, case_id) for case_id in rows.index]
+    cases = [*read_cases(file, rows.index)]
     simulate = real_simulate(cases)
     for case in cases:
         case_id, row = case.case_id, rows.loc[case.case_id]

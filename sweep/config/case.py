@@ -285,6 +285,7 @@ def _pressed_of(lattice: Lattice, along: bool) -> Body:
 def _refused(table: str, wrong: ErrorDetails) -> RefusedError:
     """The refusal of a value of the wrong type or out of range."""
     allowed = wrong["msg"].removeprefix("Input should be ")
+    allowed = allowed.replace("a valid number", "a number in SI")
     return RefusedError(f"{table}.{wrong['loc'][0]}", wrong["input"], allowed)
 
 

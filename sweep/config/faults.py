@@ -7,10 +7,14 @@ SHOWN = 12  # most faults that the text of a ConfigError lists
 
 
 class Fault(NamedTuple):
-    """One fault: its key, and one line with key, value and allowed values."""
+    """One fault: its key, and one line with key, value and allowed values.
+
+    understood: the value is used in spite of it, so that no other fault follows from it.
+    """
 
     key: str
     line: str
+    understood: bool = False
 
 
 class MisfitError(ValueError):

@@ -347,7 +347,7 @@ def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fa
 
 def _merged(refusals: list[tuple[Fault, Values]], count: int, recipe: Recipe) -> Fault:
     """The line of the first of several refusals, with their number and their common values."""
-    (key, line), _ = refusals[0]
+    (key, line, *_), _ = refusals[0]
     if count > 1:
         shared = _shared(key, [chosen for _, chosen in refusals], recipe)
         line += f" ({len(refusals):,} of {count:,} combinations{shared})"

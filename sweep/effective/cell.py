@@ -86,7 +86,9 @@ def infill_of(case: Case) -> Infill:
         size = unit * (lattice.width, lattice.height) / whole
         period = _period(case, lattice.kind, lattice.orientation, size)
         return Infill(period, 0.0, lattice.name)
-    raise MisfitError(f"{lattice.name}{lattice.aperiodic}; allowed: {ALLOWED}")
+    uneven = isinstance(lattice, Sliced) and lattice.printed_as.family != ""
+    why = " has walls of two thicknesses" if uneven else lattice.aperiodic
+    raise MisfitError(f"{lattice.name}{why}; allowed: {ALLOWED}")
 
 
 def _period(case: Case, kind: str, orientation: str | None, size: Floats) -> Case:

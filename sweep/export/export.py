@@ -6,7 +6,7 @@ No file is left half-written: it is made in a folder beside, then moved to its p
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -151,6 +151,21 @@ def export_case(
     return _written(path, lambda beside: _writer(path)(beside, _source(source, case_id), wish))
 
 
+def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[bytes | None]:
+    """What `export_case` writes as .3mf for cases of a results file; None where it refuses."""
+    from sweep.store.read import read_cases
+
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "print.3mf"
+        for case in read_cases(file, case_ids):
+            try:
+                _three_mf(path, Planned(case), Wish(None, "lattice"))
+            except ExportError:
+                yield None
+            else:
+                yield path.read_bytes()
+
+
 def check_export(
     path: Path, panel: Sequence[float | str] | None = None, kind: Kind | None = None
 ) -> Wish:
@@ -191,9 +206,14 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
     from sweep.store.read import read_summary
 
     summary = read_summary(source)
+    if not case_id:
+        ids = ", ".join(summary["case_id"].head(3))
+        raise ExportError(
+            f"{os.fspath(source)} has {len(summary)} cases; needed: case_id, of {ids} ..."
+        )
     rows = summary[summary["case_id"] == case_id]
     if rows.empty:
-        raise ExportError(f'{source} holds no case "{case_id}"')
+        raise ExportError(f'{os.fspath(source)} holds no case "{case_id}"')
     return Source(source, rows.iloc[0].to_dict())
 
 

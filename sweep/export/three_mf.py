@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
-from zipfile import ZIP_DEFLATED, ZipFile
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from sweep.version import __version__
 
@@ -29,7 +29,10 @@ TYPES = {
 
 
 def write_3mf(path: Path, body: Body, name: str, beside: Mapping[str, bytes]) -> None:
-    """Write a body as one object. beside : name in the zip -> content, for further files."""
+    """Write a body as one object; equal bodies give equal bytes, as no time is stored.
+
+    beside : name in the zip -> content, for further files.
+    """
     files = {
         "[Content_Types].xml": _content_types(),
         "_rels/.rels": _relations(),
@@ -37,7 +40,7 @@ def write_3mf(path: Path, body: Body, name: str, beside: Mapping[str, bytes]) ->
     }
     with ZipFile(path, "w", ZIP_DEFLATED) as archive:
         for file, content in {**files, **beside}.items():
-            archive.writestr(file, content)
+            archive.writestr(ZipInfo(file), content, ZIP_DEFLATED)
 
 
 def xml_bytes(root: Xml.Element) -> bytes:

@@ -22,7 +22,7 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.modes import MODES, has, mode_of
-from sweep.numbers import to_si
+from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import RankError, in_si
@@ -90,18 +90,26 @@ def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
     for name in given:
         if name not in MEASURES:
             nearest = difflib.get_close_matches(name, MEASURES, n=1, cutoff=0.0)[0]
-            raise RankError(f"unknown requirement {name}; the nearest is {nearest}")
+            text = f'{name} = "{given[name]}"'
+            raise RankError(f"{text}: unknown requirement; the nearest is {nearest}")
     return {name: in_si(given[name], MEASURES[name].unit) for name in MEASURES if name in given}
 
 
-def check_modes(required: Iterable[str], modes: Iterable[str]) -> None:
-    """Refuse a requirement that applies to none of these kinds of loading."""
+def unknown_of(name: str, limit: float, cases: str, needed: str) -> RankError:
+    """The refusal of a requirement (SI) that these cases, in words, have no value for."""
+    text = f'{name} = "{text_in(limit, MEASURES[name].shown)}"'
+    return RankError(f"{text}: not known of {cases}; needed: {needed}")
+
+
+def check_modes(required: Mapping[str, float], modes: Iterable[str]) -> None:
+    """Refuse a requirement (SI) that applies to none of these kinds of loading."""
     kinds = set(modes)
-    for name in required:
+    for name, limit in required.items():
         asked_of = MEASURES[name].asked_of
         if kinds and not kinds.intersection(asked_of):
+            loadings = " or ".join(sorted(MODES[mode].noun for mode in kinds))
             needed = " or ".join(MODES[mode].noun for mode in asked_of)
-            raise RankError(f"{name} needs {needed}, and there is none")
+            raise unknown_of(name, limit, loadings, needed)
 
 
 def check(rows: DataFrame, required: Mapping[str, float]) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pandas import concat
 
 from sweep.modes import MODES, has
-from sweep.numbers import in_unit
+from sweep.numbers import budget_text, in_unit
 from sweep.plain_text import csv_text
 from sweep.ranking.accuracy import studies
 from sweep.ranking.cushion import crush_of, drops
@@ -205,7 +205,7 @@ def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, Mappi
     first = first.drop_duplicates("case_id").head(MAX_WINNERS)
     winners = {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, designs), strict=True):
-        budget = f"up to {row['budget_g']:.4g} g, " if row["budget_g"] > 0.0 else ""
+        budget = f"up to {budget_text(row['budget_g'])}, " if row["budget_g"] > 0.0 else ""
         if frames := _frames(file, row):
             winners[f"{budget}{row['scene']}: {design}"] = frames
     return winners

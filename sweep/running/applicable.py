@@ -1,20 +1,20 @@
 """Refuses requirements that cannot apply to the cases of a sweep, before a case runs."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from sweep.config.case import Case
 from sweep.config.kinds.striker import Struck
-from sweep.ranking.question import RankError
-from sweep.ranking.requirements import check_modes
+from sweep.ranking.question import Quantity
+from sweep.ranking.requirements import check_modes, limits, unknown_of
 
 
-def check_required(required: Iterable[str], cases: Sequence[Case]) -> None:
+def check_required(require: Mapping[str, Quantity | None] | None, cases: Sequence[Case]) -> None:
     """Refuse a requirement for which none of these cases has a value."""
-    names = list(required)
-    check_modes(names, {case.loading.mode for case in cases})
+    required = limits(require)
+    check_modes(required, {case.loading.mode for case in cases})
     for name, (needed, has) in MEASURED.items():
-        if name in names and cases and not any(map(has, cases)):
-            raise RankError(f"{name} needs {needed}, and there is none")
+        if name in required and cases and not any(map(has, cases)):
+            raise unknown_of(name, required[name], "these cases", needed)
 
 
 def _has_patch(case: Case) -> bool:

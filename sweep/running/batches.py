@@ -1,13 +1,14 @@
 """The order and the size of batches: the next cases for a worker that is free."""
 
 import threading
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Sequence
 from zlib import crc32
 
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.steps import count_of
 from sweep.config.kinds.table import canonical
 
@@ -16,6 +17,18 @@ LEAST = 0.05  # of SECONDS: the smallest batches, at the end of a sweep
 MOST = 500  # cases in a batch
 QUAD = 10.0  # elements
 MEMORY = 0.5  # weight of earlier batches in the pace; so the time of compilation is soon forgotten
+
+
+Kind = tuple[str | float | None, ...]
+
+
+def kind(case: Case) -> Kind:
+    """The parameters that affect the pace most, besides the numbers of elements and steps."""
+    loading, solver, lattice = case.loading, case.solver, case.lattice
+    nodes = lattice.nodes_per_wall if isinstance(lattice, WallLattice) else 0
+    errors = getattr(solver, "step_error", None), getattr(solver, "accuracy", None)
+    platen = str(loading.platen)
+    return loading.direction, loading.mode, platen, case.contact.model, nodes, *errors
 
 
 def cost(case: Case) -> float:
@@ -43,7 +56,11 @@ class Plan:
     def __init__(self, cases: Sequence[Case], workers: int) -> None:
         self.workers = workers
         self._cases = cases
-        keys = np.array([(-cost(case), _mark(case)) for case in cases]).reshape(-1, 2)
+        self.work = defaultdict[Kind, float](float)  # of all cases
+        keys = np.empty((len(cases), 2))
+        for row, case in enumerate(cases):
+            keys[row] = -cost(case), _mark(case)
+            self.work[kind(case)] += cost(case)
         order = np.lexsort(keys.T[::-1])
         self._waiting: deque[int | Case] = deque(order.tolist())  # cases that are put back
         self.left = -float(keys[:, 0].sum())

@@ -28,12 +28,11 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.sheet import Surface
-from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted, text_in
 from sweep.result import Result, Status
 from sweep.running.alone import Simulate
-from sweep.running.batches import Plan, cost
+from sweep.running.batches import Kind, Plan, cost, kind
 from sweep.running.beside.error_bars import companions_beside
 from sweep.running.beside.run_beside import file_beside
 from sweep.running.sweep import Interrupted, interruptible
@@ -136,9 +135,9 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
     """Run one case of each kind of loading and mesh and, if these are short, one of each of its
     groups; scale their costs to their groups.
     """
-    kinds: dict[tuple[str | int, ...], list[Case]] = {}
+    kinds: dict[Kind, list[Case]] = {}
     for case in cases:
-        kinds.setdefault(_kind(case), []).append(case)
+        kinds.setdefault(kind(case), []).append(case)
     first = [(_middle(sorted(alike, key=cost)), alike) for alike in kinds.values()]
     started, seconds = time.perf_counter(), dict[str, float]()
     timed = _timed(simulate, seconds)
@@ -262,14 +261,6 @@ def duration(seconds: float) -> str:
         if seconds >= 2.0 * length:
             return f"{float(f'{seconds / length:.2g}'):g} {unit}"
     return f"{float(f'{seconds:.2g}'):g} s"
-
-
-def _kind(case: Case) -> tuple[str | int, ...]:
-    """The parameters that affect the pace most, besides the numbers of elements and steps."""
-    loading = case.loading.direction, case.loading.mode, str(case.loading.platen)
-    lattice = case.lattice
-    nodes = lattice.nodes_per_wall if isinstance(lattice, WallLattice) else 0
-    return *loading, case.contact.model, nodes
 
 
 def _middle(ordered: Sequence[Case]) -> Case:

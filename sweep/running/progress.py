@@ -3,25 +3,28 @@ and in a notebook one line that is replaced.
 """
 
 import time
-from collections import deque
-from collections.abc import Callable, Sequence
+from collections import defaultdict, deque
+from collections.abc import Callable, Mapping, Sequence
 from datetime import timedelta
 from importlib import import_module
+from math import isfinite
 from typing import Any, Self
 
 from rich.console import Console
-from rich.progress import BarColumn, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, Task, TimeElapsedColumn
 from rich.progress import Progress as Bar
+from rich.text import Text
 
 from sweep.config.case import Case
 from sweep.plain_text import plain
 from sweep.result import Result, Status
-from sweep.running.batches import cost
+from sweep.running.batches import Kind, cost, kind
 
 PERIOD = 5.0  # seconds between plain lines
 NOTEBOOK_PERIOD = 0.5
 RECENT = 60.0  # last seconds, from which the pace is measured
 FIRM = 4.0  # seconds of measurement before the time left is shown, since the first cases are short
+SOON = 1.0  # seconds: a shorter time left is not shown, as the running cases may be long ones
 SENTENCES = 5  # most different failures that are reported while the sweep runs
 
 
@@ -45,19 +48,33 @@ class NotebookLine:
             self._shown.update(data, raw=True)
 
 
+class Line(ProgressColumn):
+    """A text that is made anew whenever it is drawn."""
+
+    def __init__(self, text: Callable[[], str]) -> None:
+        super().__init__()
+        self._text = text
+
+    def render(self, task: Task) -> Text:
+        """The text now."""
+        return Text(self._text())
+
+
 class Progress:
     """Counts cases as they finish.
 
-    waiting: number of waiting cases. work: their total weight in the time left; `weight` is the
-    weight of one case. done: number of cases of the sweep that were finished before. part: these
-    cases are a part of a search, which reports the end of each part itself: lines appear only if a
-    part takes long.
+    The time left is the time of the waiting cases, each at the processor time per weight of the
+    finished cases of its kind. It runs down with the clock until more cases end, and is not shown
+    once it is over. waiting: number of waiting cases. work: total weight of the waiting cases, by
+    their kind; `weight` is the weight of one case. done: number of cases of the sweep that were
+    finished before. part: these cases are a part of a search, which reports the end of each part
+    itself: lines appear only if a part takes long.
     """
 
     def __init__(
         self,
         waiting: int,
-        work: float,
+        work: Mapping[Kind, float],
         done: int = 0,
         console: Console | None = None,
         part: bool = False,
@@ -68,8 +85,10 @@ class Progress:
         self.weight = weight
         self.total = done + waiting
         self.done, self.failed = done, 0
-        self._left = work
-        self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, cost left
+        self._left = dict(work)
+        self._ended = defaultdict[Kind, float](float)  # weight of the cases that tell the pace
+        self._cpu = defaultdict[Kind, float](float)  # and their processor time, s
+        self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, processor time
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
         self._told: tuple[int, int] | None = None  # cases done and failed in that line
         self._sentences: set[str] = set()
@@ -78,13 +97,13 @@ class Progress:
         self._bar = Bar(
             SpinnerColumn(),
             BarColumn(),
-            TextColumn("{task.description}"),
+            Line(lambda: self._line()),
             TimeElapsedColumn(),
             console=self.console,
             transient=part,
             disable=not self.console.is_terminal,
         )
-        self._task = self._bar.add_task(self._line(), total=self._left)
+        self._task = self._bar.add_task("", total=sum(work.values()))
 
     def __enter__(self) -> Self:
         self._bar.start()
@@ -97,14 +116,20 @@ class Progress:
 
     def advance(self, results: Sequence[Result]) -> None:
         """Count finished cases, and report the first failures."""
-        ended = sum(self.weight(result.case) for result in results)
         self.done += len(results)
-        self._left -= ended
+        ended = 0.0
         for result in results:
+            alike, weight = kind(result.case), self.weight(result.case)
+            cpu = float(result.summary["cpu_s"])
+            self._left[alike] = self._left.get(alike, 0.0) - weight
+            ended += weight
+            if self._recent and isfinite(cpu):  # the first case loads the kernels too
+                self._ended[alike] += weight
+                self._cpu[alike] += cpu
             if result.status is not Status.CONVERGED:
                 self._report_failure(result)
         self._measure(time.monotonic())
-        self._bar.update(self._task, advance=ended, description=self._line())
+        self._bar.update(self._task, advance=ended)
 
     def _report_failure(self, result: Result) -> None:
         self.failed += 1
@@ -113,7 +138,7 @@ class Progress:
             self.say(f"case {result.case_id} {result.status}: {result.message}")
 
     def _measure(self, now: float) -> None:
-        self._recent.append((now, self.done, self._left))
+        self._recent.append((now, self.done, sum(self._cpu.values())))
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
         if not self.console.is_terminal and now - self._printed > self._period:
@@ -128,14 +153,20 @@ class Progress:
         """Cases per second and time left, if two moments are known."""
         if len(self._recent) < 2:
             return []
-        (begin, done_then, left_then), (now, done, left) = self._recent[0], self._recent[-1]
-        if now == begin or left_then <= left:
+        (begin, done_then, cpu_then), (now, done, cpu) = self._recent[0], self._recent[-1]
+        if now == begin:
             return []
         pace = f"{(done - done_then) / (now - begin):.3g} a second"
-        if self.done == self.total or now - begin < FIRM:
+        if self.done == self.total or now - begin < FIRM or cpu <= cpu_then:
             return [pace]
-        seconds = round(left * (now - begin) / (left_then - left))
-        return [pace, f"{timedelta(seconds=seconds)} left"]
+        seconds = self._needed() * (now - begin) / (cpu - cpu_then) - (time.monotonic() - now)
+        return [pace, f"{timedelta(seconds=round(seconds))} left"] if seconds >= SOON else [pace]
+
+    def _needed(self) -> float:
+        """Processor time (s) of the waiting cases; a kind without a finished case has the mean pace."""
+        of_all = sum(self._cpu.values()) / sum(self._ended.values())
+        pace = {k: self._cpu[k] / ended for k, ended in self._ended.items()}
+        return sum(left * pace.get(k, of_all) for k, left in self._left.items())
 
     def _update(self, line: str) -> None:
         """Show the state of the sweep; in a notebook it replaces the previous state."""

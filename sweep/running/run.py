@@ -17,7 +17,7 @@ from sweep.ranking.merit import check_panel
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.spread import Spread, spread_table, spreads
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside
@@ -116,5 +116,5 @@ def check_question(config: Config) -> None:
     """
     if config.rank.panel:
         check_panel(config.rank.panel, config.cases)
-    if required := [name for name, limit in config.require if limit is not None]:
-        check_required(required, config.cases)
+    if any(limit is not None for _, limit in config.require):
+        check_required(dict(config.require), config.cases)

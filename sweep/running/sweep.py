@@ -15,7 +15,7 @@ from sweep.config.grid import Config, cases_of, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
 from sweep.running.alone import DIED, NO_MEMORY, Simulate, run_alone
-from sweep.running.batches import Plan, cost
+from sweep.running.batches import Plan, cost, kind
 from sweep.running.cluster import Cluster, Scheduler
 from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal
@@ -102,9 +102,10 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 if suspects:
                     announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
                 plan = Plan(to_run.without(journal.suspects), workers)
-                left = plan.left + sum(map(cost, suspects))
+                for case in suspects:
+                    plan.work[kind(case)] += cost(case)
                 with (
-                    Progress(len(to_run), left, len(done), part=part) as progress,
+                    Progress(len(to_run), plan.work, len(done), part=part) as progress,
                     result_sink(writer, plan, progress) as sink,
                 ):
                     keep = _ending(suspects, journal, sink)

@@ -146,6 +146,12 @@ def read_case(path: str | os.PathLike[str], case_id: str) -> "Case":
     return _case(path, case_id, _read_arrays(Path(path), case_id, ["cases"]))
 
 
+def read_cases(path: str | os.PathLike[str], case_ids: Iterable[str]) -> "Iterator[Case]":
+    """`read_case` of many cases, one after another; the files are opened only once."""
+    for case_id, arrays in _arrays_of(Path(path), case_ids):
+        yield _case(path, case_id, arrays(["cases"]))
+
+
 def unreadable(path: str | os.PathLike[str]) -> dict[str, StoreError]:
     """The rows whose curves, shapes or case cannot be read, or whose case has another id: their
     ids, each with the fault.
@@ -269,21 +275,9 @@ def read_runs(
 
     shapes: False leaves the shapes unread, and `frames` empty.
     """
-    ids = [*case_ids]
-    some = {*ids}
-    with _union(Path(path)) as blocks:
-        arrays_of = {
-            case_id: partial(_arrays, block, row)
-            for block in blocks
-            for row, case_id in enumerate(block.summary["case_id"])
-            if case_id in some and row not in block.damaged
-        }
-        for case_id in ids:
-            if case_id not in arrays_of:
-                raise StoreError(f"{path} holds no case {case_id}.")
-            arrays = arrays_of[case_id]
-            frames = _frames(path, case_id, arrays(FRAME_GROUPS)) if shapes else {}
-            yield StoredRun(case_id, _history(arrays(["histories"])), frames)
+    for case_id, arrays in _arrays_of(Path(path), case_ids):
+        frames = _frames(path, case_id, arrays(FRAME_GROUPS)) if shapes else {}
+        yield StoredRun(case_id, _history(arrays(["histories"])), frames)
 
 
 def read_curves(
@@ -565,6 +559,25 @@ def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, n
             if rows.size and rows[-1] not in block.damaged:
                 return _arrays(block, rows[-1], groups)
     raise StoreError(f"{path} holds no case {case_id}.")
+
+
+def _arrays_of(
+    path: Path, case_ids: Iterable[str]
+) -> Iterator[tuple[str, Callable[[Iterable[str]], dict[str, np.ndarray]]]]:
+    """Of each case: its id, and what reads its arrays of some groups."""
+    ids = [*case_ids]
+    some = {*ids}
+    with _union(path) as blocks:
+        arrays_of = {
+            case_id: partial(_arrays, block, row)
+            for block in blocks
+            for row, case_id in enumerate(block.summary["case_id"])
+            if case_id in some and row not in block.damaged
+        }
+        for case_id in ids:
+            if case_id not in arrays_of:
+                raise StoreError(f"{path} holds no case {case_id}.")
+            yield case_id, arrays_of[case_id]
 
 
 def _arrays(block: Block, row: int, groups: Iterable[str]) -> dict[str, np.ndarray]:

@@ -7,6 +7,7 @@ from kernels.solve import march, outcomes
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.relaxation import relaxation_of
+from sweep.simulation.simulate import simulate
 from tests.support.designs.scenes import is_sound, run, unbalanced
 from tests.support.designs.structures import APART
 from tests.support.designs.tables import material_with
@@ -104,3 +105,21 @@ def test_a_hold_relaxes_as_the_material():
         forces.append(rows["reaction_top"][-1] / modulus)
         passed = end
     np.testing.assert_allclose(forces, forces[0], rtol=2e-3)
+
+
+@pytest.mark.parametrize("nodes", [2, 3])
+def test_stars_that_snap_are_unloaded_to_the_end(nodes):
+    """A robot's foot, 24 x 15 mm: 26 J a panel of twelve, which lead its ranking."""
+    feet = dict(kind="kagome", width=24e-3, height=15e-3, depth=15e-3, cells_x=4)
+    lattice = feet | {"wall_thickness": 0.8e-3, "nodes_per_wall": nodes}
+    result = simulate(
+        Case.of(
+            lattice=lattice,
+            material={"name": "cheetah", "loss": LOSS},
+            loading={"mode": "displacement", "strain": 0.6, "platen": "contact"},
+        )
+    )
+    assert (result.status, result.message) == ("converged", "")
+    assert result.summary["absorbed_energy_until_packed_J"] == pytest.approx(2.15, rel=0.01)
+    work = result.history["work_in_J"].max()
+    assert result.summary["returned_energy_J"] == pytest.approx(0.5 * work, rel=0.05)

@@ -26,8 +26,8 @@ FLOORS = [
     "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.modes",
     "sweep.design", "sweep.config", "sweep.arguments", "sweep.columns", "sweep.result",
     "sweep.scene", "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store",
-    "sweep.ranking", "sweep.report", "sweep.export", "sweep.running", "sweep.published",
-    "sweep.cli", "sweep.__main__",
+    "sweep.ranking", "sweep.report", "sweep.export", "sweep.results", "sweep.running",
+    "sweep.published", "sweep.cli", "sweep.__main__",
 ]  # fmt: skip
 HOMES = {
     "numba": "kernels.compile",
@@ -43,7 +43,7 @@ HOMES = {
 }
 # What reads results, and so must run where nothing is installed that simulates.
 READERS = [m for m in PROGRAM if m.startswith(("sweep.store", "sweep.ranking", "sweep.report"))]
-READERS += ["sweep.cli.verbs"]
+READERS += ["sweep.results", "sweep.cli.verbs"]
 ABSENT = ["kernels", "numba", "llvmlite", "dask", "distributed", "pydantic", "scipy"]
 ABSENT += ["pydantic_core", "shapely", "tornado"]
 READING = """
@@ -285,6 +285,7 @@ def test_results_are_read_where_nothing_that_simulates_is_installed(tmp_path):
     done = python(READING.format(absent=ABSENT, readers=READERS, calls=calls))
     assert done.stderr == ""
     assert done.stdout.splitlines()[-1] == str([0] * len(calls))
+    assert "the page has no files to print: No module named 'p" in done.stdout
     assert {path.name for path in tmp_path.rglob("*.png")} > {"force.png", "absorption.png"}
     assert (tmp_path / "trial.html").exists()
 

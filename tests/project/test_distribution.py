@@ -1,6 +1,8 @@
 """Files that build, test and describe Crumple elsewhere: the same packages, versions and pages."""
 
+import os
 import re
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -31,12 +33,26 @@ def test_the_workflow_tests_the_versions_of_python_that_are_promised():
     assert [system.split("-")[0] for system in matrix["system"]] == ["ubuntu", "macos", "windows"]
 
 
-def test_the_workflow_names_files_and_versions_of_actions():
+@pytest.mark.parametrize("name", ["tests", "release"])
+def test_workflows_name_versions_of_actions(name):
+    text = (ROOT / f".github/workflows/{name}.yml").read_text("utf-8")
+    assert re.findall(r"uses: (?!\S+@(release/)?v\d+$).*", text, re.MULTILINE) == []
+
+
+def test_the_workflow_names_folders_that_exist():
     text = (ROOT / ".github/workflows/tests.yml").read_text("utf-8")
-    assert re.findall(r"uses: (?!\S+@v\d+$).*", text, re.MULTILINE) == []
     folders = re.findall(r"\btests/[\w/]+", text)
     assert len(folders) > 5
     assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
+
+
+@pytest.mark.parametrize("tag", [f"v{PROJECT['version']}", "v0.1", "v0.1.00", "main"])
+def test_a_release_has_the_tag_of_its_version(tag):
+    steps = read(".github/workflows/release.yml")["jobs"]["release"]["steps"]
+    (check,) = [step["run"] for step in steps if step.get("name") == "The tag is the version"]
+    environment = {**os.environ, "GITHUB_REF_NAME": tag}
+    done = subprocess.run(["bash", "-ec", check], cwd=ROOT, env=environment, check=False)
+    assert (done.returncode == 0) == (tag == f"v{PROJECT['version']}")
 
 
 def test_the_recipe_has_the_version_and_the_packages_of_the_project():

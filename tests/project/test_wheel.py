@@ -13,6 +13,7 @@ import sys
 import sysconfig
 import venv
 import zipfile
+from email.parser import Parser
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -35,6 +36,7 @@ lattice = {cells = 1, nodes_per_wall = 1}
 loading = {strain = 0.005}
 solver.load_steps = 2
 """
+LINK = re.compile(r"(!?)\[[^\]]*\]\(([^)\s]+)\)")
 NAMES = """
 import pydoc
 from importlib.resources import files
@@ -56,10 +58,14 @@ print(dot(np.ones(3), np.ones(3)), sum(dot.entry.stats.cache_hits.values()))
 """
 
 
+def asked(folder, verb, into):
+    script = f"from setuptools import build_meta; build_meta.{verb}({str(into)!r})"
+    subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
+
+
 def made(folder, what, into):
     """The sdist or wheel that setuptools makes of a folder when pip, build or uv call it."""
-    script = f"from setuptools import build_meta; build_meta.build_{what}({str(into)!r})"
-    subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
+    asked(folder, f"build_{what}", into)
     (path,) = into.glob("*.tar.gz" if what == "sdist" else "*.whl")
     return path
 
@@ -140,6 +146,27 @@ def test_wheel_is_one_package_with_all_that_it_needs(wheel):
         names = {name for name in archive.namelist() if not name.startswith(about)}
     assert names == own
     assert read(wheel, f"{about}/top_level.txt") == "crumple\n"
+
+
+@pytest.mark.parametrize("url", ["", "https://forge.example/own/crumple"])
+def test_links_lead_to_the_repository_of_a_release(wheel, url, tmp_path, monkeypatch):
+    """Its address is in one variable of the environment; without it, nothing is changed."""
+    monkeypatch.setenv("PROJECT_URL", url)
+    folder = wheel.parent / f"crumple-{crumple.__version__}"
+    asked(folder, "prepare_metadata_for_build_wheel", tmp_path)
+    told = Parser().parsestr(next(tmp_path.rglob("METADATA")).read_text("utf-8"))
+    readme = (ROOT / "README.md").read_text("utf-8")
+    assert told["Description-Content-Type"] == "text/markdown"
+    if not url:
+        assert (told["Project-URL"], told.get_payload().strip()) == (None, readme.strip())
+        return
+    assert f"Source, {url}" in told.get_all("Project-URL")
+    before, after = LINK.findall(readme), LINK.findall(told.get_payload())
+    assert len(before) == len(after) > 15
+    for (picture, link), (_, absolute) in zip(before, after, strict=True):
+        kind = "raw" if picture else "blob"
+        assert absolute == f"{url}/{kind}/v{crumple.__version__}/{link}"
+        assert (ROOT / link).exists()
 
 
 def test_modules_differ_only_in_where_they_import_from(wheel):

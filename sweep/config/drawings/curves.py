@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 
 TURN = radians(12.0)  # turn of one straight piece, within 0.6 % of the radius: 32 in a circle
 SAMPLES = np.linspace(0.0, 1.0, 65)  # points at which the direction of a curve is taken
+ROUND = 16  # least number of straight pieces of a circle
 MOST_LINES = 20_000
 
 
@@ -30,6 +31,44 @@ def straightened(curves: Iterable[Floats]) -> Floats:
         if count > MOST_LINES:
             raise MisfitError(f"more than {MOST_LINES:,} straight lines, or pieces of curves")
     return np.concatenate(pieces) if pieces else np.empty((0, 2, 2))
+
+
+def without_marks(ends: Floats) -> tuple[Floats, list[str]]:
+    """Lines (s, 2, 2) without the small circles around their ends, which mark joints; and a note.
+
+    A circle is a mark if lines end at its centre, all of them longer than four times its radius.
+    """
+    near = 1e-9 * np.abs(ends).max(initial=0.0)
+    apart = (np.abs(ends[1:, 0] - ends[:-1, 1]) > near).any(axis=1)
+    circles = [
+        loop
+        for loop in np.split(np.arange(len(ends)), np.flatnonzero(apart) + 1)
+        if len(loop) >= ROUND and _is_circle(ends[loop], near)
+    ]
+    if not circles:
+        return ends, []
+    others = np.delete(ends, np.concatenate(circles), axis=0)
+    length = np.linalg.norm(others[:, 1] - others[:, 0], axis=1)
+    marks = []
+    for loop in circles:
+        centre = _centre(ends[loop])
+        radius = np.linalg.norm(ends[loop[0], 0] - centre)
+        here = (np.linalg.norm(others - centre, axis=2) < 0.1 * radius).any(axis=1)
+        if here.any() and radius < 0.25 * length[here].min():
+            marks.append(loop)
+    count = f"{len(marks)} x small circle around the end of a line, a mark of a joint"
+    return (np.delete(ends, np.concatenate(marks), axis=0), [count]) if marks else (ends, [])
+
+
+def _centre(ring: Floats) -> Floats:
+    return np.asarray(0.5 * (ring[:, 0].max(axis=0) + ring[:, 0].min(axis=0)))
+
+
+def _is_circle(ring: Floats, near: float) -> bool:
+    """Whether lines (s, 2, 2), one after another, are a circle; some may have no length."""
+    radii = np.linalg.norm(ring[:, 0] - _centre(ring), axis=1)
+    closed = bool((np.abs(ring[-1, 1] - ring[0, 0]) <= near).all())
+    return closed and float(np.ptp(radii)) < 0.01 * float(radii.mean())
 
 
 def _points(curve: Floats) -> Floats:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from sweep.config.drawings.curves import MOST_LINES, Floats, straightened
+from sweep.config.drawings.curves import MOST_LINES, Floats, straightened, without_marks
 from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
@@ -43,13 +43,14 @@ def read_dxf(path: Path) -> Lines:
         hidden = {
             layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()
         }
-        ends = straightened(_curves(entities, hidden, left_out))
+        ends, marks = without_marks(straightened(_curves(entities, hidden, left_out)))
         unit = UNITS.get(str(decode(document.units)))
     except MisfitError:
         raise
     except Exception as error:  # noqa: BLE001  a damaged file fails anywhere in its reader
         raise MisfitError(f"not DXF that ezdxf can read ({type(error).__name__})") from None
-    said = ", ".join(f"{count} x {what}" for what, count in sorted(left_out.items()))
+    counts = [f"{count} x {what}" for what, count in sorted(left_out.items())]
+    said = ", ".join([*counts, *marks])
     notes += [f"left out: {said}"] if said else []
     return Lines(ends, unit, notes=tuple(notes))
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from sweep.config.drawings.curves import MOST_LINES, Floats, straightened
+from sweep.config.drawings.curves import MOST_LINES, Floats, straightened, without_marks
 from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
@@ -24,7 +24,8 @@ _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 
 def read_svg(path: Path) -> Lines:
     """The centre lines of all visible shapes, y upwards; stroke width and fill are ignored. If some
-    shapes have a stroke, shapes that are only filled are no lines, but areas and dots.
+    shapes have a stroke, shapes that are only filled are no lines, but areas and dots. Circles that
+    mark joints are left out (`without_marks`).
 
     The unit is the unit of the view box, from the width and the height of the page; a pixel if
     there is no view box. Without a size of the page it is not known.
@@ -53,7 +54,8 @@ def read_svg(path: Path) -> Lines:
         raise MisfitError(f"no SVG: not XML at line {error.position[0]}") from None
     except Exception as error:  # noqa: BLE001  a damaged file fails anywhere in its reader
         raise MisfitError(f"not SVG that svgelements can read ({type(error).__name__})") from None
-    return Lines(ends * [1.0, -1.0], unit)
+    ends, marks = without_marks(ends * [1.0, -1.0])
+    return Lines(ends, unit, notes=tuple(f"left out: {mark}" for mark in marks))
 
 
 def _unit(root: Xml.Element) -> float | None:

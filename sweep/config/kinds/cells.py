@@ -49,6 +49,7 @@ class Cells(WallLattice):
         "layer_height": "lattice.solid_layers is 0",
     }
     words: ClassVar[tuple[str, ...]] = families()
+    aperiodic: ClassVar[str] = " has walls that are graded, so that no period repeats"
     sets: ClassVar[dict[str, tuple[str, ...]]] = {
         "mass": ("wall_thickness",),
         "infill": ("wall_thickness", "cells_x", "cells_y"),

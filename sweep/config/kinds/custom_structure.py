@@ -41,6 +41,9 @@ class CustomStructure(Specimen):
     derived: ClassVar[tuple[str, ...]] = ("width", "height", "depth", "wall_thickness")
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {"file": ("structure",)}
     words: ClassVar[tuple[str, ...]] = (CUSTOM,)
+    aperiodic: ClassVar[str] = (
+        " is a structure with its own supports and loads, which does not repeat"
+    )
     across: ClassVar[dict[str, Any]] = Specimen.across | {"imperfection": 0.0}
     kind: ClassVar[str] = CUSTOM
     name: ClassVar[str] = CUSTOM

@@ -40,6 +40,7 @@ class Surface(Specimen):
 
     derived: ClassVar[tuple[str, ...]] = ("period", "pressed", "width")
     constants: ClassVar[dict[str, Any]] = {"cells_x": 1.0, "cells_y": 1.0}
+    aperiodic: ClassVar[str] = " is a curved sheet: moduli are computed of straight walls only"
     neutral: ClassVar[dict[str, Any]] = {
         key: value for key, value in Specimen.neutral.items() if key != "sides"
     }

@@ -69,6 +69,9 @@ class Sliced(WallLattice):
     because: ClassVar[str] = "lattice.slicer is given"
     labels: ClassVar[tuple[str, ...]] = (*WallLattice.labels, "line_distance")
     constants: ClassVar[dict[str, Any]] = {"kind": "square"}
+    aperiodic: ClassVar[str] = (
+        " has parallel lines, which only perimeters join: without end they hold nothing together"
+    )
     derived: ClassVar[tuple[str, ...]] = ("fill_distance", "cells_x", "cells_y", "wall_thickness")
     sets: ClassVar[dict[str, tuple[str, ...]]] = {
         "infill": ("fill_distance",),

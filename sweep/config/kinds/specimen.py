@@ -46,7 +46,7 @@ class Specimen(Table):
         "symmetry": "none",
         "imperfection_seed": None,
     }
-    aperiodic: ClassVar[str] = " has no effective material here"
+    aperiodic: ClassVar[str]
 
     labels: ClassVar[tuple[str, ...]] = ("infill", "mass", "file", "nozzle", "printable")
     neutral: ClassVar[dict[str, Any]] = {

@@ -92,11 +92,12 @@ KEYS = {
     "weight": ("lattice.mass", ""),
     "youngs_modulus": ("material.modulus", ""),
     "filament": ("material.name", ""),
+    "material.file": ("material.name", "of one that is shipped, or the path of a .csv file"),
     "dt": ("solver.time_step", ""),
     "mu": ("contact.friction", ""),
     "budget": ("rank.budgets", "a list"),
 }
-"""Key that a user may think of -> the key of a config, and what to know about it."""
+"""Key that a user may think of, alone or in its table -> the key of a config, and a note."""
 
 
 def present_choice(key: str, raw: Any) -> Any:
@@ -119,6 +120,7 @@ def with_words(key: str, allowed: str) -> str:
 def meant(name: str, candidates: Iterable[str]) -> tuple[str, str]:
     """The known key that an unknown one means, and a clause that says so."""
     names = list(candidates)
-    key, note = KEYS.get(name.rpartition(".")[2].lower(), ("", ""))
+    word = name.lower()
+    key, note = KEYS.get(word) or KEYS.get(word.rpartition(".")[2], ("", ""))
     near = key if key in names else nearest(name, names)
     return near, f"the nearest is {near}" + (f": {note}" if note and near == key else "")

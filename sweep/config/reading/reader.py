@@ -114,7 +114,7 @@ class Reader:
             "exclude": {*TABLES, "exclude", "grid", "zip"},
         }.get(_table(fault.key), set(TABLES) - {"material"})
         depends_on = depends_on | ({"material"} if fault.key in BY_MATERIAL else set())
-        return not depends_on & {_table(other.key) for other in self.faults}
+        return not depends_on & {_table(other.key) for other in self.faults if not other.understood}
 
     def _name(self, name: object) -> str:
         if isinstance(name, str) and _NAME.fullmatch(name):
@@ -303,7 +303,7 @@ class Reader:
         return excluded if len(excluded) == len(table) else {}
 
     def _value(self, name: str, raw: Any, where: str = "") -> Written | None:
-        """A value in SI; if it is wrong, None, and one fault is added."""
+        """A value in SI; if it is wrong, one fault is added, and None unless it is understood."""
         questions = {} if where else table_keys("rank") | table_keys("require")
         keys = case_keys() | questions
         if name not in keys:
@@ -326,7 +326,10 @@ class Reader:
             words = [*CHOICES.get(key.targets[0], ()), *key.schema.get("enum", ())]
             near = similar(raw, words) if isinstance(raw, str) else ""
             self._refuse(name, raw, f"{error}; allowed: {allowed}{near}", where)
-            return None
+            if not _is_share(key, raw):
+                return None
+            self.faults[-1] = self.faults[-1]._replace(understood=True)
+            return Written(raw, in_words(raw), name)
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
         names = [*keys]
@@ -383,6 +386,11 @@ class Reader:
                 f"a bare number above {key.bare_most:g}, which may be meant in percent"
             )
         return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+
+def _is_share(key: Key, raw: object) -> bool:
+    """Whether a number without a unit can only be a share."""
+    return key.unit == "1" and not key.bare and isinstance(raw, float) and 0.0 < raw < 1.0
 
 
 def is_range(value: object) -> bool:

@@ -115,7 +115,7 @@ class Structure(Part):
     def velocity_mm_s(self) -> tuple[Pair, ...]:
         """Initial velocity of every node, mm/s."""
         given = self.initial_velocity_mm_s
-        if isinstance(given[0], tuple):
+        if not given or isinstance(given[0], tuple):
             return given
         return (given,) * len(self.nodes_mm)
 

@@ -40,6 +40,13 @@ WHITE = (1.0, 1.0, 1.0, 1.0)
 FRONT = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
 RING = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "label": "best"}
 HEAVY = {"ls": "", "marker": "o", "ms": 6.0, "color": GREY, "label": "above all budgets"}
+COARSE = {
+    "ls": "",
+    "marker": r"$\mathrm{i}$",
+    "ms": 6.0,
+    "color": "black",
+    "label": "coarse time steps",
+}
 PALE = 0.45  # share of its colour that a design off the Pareto front keeps
 VARIANT = [
     "lattice_kind",
@@ -97,7 +104,8 @@ def design_map(fig: Figure, ranking: Ranking) -> None:
         round_ticks(ax.yaxis)
     barred = bool(merit_errors(designs, energy).notna().any())
     entries = [*look.legend(barred=barred), FRONT, RING]
-    legend(fig, entries + [HEAVY] * bool((designs[mass] > most).any()))
+    heavy, coarse = (designs[mass] > most).any(), designs["coarse"].any()
+    legend(fig, entries + [HEAVY] * bool(heavy) + [COARSE] * bool(coarse))
 
 
 def thickness_trends(fig: Figure, ranking: Ranking) -> None:
@@ -152,12 +160,14 @@ def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
 
 
 def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
-    """Designs with one marker as dots; open if doubtful."""
+    """Designs with one marker as dots; open if doubtful; an i beside them marks coarse steps."""
     dots = ax.scatter(x, y, lw=1.2, zorder=2, **style)
     colors = dots.get_facecolor()
     beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, WHITE, colors)
     dots.set(edgecolor=colors, facecolor=faces)
+    for at in zip(x[points["coarse"]], y[points["coarse"]], strict=True):
+        ax.annotate("i", at, (5.0, 3.0), textcoords="offset points", fontsize="small")
 
 
 def _error_bars(ax: Axes, x: Series, y: Series, error: Series, color: str = GREY) -> None:

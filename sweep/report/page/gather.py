@@ -5,7 +5,10 @@ origin.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from base64 import b64encode
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +16,12 @@ import numpy as np
 
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
+from sweep.design.slicer.patterns import is_sheet
 from sweep.modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, merits, through_solid
+from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, is_period, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed import needed_columns, widened
 from sweep.ranking.question import Question
@@ -35,6 +39,7 @@ from sweep.report.page.selection import (
     Counted,
     front_of_others,
     group_others,
+    on_fronts,
     select_designs,
     select_stopped,
 )
@@ -52,6 +57,7 @@ from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.result import Status
+from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
 if TYPE_CHECKING:
@@ -62,13 +68,16 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
+"""The files to print of cases with these ids; None for a case that cannot be printed."""
 POINTS = 60  # most points of a curve
 LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
 LEAST_POINTS = 12  # most points of a curve in a page of many cases
 FULL = 500  # cases whose curves may have all `POINTS`
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
-DRAWINGS, SHAPES = 500_000, 2_700_000  # characters; kagome, 100 mm wide, has 440,000
+DRAWINGS, SHAPES = 500_000, 2_400_000  # characters; kagome, 100 mm wide, has 440,000
+PRINTS, MOST_PRINTS = 300_000, 16  # characters of files to print; of 2 to 20 kB each
 OF_SCENES = ("second_cycle_share", "material_memory")  # read by `meanings`
 OF_THE_RUN = {
     "created": "last run",
@@ -85,19 +94,25 @@ def first_ranking(summary: DataFrame, question: Question) -> Ranking:
 
 
 def page_data(
-    file: str, summary: DataFrame, question: Question, ranking: Ranking | None = None
+    file: str,
+    summary: DataFrame,
+    question: Question,
+    ranking: Ranking | None = None,
+    files_of: FilesOf | None = None,
 ) -> dict[str, Any]:
     """All data of a page, for JSON; numbers that rank designs keep all their digits.
 
     question : the question with which the page starts; budget (kg) and panel (m) are lists or None.
-    ranking : its `first_ranking`, if it exists already.
+    ranking : its `first_ranking`, if it exists already. files_of : the page holds the files to
+    print of the first designs.
     """
     heads = list(design_text(loaded(summary), summary))
     counted = _counted(needed_columns(summary, OF_SCENES))
     compared = counted[0].rows
     finished = loaded(compared)
     scenes = by_scene(finished)[:SCENES] if len(finished) else []
-    ids = select_designs(_asked_first(ranking or first_ranking(summary, question)), counted, scenes)
+    first = _asked_first(ranking or first_ranking(summary, question))
+    ids = select_designs(first, counted, scenes)
     kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
     cases = _cases(counted, kept, summary)
     stopped = same_scenes(scenes, compared[interrupted(compared)])
@@ -106,6 +121,7 @@ def page_data(
     unfinished = _cases(counted, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
+    leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(counted, scenes)]))
     stored, rows_by_id = _Stored(len(cases)), _by_id([*kept, *shown])
     for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = rows_by_id[case.case_id]
@@ -146,6 +162,7 @@ def page_data(
         "failures": list(_failures(summary)),
         "drawings": stored.drawings,
         "shapes": stored.shapes,
+        "prints": _prints([*islice(leading, MOST_PRINTS)], files_of) if files_of else {},
         "points": stored.points,
         "doubt": stored.doubt,
         "about": _about(about, summary),
@@ -156,6 +173,18 @@ def page_data(
 def _by_id(parts: Iterable[DataFrame]) -> dict[str, Series]:
     """The rows of several parts of a summary by their ids."""
     return {row["case_id"]: row for part in parts for _, row in part.iterrows()}
+
+
+def _prints(ids: Sequence[str], files_of: FilesOf) -> dict[str, str]:
+    """Files to print of cases by their ids, as base64, as long as there is room."""
+    prints, room = {}, PRINTS
+    with suppress(StoreError):  # a case that cannot be read: the command says why
+        for case_id, content in zip(ids, files_of(ids), strict=True):
+            text = b64encode(content or b"").decode()
+            if 0 < len(text) <= room:
+                prints[case_id] = text
+                room -= len(text)
+    return prints
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
@@ -226,6 +255,7 @@ def _cases(
             "rest": _exact(stroke_left(part)),
             "message": part["message"],
             "slicer": part["slicer_settings"],
+            "print": _print_options(part),
         }
         for values in zip(*columns.values(), strict=True):
             case = dict(zip(columns, values, strict=True))
@@ -243,6 +273,18 @@ def _with_bars(rows: DataFrame, name: str) -> list[tuple[float | None, ...]]:
     columns = [rows.get(column) for column in (name, error_column(name), correction_column(name))]
     unknown = [None] * len(rows)
     return list(zip(*(unknown if c is None else _exact(c) for c in columns), strict=True))
+
+
+def _print_options(rows: DataFrame) -> list[str | None]:
+    """The option with which `crumple export` writes each design as .3mf; None where it refuses."""
+    sheet, period = rows["lattice_kind"].map(is_sheet), is_period(rows)
+    options = np.where(sheet, np.where(period, "--panel", "--kind settings"), "")
+    return [
+        None if mode == "custom" or sides == "endless" or (tied and not sheet) else str(option)
+        for mode, sides, tied, sheet, option in zip(
+            rows["loading_mode"], rows["sides"], period, sheet, options, strict=True
+        )
+    ]
 
 
 def _measures(rows: DataFrame) -> dict[str, Series]:

@@ -19,6 +19,7 @@ const view = { sort: null, up: true, all: false, chosen: null, current: null, fr
 let now = null; // the ranking that is shown
 let player = null;
 let linking = null;
+let printed = null; // address of the file to print
 
 function scene() {
   return data.scenes[asked.scene];
@@ -332,8 +333,24 @@ function showAnswer() {
   showPicture(best);
   $("detail").textContent = detail(best).join(" ");
   showCommand();
-  if (scene().mode !== "custom")
-    $("print").append("To print it: ", element("code", {}, `crumple export ${fileWord()} ${best.design.id} --to best.3mf`));
+  showPrint(best.design);
+}
+
+function showPrint(design) {
+  const [file, command] = [data.prints[design.id], exportCommand(design, data.file, asked.panel)];
+  URL.revokeObjectURL(printed);
+  if (!command) return;
+  $("print").append(`To print ${asked.panel && !isPeriod(design) ? "a specimen" : "it"}: `);
+  if (file) {
+    printed = URL.createObjectURL(new Blob([bytesOf(file)], { type: "model/3mf" }));
+    const name = fileName(design, "3mf");
+    $("print").append(element("a", { id: "print-file", href: printed, download: name }, name), ", with 100 % infill; or ");
+  }
+  $("print").append(element("code", {}, command));
+}
+
+function fileName({ id }, ending) {
+  return `${data.name}_${id}.${ending}`.replace(/[^\w.-]/g, "_");
 }
 
 function* words(best) {
@@ -396,11 +413,6 @@ function* stoppedText() {
   if (more > 0) yield `${more} more unfinished cases could have had a place${others}: see the failed cases below.`;
 }
 
-// The name of the results file as a word of a shell.
-function fileWord() {
-  return /^[\w./-]+$/.test(data.file) ? data.file : `'${data.file.replaceAll("'", "'\\''")}'`;
-}
-
 // The command that prints the same ranking, if there is one.
 function showCommand() {
   if (asked.per === "panel" && !asked.panel) return;
@@ -410,7 +422,7 @@ function showCommand() {
   const budget = asked.budget === null ? "" : ` --budget "${inUnit(asked.budget, 9)}"`;
   const panel = asked.panel ? ` --panel ${asked.panel.map((side) => `"${Number(inUnits(side, "mm").toPrecision(6))} mm"`).join(" ")}` : "";
   const force = asked.force === null ? "" : ` --allowed-force "${asked.force} N"`;
-  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${fileWord()}${budget}${panel}${force}${requiredOptions()}`));
+  $("command").append("In a terminal: ", element("code", {}, `crumple rank ${wordOf(data.file)}${budget}${panel}${force}${requiredOptions()}`));
 }
 
 // The options that differ from what the config of the file requires.
@@ -475,12 +487,15 @@ function requiredColumns() {
   return found;
 }
 
+function isTied(row) {
+  return (now.bar || now.ranged) && row.sharing > 1;
+}
+
 function placeText(row) {
-  const tied = (now.bar || now.ranged) && row.sharing > 1 ? "=" : "";
   const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
   const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
   const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
-  return `${row.place}${tied}${row.pareto ? "*" : ""}${marks}`;
+  return `${row.place}${isTied(row) ? "=" : ""}${row.pareto ? "*" : ""}${marks}`;
 }
 
 function sorted(shown) {
@@ -561,9 +576,9 @@ function notes() {
         `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
-  if (now.bar)
-    lines.push("±: estimated error from mesh and steps, not a bound. =: a tie, as errors may reverse the order.");
-  if (now.ranged) lines.push("=: a tie: the energy of a design with two maxima of the efficiency is a range, as is its densification.");
+  if (now.bar) lines.push("±: estimated error from mesh and steps, not a bound.");
+  if (rows.some(isTied))
+    lines.push(`=: a tie, as ${now.bar ? "errors may reverse the order" : "the energy of a design with two maxima of the efficiency is a range, as is its densification"}.`);
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
   if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result. Placed behind all others.");
@@ -658,6 +673,7 @@ function dot(plot, row, shown, hue) {
       onclick: () => lookAt(row.design.id),
     }),
   );
+  if (row.design.coarse) plot.svg.append(shape("text", { class: "sign", x: x + 7, y: y - 5 }, "i"));
 }
 
 function showCard(plot, row, x, y) {
@@ -760,7 +776,7 @@ function showOne() {
   if (drawn) {
     URL.revokeObjectURL($("download").href);
     $("download").href = URL.createObjectURL(new Blob([drawingFile(drawn)], { type: "image/svg+xml" }));
-    $("download").download = `${data.name}_${design.id}.svg`.replace(/[^\w.-]/g, "_");
+    $("download").download = fileName(design, "svg");
   }
 }
 

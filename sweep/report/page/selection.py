@@ -87,6 +87,20 @@ def select_designs(
     return [*ids, *(others[k] for k in sample)]
 
 
+def on_fronts(counted: Sequence[Counted], scenes: Sequence[DataFrame]) -> list[str]:
+    """Ids of the designs to be trusted that are first within some budget: until packed, then up to
+    the forces of the columns, of the scenes in turn.
+    """
+    fronts = []
+    for each in counted:
+        for rows in scenes:
+            part = each.rows.loc[rows.index]
+            part = part[~doubtful(part)]
+            merit = _merits(part, each.names)[0]
+            fronts += [*_ids(part, part[each.names.mass].to_numpy(float), merit, 1)]
+    return [k for depth in zip_longest(*fronts) for k in depth if k is not None]
+
+
 def select_stopped(rows: DataFrame, names: Compared, scenes: int) -> DataFrame:
     """The rows of stopped cases in one of the scenes that reached the most, for some budget."""
     most = max(STOPPED // scenes, LEAST_STOPPED)

@@ -11,10 +11,10 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Any
 
-from sweep.numbers import counted
+from sweep.numbers import budget_text, counted
 from sweep.ranking.merit import doubtful
 from sweep.report.figures.storyboard import PARTS
-from sweep.report.page.gather import first_ranking, page_data
+from sweep.report.page.gather import FilesOf, first_ranking, page_data
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.html import cells, html_table, paragraphs
 from sweep.report.tables.legend import legend
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from sweep.ranking.ranking import Ranking
 
 HERE = Path(__file__).parent
-PROGRAM = ("rank.js", "link.js", "plots.js", "page.js")
+PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")
 IN_HTML = ("failures", "failed", "about", "config", "total", "designs")
 LEFT_OUT = (
     "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
@@ -36,10 +36,17 @@ LEFT_OUT = (
 )
 
 
-def write_page(file: str, summary: DataFrame, question: Question, out: Path) -> Path:
-    """Write the page of a results file; `question`: as in `page_data`."""
+def write_page(
+    file: str,
+    summary: DataFrame,
+    question: Question,
+    out: Path,
+    files_of: FilesOf | None = None,
+) -> Path:
+    """Write the page of a results file; `question` and `files_of`: of `page_data`."""
     ranking = first_ranking(summary, question)
-    text = page(page_data(file, summary, question, ranking), tables(summary, ranking))
+    data = page_data(file, summary, question, ranking, files_of)
+    text = page(data, tables(summary, ranking))
     out.parent.mkdir(parents=True, exist_ok=True)
     begun = out.with_name(f"{out.name}.tmp")
     begun.write_text(text, encoding="utf-8")
@@ -80,7 +87,7 @@ def _winners(table: DataFrame, summary: DataFrame) -> str:
     first = table.drop_duplicates(["budget_g", "scene"])
     labels, doubts = design_labels(first, summary), doubtful(first)
     lines = [
-        f"The best design{f' up to {row.budget_g:g} g' if row.budget_g > 0.0 else ''}, "
+        f"The best design{f' up to {budget_text(row.budget_g)}' if row.budget_g > 0.0 else ''}, "
         f"{row.scene}: {label}{', whose result is unreliable' if doubt else ''}."
         for row, label, doubt in zip(first.itertuples(), labels, doubts, strict=True)
     ]

@@ -50,10 +50,10 @@ of the lattice. Strain is its way after the first touch / height."""
 FIRST_LOADING = """\
 Results {} are of walls as drawn, at their first loading. Printed ones that
 have been pressed before may be several times softer."""
-TIED = """\
-±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound.
-=: a tie: the errors may reverse the order. Errors common to all designs do not count.
-?: the error is unknown; the design is placed by its value alone."""
+ERRORS = """\
+±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound."""
+TIED = "=: a tie: the errors may reverse the order. Errors common to all designs do not count."
+UNKNOWN = "?: the error is unknown; the design is placed by its value alone."
 BEYOND = """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
 length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
@@ -69,7 +69,8 @@ UNSURE = """\
 over more than 10 % of strain."""
 TWICE = """\
 34-52: the efficiency is greatest, within 2 %, at two strains, these; the energy until densification
-is a range too (columns lowest_..., highest_...). =: a tie: the ranges of designs meet."""
+is a range too (columns lowest_..., highest_...)."""
+TIED_RANGES = "=: a tie: the ranges of designs meet."
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 OPEN = """\
@@ -109,8 +110,19 @@ def legend(ranking: Ranking) -> str:
         whole = mode.notes and not (mode.driven and ranking.limited)
         lines += [*counted, *(meanings(table, mode) if whole else [])]
     lines += panel_note(table) + column_notes(ranking) + _notes(ranking)
-    bars = [TIED] if "ranked_error" in table else []
-    return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *bars]))
+    return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *_error_notes(table)]))
+
+
+def _error_notes(table: DataFrame) -> list[str]:
+    """The meaning of error bars; none where no error is known."""
+    if "ranked_error" not in table:
+        return []
+    tied, unknown = [TIED] * _has_ties(table), [UNKNOWN] * bool(table["ranked_error"].isna().any())
+    return [ERRORS, *tied, *unknown]
+
+
+def _has_ties(table: DataFrame) -> bool:
+    return "tied" in table and bool(table["tied"].any())
 
 
 def _notes(ranking: Ranking) -> list[str]:
@@ -123,6 +135,7 @@ def _notes(ranking: Ranking) -> list[str]:
         **dict.fromkeys(mark_notes(table), True),
         UNSURE: (is_unsure(crushed) & densified).any() and not ranking.limited,
         TWICE: densifies_twice(crushed).any() and not ranking.limited,
+        TIED_RANGES: _has_ties(crushed) and "ranked_error" not in table,
         EARLY: ranking.limited and table["ends_early"].any(),
     }
     return [note for note, is_needed in notes.items() if is_needed]

@@ -14,7 +14,7 @@ from sweep.config.load import Source, load_config
 from sweep.ranking.assessment import check_column, check_searched
 from sweep.ranking.question import Quantity, Question, check_units, in_si
 from sweep.ranking.requirements import limits
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.cluster import Scheduler
 from sweep.running.place import chosen_place, open_place
@@ -122,7 +122,7 @@ def start_of(config: Config, question: Question, out: str, how: Settings) -> lis
 
 def check_start(question: Question, start: Sequence[Case]) -> None:
     """Refuse a requirement for which no design has a value, and designs that are no parts."""
-    check_required(question.require or {}, start)
+    check_required(question.require, start)
     if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
         allowed = "lattices that are drawn with lines; sheets are compared in a [grid]"
         raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")

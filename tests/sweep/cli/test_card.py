@@ -33,12 +33,14 @@ def test_what_has_no_effective_material_is_left_out(capsys, config):
     status, out, err = crumple(capsys, "card", config("[grid]\nlattice.grading = [1.0, 1.5]"))
     assert status == 0
     assert sum(line.startswith("square ") for line in out.splitlines()) == 1
-    assert err.startswith("left out: square has no effective material here; allowed: cells")
+    assert err.startswith(
+        "left out: square has walls that are graded, so that no period repeats; allowed: cells"
+    )
 
 
 def test_a_config_without_any_is_refused(capsys, config):
     status, out, err = crumple(capsys, "card", config("grading = 1.5"))
     assert (status, out) == (2, "")
-    assert err.startswith("crumple card: square has no effective material here")
+    assert err.startswith("crumple card: square has walls that are graded")
     status, _, err = crumple(capsys, "card", config(""), "--to", "card.xml")
     assert (status, "unknown ending" in err) == (2, True)

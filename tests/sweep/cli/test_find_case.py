@@ -29,6 +29,7 @@ def test_number_counts_within_the_first_budget_and_scene(two_scenes):
     row, told = by_number(two_scenes, 1, None, QUESTION)
     assert row["case_id"] == two_scenes["case_id"][0]
     assert told == "number 1 of 1: crushed to 50 %, glued platens, up to 1.5 g"
+    assert by_number(two_scenes, 1, None, Question(budget="2 oz"))[1].endswith(", up to 2 oz")
     ids = [
         by_number(two_scenes, n, None, Question(budget="10 g"))[0]["case_id"] for n in range(1, 6)
     ]

@@ -1,5 +1,6 @@
 """First configs: each runs unchanged, is explained, and overwrites nobody's file."""
 
+import json
 import re
 import tomllib
 from pathlib import Path
@@ -21,8 +22,9 @@ MODES = {"crush": "displacement", "drop": "impact", "load": "force"}
 @pytest.mark.parametrize("kind", KINDS)
 def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind):
     monkeypatch.chdir(tmp_path)
-    status, out, _ = crumple(capsys, "new", "bumper", "--kind", kind)
+    status, out, err = crumple(capsys, "new", "bumper", "--kind", kind)
     assert (status, out) == (0, "bumper.toml: change it, then: crumple run bumper.toml --dry-run\n")
+    assert "`kind`" in Path(err.rpartition("all keys: ")[2].strip()).read_text("utf-8")
     config = load_config("bumper.toml")
     assert config.name == "bumper"
     cases = expand(config)
@@ -70,6 +72,14 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
         assert (status, out) == (2, "")
         assert why in err
     assert {path.name for path in tmp_path.iterdir()} == {"pad.toml", "crumple.schema.json"}
+
+
+def test_the_schema_beside_a_config_is_printed_too(capsys, tmp_path):
+    assert crumple(capsys, "new", "pad", "--out", str(tmp_path / "pad.toml"))[0] == 0
+    status, out, err = crumple(capsys, "schema")
+    assert (status, err) == (0, "")
+    assert out == (tmp_path / "crumple.schema.json").read_text("utf-8")
+    assert "lattice" in json.loads(out)["properties"]
 
 
 def test_every_family_is_offered(monkeypatch):

@@ -346,7 +346,8 @@ def test_requirement_that_no_case_can_be_asked_for_is_refused_before_the_run(cap
     out = tmp_path / "trial.h5"
     status, _, err = crumple(capsys, "run", str(path), "--out", str(out))
     assert status == 2
-    assert err.startswith("crumple run: min_absorbed needs a crush")
+    told = 'min_absorbed = "1 J": not known of a dead load; needed: a crush'
+    assert err == f"crumple run: {told}\n"
     assert not out.exists()
 
 

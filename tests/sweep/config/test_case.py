@@ -79,6 +79,7 @@ def test_what_no_case_has_is_refused(tables, line):
         ("loading", "strain", "half"),
         ("loading", "strain", [0.5]),
         ("lattice", "width", {"mm": 1}),
+        ("lattice", "width", "9 mm"),
         ("lattice", "cells_x", 2.5),
         ("material", "name", ["cheetah"]),
         ("loading", "allowed_forces", 5.0),

@@ -99,16 +99,23 @@ def test_turning_a_stiffness_turns_its_axes():
 
 
 @pytest.mark.parametrize(
-    "lattice",
+    ("lattice", "why"),
     [
-        {"kind": "gyroid", "width": None, "height": None},
-        {"grading": 1.5},
-        {"slicer": "prusa", "pattern": "alignedrectilinear", "infill": 0.2},
-        {"slicer": "orca", "pattern": "lateral-honeycomb", "infill": 0.2},
+        ({"kind": "gyroid", "width": None, "height": None}, "gyroid is a curved sheet: "),
+        ({"grading": 1.5}, "square has walls that are graded, so that no period repeats"),
+        (
+            {"slicer": "prusa", "pattern": "alignedrectilinear", "infill": 0.2},
+            "alignedrectilinear has parallel lines, which only perimeters join",
+        ),
+        (
+            {"slicer": "orca", "pattern": "lateral-honeycomb", "infill": 0.2},
+            "lateral-honeycomb has walls of two thicknesses",
+        ),
     ],
 )
-def test_what_is_no_even_frame_is_refused(lattice):
-    with pytest.raises(MisfitError, match="allowed: cells of a family, or the infill of a slicer"):
+def test_what_is_no_even_frame_is_refused(lattice, why):
+    allowed = "allowed: cells of a family, or the infill of a slicer"
+    with pytest.raises(MisfitError, match=f"{why}.*; {allowed}"):
         infill_of(of(**lattice))
 
 

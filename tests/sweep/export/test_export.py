@@ -221,6 +221,8 @@ def test_refusals_leave_nothing(file, tmp_path, name, wish, why):
 
 
 def test_unknown_case_is_named(file, tmp_path):
+    with pytest.raises(ExportError, match=r"trial.h5 has 2 cases; needed: case_id, of [0-9a-f]+, "):
+        export_case(file, tmp_path / "part.stl")
     with pytest.raises(ExportError, match=r'trial.h5 holds no case "zz"'):
         export_case(file, tmp_path / "part.stl", "zz")
 

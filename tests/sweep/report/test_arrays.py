@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.store.read import StoreError, read_history
 from tests.support.results.specimens import designs, summary, write
 
@@ -46,6 +46,7 @@ def test_curves_end_with_nan(results):
     assert np.isnan(data["strain"].sel(case_id=IDS[2])).all()
     assert data["newton_iterations"].dims == ("case_id",)
     assert data["history_newton_iterations"].dims == ("case_id", "row")
+    assert {*results.to_xarray(curves="strain").variables} < {*data.variables}
     every = results.to_xarray(curves=True)
     assert {"reaction_top_N", "history_newton_iterations"} <= {*every.data_vars}
 

@@ -8,6 +8,7 @@ import pytest
 from rich.console import Console
 
 from sweep.running import progress
+from sweep.running.batches import kind
 from sweep.running.progress import Progress
 from tests.support.results.standin import cases, simulate
 
@@ -30,23 +31,55 @@ def clock(monkeypatch):
     return clock
 
 
+ONE = {kind(cases(1)[0]): 1.0}
+
+
+def ended(case, cpu):
+    """Its result, which took so much processor time (s)."""
+    result = simulate(case)
+    result.summary["cpu_s"] = cpu
+    return result
+
+
 def test_time_left_is_weighed_by_cost(clock):
     """The short half of the cases is done, at two a second; the other half is ten times as long."""
     batch, out = cases(40), io.StringIO()
     costs = {case.case_id: 1.0 if number < 20 else 10.0 for number, case in enumerate(batch)}
     weight = lambda case: costs[case.case_id]  # noqa: E731
-    with Progress(40, 220.0, console=Console(file=out), weight=weight) as told:
+    work = {kind(batch[0]): 220.0}
+    with Progress(40, work, console=Console(file=out), weight=weight) as told:
         for begin in range(0, 20, 4):
             clock.now += 2.0
-            told.advance([simulate(case) for case in batch[begin : begin + 4]])
+            told.advance([ended(case, 0.5) for case in batch[begin : begin + 4]])
             if begin == 4:  # two seconds after the first
                 assert told._line() == "8/40 cases, 2 a second, 1 failed"
     assert "20/40 cases, 2 a second, 0:01:40 left, 1 failed" in out.getvalue().splitlines()
 
 
+def test_time_left_is_that_of_the_kinds_that_wait(clock):
+    """Impacts whose steps are chosen by an error take 30 times as long as their cost says. Two of
+    ten have ended when all crushes have.
+    """
+    crushes = cases(20)
+    impacts = [case.changed(loading={"mode": "impact"}) for case in cases(10)]
+    work = {kind(crushes[0]): 20.0, kind(impacts[0]): 10.0}
+    with Progress(30, work, console=Console(file=io.StringIO()), weight=lambda _: 1.0) as told:
+        for number, case in enumerate(crushes):
+            clock.now += 0.5
+            told.advance([ended(case, 0.5 if number else 30.0)])  # the first one loads the kernels
+        for case in impacts[:2]:
+            clock.now += 15.0
+            told.advance([ended(case, 15.0)])
+        assert "0:02:00 left" in told._line()
+        clock.now += 30.0  # nothing ends
+        assert "0:01:30 left" in told._line()
+        clock.now += 100.0
+        assert "left" not in told._line()
+
+
 def test_plain_lines_are_few(clock):
     batch, out = cases(100), io.StringIO()
-    with Progress(len(batch), 1.0, console=Console(file=out)) as told:
+    with Progress(len(batch), ONE, console=Console(file=out)) as told:
         for case in batch:
             clock.now += 0.1
             told.advance([simulate(case)])
@@ -72,7 +105,7 @@ def test_notebook_has_one_line_that_is_replaced(clock, monkeypatch):
     monkeypatch.setitem(sys.modules, "IPython.display", stand_in)
     batch = cases(6)
     console = Console(file=io.StringIO(), force_jupyter=True)
-    with Progress(6, 1.0, 0, console) as told:
+    with Progress(6, ONE, 0, console) as told:
         for case in batch:
             clock.now += 1.0
             told.advance([simulate(case)])
@@ -84,7 +117,7 @@ def test_notebook_has_one_line_that_is_replaced(clock, monkeypatch):
 def test_terminal_has_a_bar_with_failures():
     batch, out = cases(9), io.StringIO()
     console = Console(file=out, force_terminal=True, width=100)
-    with Progress(9, 1.0, 3, console) as told:
+    with Progress(9, ONE, 3, console) as told:
         told.advance([simulate(case) for case in batch])
     assert "12/12 cases" in out.getvalue()
     assert "1 failed" in out.getvalue()
@@ -94,7 +127,7 @@ def test_terminal_has_a_bar_with_failures():
 def test_last_line_is_told_once(clock):
     """It is not repeated if time passes after it."""
     batch, out = cases(2), io.StringIO()
-    with Progress(len(batch), 1.0, console=Console(file=out)) as told:
+    with Progress(len(batch), ONE, console=Console(file=out)) as told:
         clock.now += 9.0
         told.advance([simulate(case) for case in batch])
         clock.now += 9.0
@@ -105,7 +138,7 @@ def test_part_of_a_search_is_told_only_if_it_takes_long(clock):
     batch = cases(6)
     for pause, lines in {0.1: 0, 6.0: 6}.items():
         out = io.StringIO()
-        with Progress(6, 1.0, console=Console(file=out), part=True) as told:
+        with Progress(6, ONE, console=Console(file=out), part=True) as told:
             for case in batch:
                 clock.now += pause
                 told.advance([simulate(case)])

@@ -11,7 +11,7 @@ import pytest
 from sweep.config.load import load_config
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import ranked
-from sweep.report.results import Results
+from sweep.results import Results
 from sweep.running.beside.run_beside import file_beside
 from sweep.running.beside.spread import FRICTION
 from sweep.running.run import run, spread

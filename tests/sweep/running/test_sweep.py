@@ -208,7 +208,7 @@ def test_finished_cases_do_not_run_again(tmp_path, executions, capsys):
 
 @pytest.fixture
 def progress():
-    return Progress(9, 9.0)
+    return Progress(9, {})
 
 
 def took(share, numbers):

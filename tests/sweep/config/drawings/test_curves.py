@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sweep.config.drawings import curves
-from sweep.config.drawings.curves import TURN, straightened
+from sweep.config.drawings.curves import TURN, straightened, without_marks
 from sweep.config.faults import MisfitError
 
 K = 4.0 / 3.0 * tan(pi / 8.0)
@@ -45,3 +45,34 @@ def test_too_many_and_endless_numbers_are_refused(monkeypatch):
         straightened([QUARTER] * 13)
     with pytest.raises(MisfitError, match="no finite numbers"):
         straightened([np.array([[0.0, 0.0], [np.nan, 1.0]])])
+
+
+def circle(centre, radius, pieces=32):
+    angle = np.linspace(0.0, 2.0 * np.pi, pieces + 1)
+    at = centre + radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return np.stack([at[:-1], at[1:]], axis=1)
+
+
+LINES = np.array([[[0.0, 0.0], [10.0, 0.0]], [[10.0, 0.0], [10.0, 8.0]]])
+
+
+def test_small_circles_around_ends_mark_joints():
+    marks = [circle(at, 1.5) for at in ([0.0, 0.0], [10.0, 0.0], [10.0, 8.0])]
+    ends, notes = without_marks(np.concatenate([marks[0], LINES, *marks[1:]]))
+    assert ends.tolist() == LINES.tolist()
+    assert notes == ["3 x small circle around the end of a line, a mark of a joint"]
+
+
+@pytest.mark.parametrize(
+    "ring",
+    [
+        circle([10.0, 0.0], 2.1),  # above a quarter of the shorter line
+        circle([5.0, 0.0], 1.0),  # no end
+        circle([0.0, 0.0], 1.0, pieces=6),  # a hexagon
+        circle([0.0, 0.0], 1.0)[:-1],  # open
+        circle([0.0, 0.0], 1.0) * [1.5, 1.0],  # an ellipse
+    ],
+)
+def test_other_rings_are_walls(ring):
+    ends, notes = without_marks(np.concatenate([LINES, ring]))
+    assert (len(ends), notes) == (len(LINES) + len(ring), [])

@@ -43,7 +43,7 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
 def test_beside_strokes_what_is_only_filled_is_left_out(tmp_path):
     """A style sheet or a group may say so too; the black fill of CSS is no stroke."""
     line = '<line x1="0" y1="0" x2="10" y2="5" {}/>'
-    filled = '<rect width="9" height="9" style="fill:#fff;stroke:none"/><circle r="2"/>'
+    filled = '<rect width="9" height="9" style="fill:#fff;stroke:none"/><circle r="4"/>'
     style = "<style>.wall {stroke: red}</style>"
     for strokes in (line.format('stroke="red"'), f"<g stroke='red'>{line.format('')}</g>",
                     style + line.format('class="wall"')):  # fmt: skip
@@ -96,3 +96,13 @@ def test_a_missing_package_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "svgelements", None)
     with pytest.raises(MisfitError, match=r"needs the package svgelements: pip install"):
         read_svg(written(tmp_path / "a.svg", LINE))
+
+
+def test_circles_that_mark_joints_are_left_out_aloud(tmp_path):
+    marks = '<circle r="0.5"/><circle cx="10" cy="5" r="0.5"/>'
+    lines = read_svg(written(tmp_path / "a.svg", marks + LINE + '<circle cx="10" cy="5" r="9"/>'))
+    assert np.abs(lines.ends[1:] - [10.0, -5.0]).max() == pytest.approx(9.0)
+    assert len(lines.ends) > 1 + 32
+    assert lines.notes == (
+        "left out: 2 x small circle around the end of a line, a mark of a joint",
+    )

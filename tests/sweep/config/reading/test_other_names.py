@@ -88,6 +88,11 @@ def test_misspelled_sheets_are_found(lines):
             "with lattice.slicer; without a slicer, lattice.kind",
         ),
         (
+            '[material]\nfile = "own.csv"',
+            'material.file = "own.csv": unknown key; the nearest is material.name: of one that is '
+            "shipped, or the path of a .csv file",
+        ),
+        (
             "[lattice]\nwall_thicknes = 1",
             "lattice.wall_thicknes = 1: unknown key; the nearest is lattice.wall_thickness",
         ),

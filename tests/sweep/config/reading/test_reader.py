@@ -216,6 +216,16 @@ def test_a_fault_that_does_not_follow_from_the_material_is_told_beside_it(lines)
     assert len(lines('[material]\nloss = 40\n[lattice]\nwall_thickness = "3 mm"')) == 2
 
 
+def test_a_share_without_its_unit_is_understood(lines):
+    """So that the other faults are told beside it; percent or a share, 30 could be both."""
+    text = '[lattice]\ninfill = {}\n[loading]\nmode = "crush"\nforce = "3 N"'
+    share, idle = lines(text.format("0.3"))
+    assert share.startswith("lattice.infill = 0.3: a bare number; allowed: a share in percent")
+    assert idle.startswith('loading.force = "3 N": has no effect')
+    (percent,) = lines(text.format("30"))
+    assert percent.startswith("lattice.infill = 30: a bare number")
+
+
 def test_branches_are_stated_once(refused):
     branches = '[material]\nrelaxation = [{time = "1 s", share = 0.1}]'
     twice = f'{branches}\nrelaxation_times = ["5 s"]\nrelaxation_shares = [0.3]'

@@ -31,6 +31,9 @@ WRONG = {
         *({"wall_thickness_mm": [1.0, -1.0]}, "wall_thickness_mm[1] = -1.0", POSITIVE),
     ),
     "length of a list": ({"subdivide": [4]}, "subdivide = [4]", "1 values", "one value", "2 here"),
+    "empty list": (
+        *({"initial_velocity_mm_s": []}, "initial_velocity_mm_s = []", "0 values", "3 here"),
+    ),
     "text for a number": ({"depth_mm": "10 mm"}, 'depth_mm = "10 mm"', "a valid number"),
     "rest angles": ({"rest_angles": "round"}, 'rest_angles = "round"', "'as_drawn'"),
     "wall without length": ({"walls": [[0, 1], [1, 2], [2, 2]]}, "walls[2] = [2, 2]", *APART),

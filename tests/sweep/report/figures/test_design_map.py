@@ -116,6 +116,16 @@ def test_designs_beyond_the_model_are_open(ranking):
         np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
 
 
+def test_designs_of_coarse_steps_have_the_sign_of_the_tables(ranking):
+    shown = changed(ranking, loading_mode="force", peak_strain=0.1, coarse=[True, False, True] * 2)
+    figure = drawn(shown, design_map)
+    signs = [text.xy[0] for text in figure.axes[0].texts if text.get_text() == "i"]
+    coarse = shown.table[shown.table["coarse"] & (shown.table["scene"] == shown.table["scene"][0])]
+    assert sorted(signs) == sorted(coarse["mass_g"])
+    assert "coarse time steps" in _entries(figure)
+    assert "coarse time steps" not in _entries(drawn(ranking, design_map))
+
+
 def _entries(figure):
     return [text.get_text() for text in figure.legends[0].get_texts()]
 

@@ -56,7 +56,12 @@ def test_what_is_asked_is_what_the_ranking_answers(tables):
         ({"rank": {"budgets": ["5 g", "9 g"]}}, {}, OptimizeError, "2 budgets; needed: one"),
         ({}, {"budget": 25}, RankError, "a bare number"),
         ({}, {"require": {"max_mass": 1}}, RankError, "a bare number"),
-        ({}, {"require": {"max_weight": "1 g"}}, RankError, "unknown requirement max_weight"),
+        (
+            {},
+            {"require": {"max_weight": "1 g"}},
+            RankError,
+            "max_weight = .1 g.: unknown requirement",
+        ),
         ({}, {"per": "panel"}, OptimizeError, "needed: a panel"),
         ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
         ({}, {"by": "cells_x"}, RankError, '"cells_x" is no column'),

@@ -5,8 +5,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from sweep.config.faults import MisfitError
 from sweep.ranking.question import RankError
-from sweep.report.results import Picture, Results
+from sweep.ranking.rank import ranked
+from sweep.results import Picture, Results
 from sweep.store.errors import StoreError
 from sweep.store.read import read_history
 from tests.support.results.specimens import designs, summary, write
@@ -50,6 +52,19 @@ def test_curve_is_that_of_the_row_or_id(file):
         results.curve(-1)
     with pytest.raises(KeyError, match='"0" begins 2 ids of 2'):
         results.curve("0")
+    with pytest.raises(
+        MisfitError, match=r"Results.curve: case = .*; allowed: a whole number, text"
+    ):
+        results.curve(results.table.iloc[0])
+
+
+def test_results_stand_for_their_file(file):
+    results = Results(file)
+    assert list(ranked(results).table["mass_g"]) == [2.0, 1.0]
+    with pytest.raises(
+        MisfitError, match=r"Results.rank: .*'bugdet'; its arguments: budget, panel"
+    ):
+        results.rank(bugdet="2 g")
 
 
 def test_ranking_asks_what_the_config_asks_unless_told_otherwise(file):

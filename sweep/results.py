@@ -11,6 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sweep.arguments import explained
 from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Quantity, Question, check_units
@@ -87,6 +88,9 @@ class Results:
         self._ids = ids
         self._question = Question(**(question or {}))
 
+    def __fspath__(self) -> str:
+        return str(self.path)
+
     @cached_property
     def table(self) -> DataFrame:
         """A row for each finished case: design, status, all columns of the summary."""
@@ -107,6 +111,7 @@ class Results:
         """The question of the config, which `rank` and `plot` answer."""
         return self._question
 
+    @explained
     def rank(  # noqa: PLR0913  every argument is a part of one question
         self,
         budget: Quantity | Sequence[Quantity] | AsAsked | None = AS_ASKED,
@@ -129,6 +134,7 @@ class Results:
         question = self._question._replace(**given)
         return answer(with_allowed(self.path, self.table, question), question).table
 
+    @explained
     def case(self, case: int | str) -> Case:
         """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.
 
@@ -136,14 +142,17 @@ class Results:
         """
         return read_case(self.path, self._row(case)["case_id"])
 
+    @explained
     def curve(self, case: int | str) -> DataFrame:
         """The history of a case: a row per stored step. case : row of the table, or its id."""
         return read_history(self.path, self._row(case)["case_id"])
 
+    @explained
     def shapes(self, case: int | str) -> dict[str, np.ndarray]:
         """The stored shapes of a case, the arrays of `Result.frames`."""
         return read_frames(self.path, self._row(case)["case_id"])
 
+    @explained
     def plot(self, case: int | str | None = None, what: str | None = None) -> Picture:
         """A picture of one case, "force" (the first), "energies" or "shapes".
 
@@ -171,18 +180,20 @@ class Results:
             raise IndexError(f"no case {case}; allowed: 0 to {len(table) - 1}, or an id")
         return table.iloc[case]
 
+    @explained
     def report(self, out: str | Path | None = None) -> Path:
         """Write the results as one HTML page with sliders, as `crumple report` does; return it.
 
         out : the page, by default NAME.html beside the results. It has all cases of the file, and
         begins with the question of the config.
         """
-        from sweep.report.page.write import write_page
+        from sweep.export.page import export_page
 
         page = Path(out or self.path.with_suffix(".html"))
-        return write_page(str(self.path), read_summary(self.path), self._question, page)
+        return export_page(str(self.path), read_summary(self.path), self._question, page).file
 
-    def to_xarray(self, curves: Sequence[str] | bool = ()) -> Dataset:
+    @explained
+    def to_xarray(self, curves: Sequence[str] | str | bool = ()) -> Dataset:
         """The table as an `xarray.Dataset` along `case_id`; needs xarray (`crumple[xarray]`).
 
         curves : columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
