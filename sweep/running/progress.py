@@ -163,7 +163,7 @@ class Progress:
         return [pace, f"{timedelta(seconds=round(seconds))} left"] if seconds >= SOON else [pace]
 
     def _needed(self) -> float:
-        """Processor time (s) of the waiting cases; a kind without a finished case has the mean pace."""
+        """Processor time (s) of the waiting cases; a kind none of which ended has the mean pace."""
         of_all = sum(self._cpu.values()) / sum(self._ended.values())
         pace = {k: self._cpu[k] / ended for k, ended in self._ended.items()}
         return sum(left * pace.get(k, of_all) for k, left in self._left.items())
