@@ -43,13 +43,11 @@ class Directed(Table):
     base_patch: width of the patch of the base over which its greatest pressure is taken.
 
     words: allowed values of `loading.mode`, the mode itself first. driven: whether a platen moves
-    by a stroke. usual_integrator: of a motion. solid: whether joints of a lattice are solid by
-    default.
+    by a stroke. solid: whether joints of a lattice are solid by default.
     """
 
     words: ClassVar[tuple[str, ...]]
     driven: ClassVar[bool] = False
-    usual_integrator: ClassVar[str] = "backward_euler"
     solid: ClassVar[bool] = True
     neutral: ClassVar[dict[str, Any]] = {"direction": ACROSS, "base_patch": BASE_PATCH}
 
@@ -69,9 +67,11 @@ class Directed(Table):
     def loaded_for(self, height: float) -> float:
         """About how long walls of a height (m) are loaded, s."""
 
-    def usual_step(self, body: Body, modulus: float) -> float:
-        """Time step (s) of a motion, if none is given; modulus: of the material, Pa."""
-        return TIME_STEP
+    def usual_motion(self, given: Inputs, body: Body, modulus: float) -> dict[str, Any]:
+        """The integrator of a motion and its steps, where they are not ``given``; modulus: of the
+        material, Pa.
+        """
+        return {"integrator": "backward_euler", "time_step": TIME_STEP}
 
     @property
     def approach(self) -> float | None:

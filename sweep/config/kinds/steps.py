@@ -31,9 +31,8 @@ def solver(
 
     A platen moves in `load_steps` equal steps, which set the time step of a crush in time; a
     quasi-static one moves in steps of an `accuracy` unless they are given. Along arcs, the default
-    arc length is the diagonal of the structure / `load_steps`. The default integrator of an impact
-    is bdf2, whose error is a tenth of the error of backward Euler with the same steps; with contact
-    by position it is backward Euler.
+    arc length is the diagonal of the structure / `load_steps`. With contact by position the default
+    integrator is backward Euler, else the `usual_motion` of the loading has it.
     """
     settings = inputs = dict(values)
     if material.remembers and inputs.get("integrator") == ARCS:  # its unstable part is no motion
@@ -64,14 +63,13 @@ def _steps(
             allowed = "none for loads of a file, which grow in equal load_steps"
             raise RefusedError("solver.accuracy", solver["accuracy"], allowed)
         return Static.model_validate(solver | {"integrator": "static"})
-    usual = "backward_euler" if by_position else loading.usual_integrator
-    timed = {"integrator": usual} | own_values(settings, InTime)
+    given = own_values(({"integrator": "backward_euler"} if by_position else {}) | settings, InTime)
+    timed = loading.usual_motion(given, body, modulus) | given
     if isinstance(loading, Crush):
         time = loading.stroke / given_or(loading.speed, 1.0)
         count = settings.get("load_steps", steps_in(time, settings.get("time_step")))
         return InTime.model_validate(timed | {"time_step": time / count, "load_steps": count})
-    step = loading.usual_step(body, modulus)
-    return InTime.model_validate({"time_step": step} | timed | {"load_steps": None})
+    return InTime.model_validate(timed | {"load_steps": None})
 
 
 def count_of(loading: Loading, solver: Solver) -> float:

@@ -55,6 +55,22 @@ def test_steps_of_an_impact_are_a_share_of_its_contact():
     assert usual_step(striker_speed=1e-3, striker_mass=5e-4) == pytest.approx(125.0 / 1e6)
 
 
+@pytest.mark.parametrize(
+    ("given", "integrator", "step_error"),
+    [
+        ({}, "bdf2", 12.5e-7),
+        ({"step_error": 1e-6}, "bdf2", 1e-6),
+        ({"time_step": 1e-4}, "backward_euler", None),
+        ({"integrator": "newmark"}, "newmark", None),
+    ],
+)
+def test_steps_of_a_dead_load_follow_its_error_unless_they_are_given(given, integrator, step_error):
+    solver = Case.of(loading={"mode": "force"}, solver=given).solver
+    assert solver.integrator == integrator
+    assert solver.time_step == 1e-4
+    assert solver.step_error == (step_error and pytest.approx(step_error))
+
+
 def test_time_step_under_a_speed_makes_a_whole_number_of_steps():
     loading = dict(mode="displacement", speed=1e-3, stroke=5e-3)
     case = Case.of(loading=loading, solver=dict(time_step=0.03))
