@@ -4,8 +4,8 @@ The advice of a failure is tried before it is given. An impact is retried with t
 and steps, then with quarters of these steps and, where these would be too many, for a shorter
 duration, by whose end the striker has to be back. Another imperfection would not resolve it. Other
 motions by an integrator of second order are also tried by backward Euler. The row has the numbers
-of the first retry that converges; its column `retry` says what was changed. The id remains the id
-of the requested case.
+of the first retry that converges, else of the attempt that reached farthest; its column `retry`
+says what was changed. The id remains the id of the requested case.
 """
 
 import time
@@ -31,6 +31,7 @@ SHORTER = 4  # ratio of the numbers of steps
 TIMES = 4  # retries of an impact, each with a quarter of the previous time step
 FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
+ENDED = Status.CONVERGED, Status.SLIPPED  # after which nothing is retried
 STEADY = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
@@ -49,7 +50,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
     spent, tried = float(best.summary["cpu_s"]), list[str]()
     for words, changed in _changes(best) if best.curable and case.solver.retry else ():
         left = due - time.monotonic()
-        if stop[0] or left <= 0.0 or _reach(best)[0]:
+        if stop[0] or left <= 0.0 or best.status in ENDED:
             break
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
@@ -85,10 +86,10 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
     return followed < case.loading.duration and retry.history["time_s"][-1] >= ALMOST * followed
 
 
-def _reach(result: Result) -> tuple[bool, bool]:
-    """How far a run came: whether it ended, and whether its loading was completed."""
-    ended = result.status in (Status.CONVERGED, Status.SLIPPED)
-    return ended, result.summary["loaded"] == 1
+def _reach(result: Result) -> tuple[bool, bool, bool]:
+    """How far a run came: whether it converged, completed its loading, or lost its striker."""
+    converged, slipped = (result.status is status for status in ENDED)
+    return converged, result.summary["loaded"] == 1, slipped
 
 
 def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> Result:
@@ -97,6 +98,7 @@ def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> R
     Its message says what was tried without success, instead of advising it.
     """
     message = best.message
+    tried = [words for words in tried if words != best.summary["retry"]]
     if tried and best.status is not Status.CONVERGED:
         what, _, advice = message.partition("; try ")
         repeats = any(words.split(" = ")[0] in advice for words in tried)

@@ -41,6 +41,7 @@ def answers(monkeypatch, *outcomes, curable=True, why=WHY):
 
 STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
 COARSE = (Status.UNRESOLVED, 0)
+SLIPS = (Status.SLIPPED, 0)
 
 
 def test_a_case_that_converges_is_simulated_once(monkeypatch):
@@ -67,6 +68,16 @@ def test_the_last_retry_has_another_imperfection_and_the_steps_asked_for(monkeyp
     assert result.summary["retry"] == "lattice.imperfection = 0.015"
 
 
+def test_a_case_whose_loading_was_complete_is_not_given_up_for_one_that_slipped(monkeypatch):
+    asked = answers(monkeypatch, LOADS, SLIPS, STOPS)
+    result = simulate_again(CRUSH)
+    assert len(asked) == 3
+    assert (result.status, result.summary["loaded"]) == (Status.STOPPED, 1)
+    assert result.summary["retry"] == ""
+    asked = answers(monkeypatch, STOPS, SLIPS)
+    assert (simulate_again(CRUSH).status, len(asked)) == (Status.SLIPPED, 2)
+
+
 def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch):
     answers(monkeypatch, *[STOPS] * 3)
     result = simulate_again(CRUSH)
@@ -89,7 +100,7 @@ def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch
     answers(monkeypatch, STOPS, LOADS, STOPS)
     result = simulate_again(CRUSH)
     assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 1600")
-    assert "tried without success" in result.message
+    assert result.message.endswith("(tried without success: lattice.imperfection = 0.015)")
 
 
 @pytest.mark.parametrize(
