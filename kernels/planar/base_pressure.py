@@ -36,11 +36,13 @@ def sort_along(x, nodes):
 
 
 @jit_exact
-def share_on_patch(x, thickness, centre, width):
-    """Return the share of a force at ``x`` that acts on a patch round ``centre`` (all in m)."""
+def _overlap(x, thickness, centre, width):
+    """Return the length of a wall at ``x`` on a patch round ``centre``, at least 0, and the middle
+    of that length, all in m.
+    """
     low = max(x - 0.5 * thickness, centre - 0.5 * width)
     high = min(x + 0.5 * thickness, centre + 0.5 * width)
-    return max(high - low, 0.0) / thickness
+    return max(high - low, 0.0), 0.5 * (low + high)
 
 
 @jit_exact
@@ -71,9 +73,10 @@ def _on_patch(pressing, first, centre, width, reach):
         at, thickness = pressing[i, 0], pressing[i, 1]
         if at > centre + reach:
             break
-        part = share_on_patch(at, thickness, centre, width) * pressing[i, 2]
+        length, middle = _overlap(at, thickness, centre, width)
+        part = length / thickness * pressing[i, 2]
         force += part
-        moment += part * at
+        moment += part * middle
     return force, moment
 
 

@@ -76,9 +76,7 @@ def renew_neighbours(scene, neighbours, x, move):
     matrix, lagged_contacts = neighbours.matrix, neighbours.lagged_contacts
     if matrix.missing[0] != 0:
         matrix = make_matrix(scene, listed, lagged_contacts)
-    wider = friction.no_contacts(listed, scene.contact, scene.friction)
-    if wider.load.size > lagged_contacts.load.size:
-        lagged_contacts = friction.enlarged(lagged_contacts, wider)
+    lagged_contacts = friction.with_room(lagged_contacts, listed, scene.contact, scene.friction)
     touching = no_contacts(scene.contact, listed)
     return Neighbours(listed, x.copy(), margin, matrix, touching, lagged_contacts)
 

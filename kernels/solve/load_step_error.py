@@ -10,6 +10,8 @@ bounds the error of friction, whose normal forces are estimated before the step 
 forces r are off by no more than their change in a step, in which the coordinates move by u.
 """
 
+import numpy as np
+
 from kernels.compile.jit import jit_exact
 
 
@@ -39,7 +41,9 @@ def ratio(problem, state, evaluation, work, progress):
         bend = ((after - before) / move - progress.slope) / (move + progress.move)
         error += abs(bend * move**3) / 6.0
     done = 0.5 * abs((before + after) * move)
-    return error / done if done > 0.0 else 0.0
+    if done > 0.0:
+        return error / done
+    return np.inf if error > 0.0 else 0.0
 
 
 @jit_exact

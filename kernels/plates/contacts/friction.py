@@ -48,26 +48,33 @@ def _room(n, touching):
     )  # fmt: skip
 
 
+@jit_exact
+def _most(pairs, contact, friction):
+    """Return the greatest number of lagged contacts; 0 without friction."""
+    nodes = contact.low_nodes.size + contact.high_nodes.size
+    return pairs.triangle.size + pairs.lower.size + nodes if friction.mu != 0.0 else 0
+
+
 @jit_owning
 def no_contacts(pairs, contact, friction):
     """Return an empty `LaggedContacts`, with room for all pairs if there is friction."""
-    n = pairs.triangle.size + pairs.lower.size + contact.low_nodes.size + contact.high_nodes.size
-    return _room(n if friction.mu != 0.0 else 0, none_touching(contact, pairs))
+    return _room(_most(pairs, contact, friction), none_touching(contact, pairs))
 
 
 @jit_owning
-def enlarged(lagged_contacts, larger):
-    """Copy the contacts of ``lagged_contacts`` to ``larger``; return ``larger``."""
-    larger.count[0] = min(lagged_contacts.count[0], larger.load.size)
-    for n in range(larger.count[0]):
-        larger.load[n], larger.size[n] = lagged_contacts.load[n], lagged_contacts.size[n]
-        for j in range(2):
-            larger.dual[n, j] = lagged_contacts.dual[n, j]
-        for i in range(4):
-            larger.nodes[n, i] = lagged_contacts.nodes[n, i]
-            for j in range(2):
-                for k in range(3):
-                    larger.slopes[n, i, j, k] = lagged_contacts.slopes[n, i, j, k]
+def with_room(lagged, pairs, contact, friction):
+    """Return the contacts of ``lagged``, with room for all pairs."""
+    most, touching = _most(pairs, contact, friction), none_touching(contact, pairs)
+    if most <= lagged.load.size:
+        return LaggedContacts(
+            lagged.nodes, lagged.size, lagged.slopes, lagged.load, lagged.dual, lagged.count,
+            touching, lagged.after, lagged.claim,
+        )  # fmt: skip
+    larger, count = _room(most, touching), lagged.count[0]
+    larger.count[0] = count
+    larger.nodes[:count], larger.size[:count] = lagged.nodes[:count], lagged.size[:count]
+    larger.slopes[:count], larger.dual[:count] = lagged.slopes[:count], lagged.dual[:count]
+    larger.load[:count] = lagged.load[:count]
     return larger
 
 

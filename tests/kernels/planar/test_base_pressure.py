@@ -49,8 +49,10 @@ def test_no_patch_has_more_force(name, width):
     )
     assert greatest == pytest.approx(sums.max(), rel=1e-9)
     assert greatest > 0.0
-    middles = shares[np.isclose(sums, greatest, rtol=1e-9)] @ (pressing * place) / greatest
-    assert np.abs(middles - at).min() < 1e-12
+    middles = (shares * 0.5 * (low + high)) @ pressing / greatest
+    best = np.isclose(sums, greatest, rtol=1e-9)
+    assert np.abs(middles - at)[best].min() < 1e-12
+    assert np.abs(centres - at)[best].min() <= 0.5 * width * (1.0 + 1e-9)
 
 
 def test_a_patch_a_little_wider_has_a_little_more_force():

@@ -133,6 +133,7 @@ def turning(x, axis):
 def test_what_moves_as_one_does_not_slip(seed):
     x0, touch = two(seed)
     contacts = lagged(x0, touch)
+    assert contacts.count[0] > 0
     for axis in np.eye(3):
         u = placed(turning(x0, axis) + 3.0, 0.0, 0.0)
         for k in range(contacts.count[0]):
@@ -245,11 +246,22 @@ def test_without_friction_there_is_no_room():
     assert contacts.count[0] == 0
 
 
+def test_edges_have_room_among_what_touches_though_none_is_lagged():
+    x, touch = two(1)
+    contacts, listed = lagged(x, touch), pairs_of(x, touch)
+    more = listed._replace(one=np.tile(listed.one, 5))
+    wider = friction.with_room(contacts, more, touch, Friction(MU, 1.0))
+    size = more.triangle.size + more.lower.size + more.one.size
+    assert len(wider.touching.nodes) == size > len(contacts.touching.nodes)
+    assert wider.count[0] == contacts.count[0] > 0
+    np.testing.assert_array_equal(wider.load, contacts.load)
+
+
 def test_contacts_move_into_a_larger_room():
     x, touch = two(1)
     contacts = lagged(x, touch)
     listed = pairs_of(x, touch, 3.0)
-    larger = friction.enlarged(contacts, friction.no_contacts(listed, touch, Friction(MU, 1.0)))
+    larger = friction.with_room(contacts, listed, touch, Friction(MU, 1.0))
     assert larger.load.size > contacts.load.size
     y = moved(x, 0.1)
     y[0] += 0.3
