@@ -99,7 +99,7 @@ bars: setup  ## measure whether error bars cover the error; kept in results/bars
 spread: setup  ## measure how much columns move with mesh, imperfection, steps; kept in results/spread/
 	@$(PYTHON) -m tests.studies.rankings.spread results/spread
 
-effort: setup  ## look whether stopped cases change a first design without a word; in results/effort/
+effort: setup  ## check that stopped cases never change the first design without a notice; in results/effort/
 	@$(PYTHON) -m tests.studies.rankings.effort results/effort
 
 search: setup  ## compare what optimize finds with a scan and with a grid; kept in results/search/ (2 min)

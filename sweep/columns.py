@@ -37,7 +37,7 @@ COLUMNS: dict[str, Column] = {
     ),
     "retry": Column(
         "",
-        "what was changed in the retry that has these numbers, as the case as asked for stopped; "
+        "what was changed in the retry that gave these numbers, because the original case stopped; "
         "empty if nothing was",
     ),
     "loaded": Column(

@@ -32,7 +32,7 @@ ROW = np.dtype(
             ("reaction_top", np.float64),  # N
             ("reaction_bottom", np.float64),  # N
             ("iterations", np.float64),  # of Newton, accumulated
-            ("gap", np.float64),  # least distance of surfaces that may touch, m; infinite: none
+            ("gap", np.float64),  # least distance of axes that may touch, m; infinite: none
             ("speed", np.float64),  # of the upper platen upwards, m/s
             ("base_speed", np.float64),  # of the lower platen upwards, m/s
             ("patch_force", np.float64),  # greatest force on a patch of the base, N

@@ -47,7 +47,7 @@ def corrections(scheme):
     """Return how often lagged forces are lagged again at the end of a step, which is then repeated.
 
     With the forces at the start of a step the error is of first order, as in backward Euler; with
-    the forces at its first end it is of second order.
+    the forces at its first solution it is of second order.
     """
     return 0 if scheme == BACKWARD_EULER else 1
 

@@ -43,8 +43,8 @@ from kernels.solve.workspace import make_workspace
 SMALLEST_SHARE = 2.0**-24  # share of a step
 MAX_EXTRAPOLATION = 2.0  # longest extrapolation of the last move, as a multiple of it
 MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than `Stage.fall`
-MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: one
-# that takes more goes on in very short shares, and may snap into another shape than longer steps
+MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: a row
+# that needs more would go on in very short shares, and might snap into another shape
 SHORTEST = 0.125  # share of a row: first step where steps may span rows, as it has no friction yet
 REJECTED_ERROR = 4.0  # times the allowed error: a step that spans rows is accepted below it
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy

@@ -49,7 +49,7 @@ def _shown(faults: list[Fault]) -> list[str]:
     chosen = sorted(range(len(faults)), key=repeats.__getitem__)[:SHOWN]
     more = len(faults) - len(chosen)
     counted = (
-        [f"and {more:,} more mistake{'s' if more > 1 else ''}, shown once these are mended"]
+        [f"and {more:,} more mistake{'s' if more > 1 else ''}, shown after these are fixed"]
         if more
         else []
     )

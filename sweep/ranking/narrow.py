@@ -16,7 +16,7 @@ WIDE = 8
 def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
     """The patterns of one scene that have fewer than `WIDE` cells between free sides.
 
-    None if all rows are of one pattern, as their order then says nothing about patterns.
+    Empty if all rows are of one pattern, as their order then says nothing about patterns.
     """
     across = rows[(rows["direction"] == "in_plane") & (rows["sides"] == "free")]
     if across["lattice_kind"].nunique() < 2:

@@ -119,7 +119,7 @@ def slipped_off() -> Failure:
     """The striker of a crush misses the lattice, or the lattice slips away from it or between
     ribs.
     """
-    why = "the striker has lost the lattice: it misses it or slips off, or ribs let it through"
+    why = "the striker lost the lattice: it missed or slipped off, or ribs let the lattice through"
     advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
     return Status.SLIPPED, f"{why}; {advice}"
 

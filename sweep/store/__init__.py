@@ -2,6 +2,6 @@
 
 `write` decides when rows are written, `parts` names the sealed files, `hdf5` writes one, `read`
 reads all of them, and `lock` admits one writer at a time. `batch` and `tables` hold rows in memory,
-`checksum` detects damaged rows. `hdf5` and `read` are the only home of h5py, `errors` has the one
-error.
+`checksum` detects damaged rows. `hdf5` and `read` are the home of h5py, which else only the export
+of shapes to ParaView uses; `errors` has the one error.
 """

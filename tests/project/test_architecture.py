@@ -32,6 +32,7 @@ FLOORS = [
 HOMES = {
     "numba": "kernels.compile",
     "llvmlite": "kernels.compile",
+    "dask": "sweep.running",
     "distributed": "sweep.running.cluster sweep.running.dask_graph",
     "dask_jobqueue": "sweep.running.cluster",
     "h5py": "sweep.store.read sweep.store.hdf5 sweep.export.shapes",

@@ -1,7 +1,7 @@
 """Contact of walls in space over their thickness, and with two platens, as a barrier on distance.
 
     E_c = 1/2 sum_p a_p sum_F w_pF phi(d(p, F)) + sum_p a_p phi(d(p, platen))
-          + sum of two edges a m phi(d) / 2
+          + sum of pairs of edges a m phi(d)
     phi(d) = C Y' t_c b(d / t_c)
 
 p: nodes with the tributary area a_p; F: triangles, sides and corners with the weights of `pairs`,
@@ -65,8 +65,8 @@ def build(stiffness, most_move, triangles, area, thickness, rest, low, high, ori
     """Return the `Contact` of a surface that may thicken up to `MOST_THICKENING` times.
 
     low, high: (nodes, distances at rest, coordinate) of the two platens. original: None without
-    images. Others: as in `Contact`. Of an edge and its images, one is own: the edge whose node with
-    the lower original is no image.
+    images. Others: as in `Contact`. Of an edge and its images one is own: the edge whose node with
+    the lowest original is not an image.
     """
     if original is None:
         original = np.arange(area.size)

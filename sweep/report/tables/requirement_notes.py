@@ -26,7 +26,7 @@ PANEL = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
 )
-WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm, whose edges count as its middle."
+WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm; effects of its edges are neglected."
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",

@@ -130,7 +130,7 @@ def test_of_many_faults_a_dozen_are_told_and_the_rest_counted(load, text):
     *told, last = str(caught.value).splitlines()
     assert len(told) == 12
     assert all(line.startswith(MANY[text]) for line in told)
-    assert last == "and 1,000 more mistakes, shown once these are mended"
+    assert last == "and 1,000 more mistakes, shown after these are fixed"
     assert len(caught.value.faults) == 1012
 
 
@@ -139,7 +139,7 @@ def test_faults_of_one_key_do_not_hide_those_of_others(lines):
     told = lines(f"[grid]\nlattice.depth = [{bad}]\nsolver.tol = [1]")
     assert ["lattice.depth" in line for line in told] == [True] * 11 + [False] * 2
     assert "solver.tol = [1]: unknown key" in told[11]
-    assert told[12] == "and 1 more mistake, shown once these are mended"
+    assert told[12] == "and 1 more mistake, shown after these are fixed"
 
 
 MASSES = '[grid]\nlattice.mass = ["0.8 g", "1.4 g"]\nlattice.kind = ["hex", "circle"]\n'
