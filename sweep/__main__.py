@@ -315,7 +315,9 @@ def _add_run(verbs: Any) -> None:
     )
     run.add_argument("--brief", action="store_true", help=BRIEF)
     run.add_argument("--retry-failed", action="store_true", help="compute failed cases again")
-    run.add_argument("--renew", action="store_true", help="compute rows of an older model again")
+    run.add_argument(
+        "--renew", action="store_true", help="compute damaged rows and rows of an older model again"
+    )
 
 
 def _add_optimize(verbs: Any) -> None:

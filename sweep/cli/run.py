@@ -43,7 +43,8 @@ def run(config: Config, arguments: Namespace) -> int:
     if part:
         config, name = _part(config, arguments), f"{name}.{part[0]}-of-{part[1]}"
     out = arguments.out or f"results/{name}.h5"
-    rerun = Rerun(failed=arguments.retry_failed, older=arguments.renew)
+    renew = arguments.renew
+    rerun = Rerun(failed=arguments.retry_failed, older=renew, damaged=renew)
     if arguments.dry_run:
         from sweep.running.estimate import dry_run
 

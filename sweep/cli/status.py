@@ -29,7 +29,7 @@ def print_status(file: str, as_json: bool) -> bool:
         say(json.dumps(status_record(file, summary, about), indent=2))
         return failed_cases(summary).empty
     counts = summary["status"].value_counts()
-    missing = missing_cases(summary, about)
+    missing = missing_cases(len(summary), about)
     more = f"; {missing} of the last run are missing" if missing else ""
     say(f"{file}: {counted(len(summary), 'case')}{more}")
     say_all(f"{count:7d} {name}" for name, count in counts.items())

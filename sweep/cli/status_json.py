@@ -37,7 +37,7 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
         "with_error_bars": int(bars.sum()),
         "model_versions": {str(key): n for key, n in model_versions(summary).items()},
         "other_cases": int(about["other_cases"]),
-        "missing_cases": missing_cases(summary, about),
+        "missing_cases": missing_cases(len(summary), about),
         "processor_time_s": float(summary["cpu_s"].sum()),
         "last_run": _text(about, "created"),
         "git_revision": _text(about, "git_revision"),
@@ -50,10 +50,11 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
     }
 
 
-def missing_cases(summary: DataFrame, about: Mapping[str, Any]) -> int:
-    """How many cases of the last run the file does not contain, as the run was interrupted."""
-    count = len(summary) - int(about["other_cases"])
-    return max(int(about["asked_cases"]) - count, 0)
+def missing_cases(count: int, about: Mapping[str, Any]) -> int:
+    """How many cases of the last run a file of ``count`` cases does not contain, as the run was
+    interrupted. about: its attributes.
+    """
+    return max(int(about["asked_cases"]) - count + int(about["other_cases"]), 0)
 
 
 def _text(about: Mapping[str, Any], name: str) -> str | None:

@@ -56,10 +56,17 @@ def version_counts(counts: Mapping[int, int]) -> str:
 
 def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     """Warnings about cases for a reader of the ranking."""
+    from sweep.cli.status_json import missing_cases
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
-    if others := read_attributes(file)["other_cases"]:
+    about = read_attributes(file)
+    if missing := missing_cases(ranking.cases, about):
+        yield (
+            f"{missing} of {about['asked_cases']} cases of the last run are missing, and may "
+            "change the order: the same crumple run computes them."
+        )
+    if others := about["other_cases"]:
         yield (
             f"{others} of {ranking.cases} cases belong to other configs than the last run; "
             "they are ranked too. To keep configs apart, give each its own --out or name."

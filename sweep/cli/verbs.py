@@ -194,9 +194,10 @@ def export(arguments: Namespace) -> int:
 
 def report(arguments: Namespace) -> int:
     """Write a results file as one HTML page."""
+    from sweep.cli.status_json import missing_cases
     from sweep.export.page import export_page
     from sweep.ranking.question import Question
-    from sweep.store.read import read_summary
+    from sweep.store.read import read_attributes, read_summary
 
     summary, stored = read_summary(arguments.file), stored_table(arguments.file, "rank")
     question = Question(
@@ -214,6 +215,8 @@ def report(arguments: Namespace) -> int:
         hint(["there is no browser to open it"])
     if failed := len(failed_cases(summary)):
         hint([f"{failed} of {len(summary)} cases failed: the page lists them"])
+    if missing := missing_cases(len(summary), read_attributes(arguments.file)):
+        hint([f"{missing} cases of the last run are missing: they may change the order"])
     return _exit_status(summary)
 
 

@@ -41,6 +41,7 @@ def verify(file: str, again: int) -> bool:
         say(f"{len(wrong) - SHOWN} more cases cannot be read")
     say(f"{file}: {len(ids) - len(wrong)} of {counted(len(ids), 'case')} whole")
     if wrong:
+        say("`crumple run CONFIG --renew` computes these again, and keeps the others")
         return False
     chosen = _drawn(summary["case_id"].drop(failed_cases(summary).index), again)
     different = list(_different(file, summary.set_index("case_id").loc[chosen]))

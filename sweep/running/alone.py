@@ -36,7 +36,10 @@ PROGRAM = "import sys; sys.path[:] = {places}; from {module} import answer; answ
 BEGUN = "begun"  # is sent before each case
 DIED = "its process died, even with no other case in it; try a smaller model"
 NO_MEMORY = "needs more memory than there is; try fewer cells, nodes or steps"
-KILLED = "solver.time_limit of {:g} s reached, and its process had to be killed; raise it"
+KILLED = (
+    "solver.time_limit of {:g} s reached, and its process had to be killed; raise it and add "
+    "--retry-failed"
+)
 
 Simulate = Callable[[Case, np.ndarray], Result]
 

@@ -88,8 +88,8 @@ def _may_overlap(case: Case) -> bool:
 
 def timed_out(case: Case, where: str) -> Failure:
     """The case has taken longer than `solver.time_limit`."""
-    limit = case.solver.time_limit
-    return Status.TIMED_OUT, f"solver.time_limit of {limit:g} s reached {where}; raise it"
+    reached = f"solver.time_limit of {case.solver.time_limit:g} s reached {where}"
+    return Status.TIMED_OUT, f"{reached}; raise it and add --retry-failed"
 
 
 def energy_gained(case: Case) -> Failure:

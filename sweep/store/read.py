@@ -56,6 +56,7 @@ SHOWN = 3  # most damaged cases that are named
 ATTEMPTS = 100  # attempts to open all files of a set before the writer changes the set
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
+RENEWED = "`crumple verify` names its cases, and `crumple run CONFIG --renew` computes these again"
 ID = re.compile(r"[0-9a-f]{1,16}")
 NOT_SO = "has values of another kind, or rows of another length"
 ELSEWHERE = (
@@ -73,10 +74,13 @@ _DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
 
 
 class Rerun(NamedTuple):
-    """Which cases run again although they have a row: failed, or of another model."""
+    """Which cases run again although they have a row: failed, of another model, or damaged in
+    their curves, shapes or stored case.
+    """
 
     failed: bool = False
     older: bool = False
+    damaged: bool = False
 
 
 ONLY_MISSING = Rerun()
@@ -126,7 +130,8 @@ def finished_ids(path: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING) -> s
     """Ids of the cases that need not run again; empty if there is no file."""
     ids, statuses, versions = _read_columns(path, "case_id", "status", "model_version")
     again = (statuses != Status.CONVERGED) & rerun.failed | (versions < MODEL_VERSION) & rerun.older
-    return {*ids[~again]}
+    damaged = unreadable(path) if rerun.damaged and len(ids) else {}
+    return {*ids[~again]} - damaged.keys()
 
 
 def older_ids(path: str | os.PathLike[str]) -> set[str]:
@@ -317,7 +322,7 @@ def _frames(
     named = [arrays[name] for name in ("edges", "quads") if name in arrays]
     if rest or not named or any(each.min() < 0 or each.max() >= nodes for each in named):
         why = "elements of nodes that they do not have" if not rest else "frames without all nodes"
-        raise StoreError(f"{path} holds no usable shapes of case {case_id}: {why}; {AGAIN}.")
+        raise StoreError(f"{path} holds no usable shapes of case {case_id}: {why}; {RENEWED}.")
     return arrays | {"position_m": rows.reshape(-1, nodes, rows.shape[1])}
 
 
@@ -479,8 +484,10 @@ def _refuse_damaged(path: Path, blocks: list[Block]) -> None:
 
 
 @contextmanager
-def _undamaged(path: Path) -> Iterator[None]:
-    """Turn every error of HDF5 in reading a sealed file into a `StoreError` of one line."""
+def _undamaged(path: Path, damaged: str = "") -> Iterator[None]:
+    """Turn every error of HDF5 in reading a sealed file into a `StoreError` of one line. damaged:
+    the name of what is read, if other parts of the file may be whole.
+    """
     try:
         yield
     except FileNotFoundError:
@@ -492,6 +499,8 @@ def _undamaged(path: Path) -> Iterator[None]:
             raise StoreError(f"{path} {ELSEWHERE}.") from error
         if "locking flag" in str(error):
             raise StoreError(f"{path} {HERE}.") from error
+        if damaged:
+            raise StoreError(f"{path}: {damaged} is damaged: {RENEWED}.") from error
         line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
         raise StoreError(line) from error
 
@@ -513,7 +522,7 @@ class _Array:
             raise StoreError(f"{path} is damaged: {data.name} {NOT_SO}: {AGAIN}.")
 
     def __getitem__(self, rows: slice) -> np.ndarray:
-        with _undamaged(self._path):
+        with _undamaged(self._path, self._data.name):
             return self._data[rows]
 
 

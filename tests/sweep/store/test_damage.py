@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 from sweep.store.read import (
+    Rerun,
     StoreError,
     damaged_ids,
     finished_ids,
@@ -85,7 +86,7 @@ def test_damage_that_shows_only_on_reading_is_named_too(path, damaged, reads):
     part.write_bytes(content)
     assert len(read_summary(path)) == 5
     for read in reads:
-        with pytest.raises(StoreError, match=f"{part.name} .* is damaged"):
+        with pytest.raises(StoreError, match=f"{part.name}.* is damaged"):
             READS[read](path)
     part.unlink()
     assert len(finished_ids(path)) == 3
@@ -149,6 +150,18 @@ def test_a_flipped_bit_is_found_and_its_case_alone_runs_again(path, name, fold, 
     assert finished_ids(path) == {case.case_id for case in cases(5)} - {lost}
     write(path, [cases(5)[3]], fold=True)
     assert (len(read_summary(path)), damaged_ids(path)) == (5, [])
+
+
+def test_a_case_whose_curves_are_damaged_runs_again_where_asked(path):
+    """Reading its summary alone does not show it."""
+    write(path, cases(5), fold=True)
+    with h5py.File(path) as file:
+        chunk = file["histories/values/strain"].id.get_chunk_info(0)
+    flipped(path, chunk.byte_offset + chunk.size // 2, 2)
+    assert len(finished_ids(path)) == 5
+    assert finished_ids(path, Rerun(damaged=True)) == set()
+    write(path, cases(5), fold=True)
+    assert unreadable(path) == {}
 
 
 def test_a_flipped_attribute_is_damage(path):
