@@ -30,7 +30,6 @@ from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import measured, misses
-from sweep.ranking.scenes import by_scene, scene_keys
 from sweep.result import Status
 
 if TYPE_CHECKING:
@@ -79,17 +78,6 @@ def interrupted(rows: DataFrame) -> Series:
 def unloaded(rows: DataFrame) -> Series:
     """True for rows that are ranked although their case stopped after the loading."""
     return (rows["loaded"] == 1) & (rows["status"] != Status.CONVERGED)
-
-
-def same_scenes(scenes: Iterable[DataFrame], among: DataFrame) -> list[DataFrame]:
-    """For the rows of each scene, the rows of `among` that have the same loading scene."""
-    keys = scene_keys(among)
-    parts = {_key(part, keys): part for part in by_scene(among)}
-    return [parts.get(_key(rows, keys), among[:0]) for rows in scenes]
-
-
-def _key(rows: DataFrame, keys: list[str]) -> tuple[str, ...]:
-    return tuple(map(str, rows[keys].iloc[0])) if len(rows) else ()
 
 
 def could_place(  # noqa: PLR0913  the ranking, the cases, the question

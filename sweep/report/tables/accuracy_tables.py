@@ -60,7 +60,7 @@ def scene_title(study: Study, name: str) -> str:
     rows = study.settings
     varied = [key for key in rows if "." in key and (varies(rows[key]) or rows[key].isna().all())]
     rows = rows.drop(columns=varied)
-    shown = {*scene_keys(rows), *HELD_BY_SCENE, "loading.strain", "loading.stroke"}
+    shown = {*scene_keys(rows), *HELD_BY_SCENE}
     kept = [key for key in rows if "." in key and key not in shown]
     words = [
         f"{key.replace('.', ' ').replace('_', ' ')} "

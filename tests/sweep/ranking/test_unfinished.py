@@ -63,7 +63,7 @@ def test_a_force_that_only_rises_gives_the_best_place(force, best):
 
 def test_an_allowed_force_limits_what_the_rest_of_the_stroke_adds():
     column = absorbed_energy_column(10.0)
-    table = crushes(STOPPED | {"height_m": 0.01, "stroke_m": 6e-3, "peak_strain": 0.5})
+    table = crushes(STOPPED | {"peak_strain": 0.5}).assign(height_m=0.01, stroke_m=6e-3)
     table[column] = [0.1, 0.2, 0.3, 0.195]
     table["peak_force_N"] = [20.0, 20.0, 20.0, 8.0]
     table["absorbed_energy_within_model_J"] = 1.0
