@@ -96,7 +96,7 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     """
     stopped = every[ended_early(every, by)]
     bounds = ends(stopped, by, names, question)
-    missed, certain = _judged(stopped, bounds, names, question, required)
+    missed, certain = _judged(stopped, names, question, required)
     better, worse = bounds if less_is_better(by) else bounds[::-1]
     doubt, certain = doubtful(stopped), certain & np.isfinite(worse)
     candidates, mass = ranked.dropna(subset=by), stopped[names.mass]
@@ -171,7 +171,6 @@ def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
 
 def _judged(
     rows: DataFrame,
-    bounds: Ends,
     names: Compared,
     question: Question,
     required: Mapping[str, float],
@@ -187,7 +186,8 @@ def _judged(
     mode = rows["loading_mode"].iloc[0]
     limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
     shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
-    settled = bounds.low == bounds.high
+    energy = ends(rows, names.energy, names, question)
+    settled = energy.low == energy.high
     resolved = rows["status"] != Status.UNRESOLVED
     for name in limits:
         sure = settled if MEASURES[name].least else resolved | (name == "max_mass")
