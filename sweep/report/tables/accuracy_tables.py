@@ -13,6 +13,7 @@ from sweep.columns import describe_column
 from sweep.modes import mode_of
 from sweep.numbers import (
     NOTHING,
+    counted,
     energy_text,
     in_unit,
     short,
@@ -82,7 +83,8 @@ def answers(study: Study) -> list[str]:
         lines += [line for target in TARGETS for line in _cheapest(study, target)]
     failed = study.settings[study.settings["status"] != Status.CONVERGED]
     if not failed.empty:
-        lines.append(f"Failed: {len(failed)} settings; the first {failed['message'].iloc[0]}.")
+        first = failed["message"].iloc[0]
+        lines.append(f"Failed: {counted(len(failed), 'setting')}; the first: {first}.")
     return lines
 
 

@@ -10,7 +10,7 @@ from sweep.simulation.until import absorbed_until
 from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
-STOPPED = {"status": "stopped", "message": "stopped while loading: the solution diverged"}
+STOPPED = {"status": "stopped", "message": "the solution diverged while loading; why"}
 UNLOADED = STOPPED | {"loaded": 1, "returned_energy_J": NAN}
 ALLOWED, HEIGHT, ROWS = (5.0, 12.0), 0.02, 40
 SEEDS = range(250, 310)
