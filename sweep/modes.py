@@ -73,7 +73,7 @@ class Mode(NamedTuple):
     noun: str
     without: str
     requires: tuple[str, ...]
-    title: Callable[[Row], str]
+    title: Callable[[Row, int], str]
     curve: tuple[Axis, Axis]
     columns: tuple[str, ...] = ()
     scene: tuple[str, ...] = ()
@@ -91,6 +91,7 @@ class Mode(NamedTuple):
     picture: str = ""
 
 
+STRIKER = ("striker_mass_g", "striker_speed_m_per_s", "target_mass_g")
 STRAIN = Axis("strain", "%", "strain, %")
 TIME = Axis("time_s", "ms", "time, ms")
 LOADED = "strain: greatest strain under the load, including overshoot."
@@ -102,13 +103,12 @@ dens.: densification strain, at which energy / greatest force is greatest: the m
 at which it is nearly as great. Energy and peak until then are means over the same strains."""
 
 
-def _struck(row: Row) -> str:
+def _struck(row: Row, digits: int) -> str:
     """The striker of a row and its target, in words."""
-    mass, speed = short(float(row["striker_mass_g"])), short(float(row["striker_speed_m_per_s"]))
+    mass, speed, target = (short(float(row[name]), digits) for name in STRIKER)
     energy = energy_text(float(row["impact_energy_J"]))
     falls = " under gravity" if row["gravity"] == 1.0 else ""
-    target = float(row["target_mass_g"])
-    free = f" on a target of {short(target)} g" if target > 0.0 else ""
+    free = f" on a target of {target} g" if float(row["target_mass_g"]) > 0.0 else ""
     return f"struck by {mass} g at {speed} m/s ({energy}){falls}{free}"
 
 
@@ -117,7 +117,7 @@ MODES: Mapping[str, Mode] = {
         noun="a crush",
         without="a crush, which has no striker",
         requires=("max_force", "max_mass", "min_absorbed", "max_stroke"),
-        title=lambda row: "crushed",
+        title=lambda *_: "crushed",
         curve=(STRAIN, Axis("reaction_top_N", "N", "force, N")),
         columns=("stroke_m",),
         driven=True,
@@ -139,7 +139,7 @@ MODES: Mapping[str, Mode] = {
             *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
             "target_mass_g",
         ),
-        scene=("striker_mass_g", "striker_speed_m_per_s", "gravity", "target_mass_g"),
+        scene=(*STRIKER, "gravity"),
         struck=True,
         least=Least(
             *("peak_force_N", "N", "greatest force on the support, N", "Force over mass"),
@@ -157,7 +157,7 @@ MODES: Mapping[str, Mode] = {
         noun="a dead load",
         without="a dead load, which sets force and energy itself",
         requires=("max_mass", "max_stroke"),
-        title=lambda row: f"dead load of {row['force_N']:g} N",
+        title=lambda row, digits: f"dead load of {short(row['force_N'], max(digits, 6))} N",
         curve=(TIME, STRAIN),
         columns=("force_N",),
         scene=("force_N",),
@@ -178,7 +178,7 @@ MODES: Mapping[str, Mode] = {
         noun="a custom structure",
         without="a custom structure",
         requires=("max_mass",),
-        title=lambda row: "loaded as in its file",
+        title=lambda *_: "loaded as in its file",
         curve=(TIME, Axis("reaction_bottom_N", "N", "force, N")),
         probed=True,
         energy="energy left",

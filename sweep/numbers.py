@@ -111,11 +111,11 @@ def at_least(value: float, digits: int = 4) -> str:
     return significant(unit * math.ceil(value / unit * (1.0 - ROUND_OFF)), digits)
 
 
-def short(value: float | str | None) -> str:
-    """A number with four digits, text unchanged, a dash for a missing value."""
+def short(value: float | str | None, digits: int = 4) -> str:
+    """A number with so many digits, text unchanged, a dash for a missing value."""
     if value is None or value != value:  # NaN
         return NOTHING
-    return significant(value) if isinstance(value, float) else str(value)
+    return significant(value, digits) if isinstance(value, float) else str(value)
 
 
 def scaled(unit: str, greatest: float) -> tuple[float, str]:
@@ -125,12 +125,12 @@ def scaled(unit: str, greatest: float) -> tuple[float, str]:
     return next(large, scales[-1] if greatest else scales[0])
 
 
-def with_unit(value: float | str | None, unit: str) -> str:
+def with_unit(value: float | str | None, unit: str, digits: int = 4) -> str:
     """A value in SI as text in a unit of its size: 0.0001, "s" -> "100 us"; text unchanged."""
     if not unit or value is None or isinstance(value, str) or math.isnan(value):
-        return short(value)
+        return short(value, digits)
     factor, name = scaled(unit, value)
-    return f"{short(factor * value)} {name}"
+    return f"{short(factor * value, digits)} {name}"
 
 
 def numerals(values: Series) -> Series:

@@ -40,7 +40,8 @@ class Assessment(NamedTuple):
 
 
 def assess(summary: DataFrame, question: Question) -> Assessment:
-    """The values and misses of the designs of one scene.
+    """The values and misses of designs, whatever their scenes: with a given stroke, designs of
+    other heights are crushed to another strain.
 
     Designs without a place in the ranking have no value: failed ones, those above the budget.
     """
@@ -56,6 +57,7 @@ def assess(summary: DataFrame, question: Question) -> Assessment:
     shares = misses(sound, measured(sound, _names(ranking), ranking.per), required)
     missed = nearest_first(sound, ranking.mass, shares)
     fulfil, others = sound[missed[sound.index] == 0.0], missed[missed > 0.0]
+    fulfil = fulfil.sort_values(column, ascending=less_is_better(column), kind="stable")
     return Assessment(
         column,
         dict(zip(fulfil["case_id"], fulfil[column].astype(float), strict=True)),

@@ -29,14 +29,13 @@ from sweep.ranking.places import pareto, passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import Outcome, check, judge, limits
-from sweep.ranking.scenes import by_scene, scene_keys, scene_label
+from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import (
     FIRST,
     could_place,
     ended_early,
     interrupted,
     loaded,
-    same_scenes,
     unloaded,
 )
 
@@ -181,7 +180,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
         np.inf
     ]
-    scene_rows = {scene_label(rows): rows for rows in by_scene(finished)}
+    labels = scene_labels(whole)
+    scene_rows = by_scene(finished, labels)
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
         label: judge(rows, names, required, per, masses, allowed)
@@ -195,11 +195,13 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
     leading = [name for name in LEADING if name in parts[0]]
-    alike = same_scenes(scene_rows.values(), whole[interrupted(whole) | unloaded(whole)])
+    stopped_rows = by_scene(whole[interrupted(whole) | unloaded(whole)], labels)
     stopped = [
         part.assign(scene=label)
-        for label, (rows, order), every in zip(scene_rows, scenes, alike, strict=True)
-        for part in could_place(rows, every, order, masses, names, question, required)
+        for label, (rows, order) in zip(scene_rows, scenes, strict=True)
+        for part in could_place(
+            *(rows, stopped_rows.get(label, whole[:0]), order, masses, names, question, required)
+        )
     ]
     return Ranking(
         table=widened(pd.concat(parts), summary, leading).reset_index(drop=True),
@@ -226,7 +228,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             if len(rows)
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
-        lost={scene_label(part): len(part) for part in by_scene(_lost(whole)) if len(part)},
+        lost=labels[~labels.isin(list(scene_rows))].value_counts(sort=False).to_dict(),
         per=per,
         required=required,
         outcomes={
@@ -241,12 +243,6 @@ def _lightest(rows: DataFrame, mass: str) -> DataFrame:
     """The row of the lightest design, the first by its id among equals."""
     some = rows[~(rows[mass] > rows[mass].min())]
     return some.sort_values([mass, "case_id"]).iloc[:1]
-
-
-def _lost(whole: DataFrame) -> DataFrame:
-    """The rows of the scenes in which no case completed its loading."""
-    scenes = [whole[key] for key in scene_keys(whole)]
-    return whole[~(whole["loaded"] == 1).groupby(scenes, dropna=False).transform("any")]
 
 
 def _whole(outcome: Outcome, summary: DataFrame) -> Outcome:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from pandas import DataFrame, Series
+from collections.abc import Iterable
+
+from pandas import DataFrame, Series, to_numeric
 
 from sweep.columns import describe_column
-from sweep.modes import MODES, mode_of
-from sweep.numbers import NOTHING, text_in, with_unit
+from sweep.modes import MODES, has, mode_of
+from sweep.numbers import NOTHING, short, text_in, with_unit
 
 SCENE = [
     *("loading_mode", "platen", "striker", "base"),
@@ -15,13 +17,17 @@ SCENE = [
 HELD_BY_SCENE = tuple(
     f"loading.{key}"
     for key in (
-        *("mode", "direction", "platen", "force", "allowed_forces"),
+        *("mode", "direction", "platen", "force", "allowed_forces", "strain", "stroke"),
         *("striker_mass", "striker_speed", "energy", "drop_height", "preset", "specimens"),
         *("gravity", "target_mass"),
         *(f"striker{part}" for part in ("", "_at", "_radius", "_angle", "_tip", "_width")),
         *("base", "base_span", "base_radius"),
     )
 )
+STRAIN_DIGITS = 6
+DIGITS = (4, 6, 10, 17)
+"""Digits of the numbers of a label: more, where labels of scenes are the same with fewer."""
+ROUND_OFF = 1e-9  # relative difference up to which numbers of a scene are the same
 
 ASSUMPTIONS = (
     "loading.",
@@ -42,14 +48,54 @@ OF_DESIGN = ("loading.direction",)
 """Keys of the loading that belong to the design nevertheless: how a panel is laid."""
 
 
-def by_scene(frame: DataFrame) -> list[DataFrame]:
-    """The rows of each loading scene, in the order in which scenes first appear."""
-    groups = frame.groupby(scene_keys(frame), dropna=False, sort=False)
-    return [rows for _, rows in groups] or [frame]
+def by_scene(frame: DataFrame, labels: Series | None = None) -> dict[str, DataFrame]:
+    """The rows of each loading scene by its label, in the order in which scenes first appear.
+
+    labels: `scene_labels` of a table with these rows and others. Without rows, the label is "".
+    """
+    names = scene_labels(frame) if labels is None else labels[frame.index]
+    return dict(list(frame.groupby(names, sort=False))) or {"": frame}
+
+
+def scene_labels(frame: DataFrame) -> Series:
+    """The label of the loading scene of each row: the same for all rows of a scene, and for no
+    other row.
+
+    Labels that are the same with four digits get more of them, and then the keys that differ.
+    """
+    values = _values(frame)
+    number = values.groupby(list(values), dropna=False, sort=False).ngroup()
+    first = ~number.duplicated()
+    rows, values = (each[first].set_axis(number[first]) for each in (frame, values))
+    labels = Series("", rows.index, dtype=object)
+    for digits in DIGITS:
+        for scene in labels.index[labels.duplicated(keep=False) | (labels == "")]:
+            labels[scene] = scene_label(rows.loc[[scene]], digits)
+    for _, alike in labels[labels.duplicated(keep=False)].groupby(labels):
+        keys = [key for key in values if len(values.loc[alike.index, key].unique()) > 1]
+        for scene in alike.index:
+            labels[scene] = ", ".join([labels[scene], *_words(rows.loc[scene], keys, DIGITS[-1])])
+    return number.map(labels)
+
+
+def _values(frame: DataFrame) -> DataFrame:
+    """The values that define the scene of each row: its keys, and how far a crush is pressed."""
+    strain = (frame["stroke_m"] / frame["height_m"]).where(has(frame, "driven"))
+    columns = {key: frame[key] for key in scene_keys(frame)} | {"strain": strain}
+    return DataFrame({key: _alike(column) for key, column in columns.items()}, index=frame.index)
+
+
+def _alike(values: Series) -> Series:
+    """Texts, and the same integer for numbers that differ by round-off; NaN for no value."""
+    numbers = to_numeric(values, errors="coerce").astype(float).sort_values()
+    groups = (numbers.diff() > ROUND_OFF * numbers.shift().abs()).cumsum().astype(object)
+    return groups.where(numbers.notna(), values.astype(object).where(values != ""))
 
 
 def scene_keys(frame: DataFrame) -> list[str]:
-    """Columns that define a loading scene; rows that differ in one of them are not compared."""
+    """Columns that define a loading scene besides the strain of a crush; rows that differ in one of
+    them are not compared.
+    """
     assumed = [key for key in frame if key.startswith(ASSUMPTIONS) and key not in HELD_BY_SCENE]
     return [key for key in SCENE if key in frame] + assumed
 
@@ -66,27 +112,26 @@ def _standing(row: Series) -> list[str]:
     return [*shapes, f"{platen} base" if base == "flat" else f"on {base}"]
 
 
-def scene_label(rows: DataFrame) -> str:
-    """The loading of the cases of one scene, in words; different for every scene.
+def scene_label(rows: DataFrame, digits: int = DIGITS[0]) -> str:
+    """The loading of the cases of one scene, in words; `scene_labels` differ between scenes.
 
     Keys that the scene does not use are left out.
     """
     if rows.empty:
         return ""
-    first = rows.iloc[0]
-    shown = set(SCENE)
-    mode = mode_of(rows)
-    words = [mode.title(first)]
-    if mode.driven and len(strains := (rows["stroke_m"] / rows["height_m"]).round(6).unique()) == 1:
-        words[0] += f" to {text_in(strains[0], '%', 6)}"
-        shown |= {"loading.strain", "loading.stroke"}
+    first, mode = rows.iloc[0], mode_of(rows)
+    words = [mode.title(first, digits)]
+    if mode.driven:
+        strain = text_in(first["stroke_m"] / first["height_m"], "%", max(digits, STRAIN_DIGITS))
+        words[0] += f" to {strain}"
     if not mode.probed:
         words += _standing(first)
-    others = {
-        key: with_unit(first[key], describe_column(key).units)
-        for key in scene_keys(rows)
-        if key not in shown
-    }
-    used = {key: value for key, value in others.items() if value not in ("", NOTHING)}
-    words += [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in used.items()]
-    return ", ".join(words)
+    keys = [key for key in scene_keys(rows) if key not in SCENE]
+    used = [key for key in keys if short(first[key]) not in ("", NOTHING)]
+    return ", ".join([*words, *_words(first, used, digits)])
+
+
+def _words(row: Series, keys: Iterable[str], digits: int) -> list[str]:
+    """Keys of a row with their values."""
+    values = {key: with_unit(row[key], describe_column(key).units, digits) for key in keys}
+    return [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in values.items()]

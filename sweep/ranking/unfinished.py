@@ -30,7 +30,6 @@ from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import measured, misses
-from sweep.ranking.scenes import by_scene, scene_keys
 from sweep.result import Status
 
 if TYPE_CHECKING:
@@ -81,17 +80,6 @@ def unloaded(rows: DataFrame) -> Series:
     return (rows["loaded"] == 1) & (rows["status"] != Status.CONVERGED)
 
 
-def same_scenes(scenes: Iterable[DataFrame], among: DataFrame) -> list[DataFrame]:
-    """For the rows of each scene, the rows of `among` that have the same loading scene."""
-    keys = scene_keys(among)
-    parts = {_key(part, keys): part for part in by_scene(among)}
-    return [parts.get(_key(rows, keys), among[:0]) for rows in scenes]
-
-
-def _key(rows: DataFrame, keys: list[str]) -> tuple[str, ...]:
-    return tuple(map(str, rows[keys].iloc[0])) if len(rows) else ()
-
-
 def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     ranked: DataFrame,
     every: DataFrame,
@@ -108,7 +96,7 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     """
     stopped = every[ended_early(every, by)]
     bounds = ends(stopped, by, names, question)
-    missed, certain = _judged(stopped, bounds, names, question, required)
+    missed, certain = _judged(stopped, names, question, required)
     better, worse = bounds if less_is_better(by) else bounds[::-1]
     doubt, certain = doubtful(stopped), certain & np.isfinite(worse)
     candidates, mass = ranked.dropna(subset=by), stopped[names.mass]
@@ -183,7 +171,6 @@ def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
 
 def _judged(
     rows: DataFrame,
-    bounds: Ends,
     names: Compared,
     question: Question,
     required: Mapping[str, float],
@@ -199,7 +186,8 @@ def _judged(
     mode = rows["loading_mode"].iloc[0]
     limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
     shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
-    settled = bounds.low == bounds.high
+    energy = ends(rows, names.energy, names, question)
+    settled = energy.low == energy.high
     resolved = rows["status"] != Status.UNRESOLVED
     for name in limits:
         sure = settled if MEASURES[name].least else resolved | (name == "max_mass")

@@ -56,8 +56,9 @@ def stopped(case: Case, outcome: int, where: str, driven: bool) -> Failure:
     """
     if outcome == outcomes.INTERRUPTED:
         return Status.STOPPED, f"interrupted {where}; run again to complete it"
-    advice = LOST if isinstance(case.solver, Arcs) else _advice(case, outcome, driven)
-    return Status.STOPPED, f"stopped {where}: {advice}"
+    why = LOST if isinstance(case.solver, Arcs) else _advice(case, outcome, driven)
+    what, _, advice = why.partition("; ")
+    return Status.STOPPED, f"{what} {where}; {advice}"
 
 
 def _advice(case: Case, outcome: int, driven: bool) -> str:

@@ -55,8 +55,7 @@ def test_no_column_stands_above_its_load(slenderness, angle, element):
 
 def test_what_buckles_under_a_dead_load_is_told_what_helps():
     result, along = column(1000, 1.2, iterations=6)
-    assert result.message.endswith(
-        "within 96 Newton iterations; try a larger solver.max_iterations"
-    )
+    assert result.message.startswith("no equilibrium within 96 Newton iterations while loading")
+    assert result.message.endswith("; try a larger solver.max_iterations")
     assert bow(result, along) < 1e-9
     assert column(1000, 1.2)[0].status == "converged"

@@ -25,11 +25,13 @@ def test_what_converges_goes_on(tmp_path):
 
 
 def test_what_stops_ends_a_study(tmp_path):
-    named = rf"^case {STOPPED.case_id}, solver.max_iterations = 4: stopped while loading"
+    named = rf"^case {STOPPED.case_id}, solver.max_iterations = 4: no equilibrium .* while loading"
     with pytest.raises(SystemExit, match=named):
         converged(STOPPED)
     file = tmp_path / "some.h5"
-    with pytest.raises(SystemExit, match=rf"^case {STOPPED.case_id}.*: stopped while loading"):
+    with pytest.raises(
+        SystemExit, match=rf"^case {STOPPED.case_id}.*: no equilibrium .* while loading"
+    ):
         swept([PRESSED, STOPPED], file)
     assert len(read_summary(file)) == 2
     assert list(swept([PRESSED], file)["case_id"]) == [PRESSED.case_id]

@@ -52,8 +52,8 @@ def required(table, question, **requirements):
 STOPPED = {
     "status": "stopped",
     "loaded": 0,
-    "message": "stopped while loading, at strain 0.2 after 80 steps: the solution diverged; try "
-    "smaller steps or a smaller load (tried without success: solver.load_steps = 800)",
+    "message": "the solution diverged while loading, at strain 0.2 after 80 steps; try smaller "
+    "steps or a smaller load (tried without success: solver.load_steps = 800)",
 }
 RANKINGS = {
     "force that no impact meets": required(IMPACTS, {}, max_force="60 N"),

@@ -28,8 +28,8 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
-from sweep.ranking.scenes import by_scene, scene_label
-from sweep.ranking.unfinished import interrupted, loaded, same_scenes, stroke_left, unloaded
+from sweep.ranking.scenes import by_scene, scene_labels
+from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
 from sweep.report.figures.flattened import plan
 from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
@@ -110,12 +110,15 @@ def page_data(
     counted = _counted(needed_columns(summary, OF_SCENES))
     compared = counted[0].rows
     finished = loaded(compared)
-    scenes = by_scene(finished)[:SCENES] if len(finished) else []
+    labels = scene_labels(compared)
+    by_label = dict(islice(by_scene(finished, labels).items(), SCENES if len(finished) else 0))
+    scenes = [*by_label.values()]
     first = _asked_first(ranking or first_ranking(summary, question))
     ids = select_designs(first, counted, scenes)
     kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
     cases = _cases(counted, kept, summary)
-    stopped = same_scenes(scenes, compared[interrupted(compared)])
+    stopped_by_label = by_scene(compared[interrupted(compared)], labels)
+    stopped = [stopped_by_label.get(label, compared[:0]) for label in by_label]
     some = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
     shown = [widened(rows, summary) for rows in some]
     unfinished = _cases(counted, shown, summary)
@@ -133,11 +136,13 @@ def page_data(
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
         "scenes": [
-            _scene(rows, some)
+            _scene(label, rows, some)
             | {"designs": len(rows), "stopped": len(halted) - len(named)}
             | {"others": group_others(counted, rows, ids, len(scenes))}
             | {"front_of_others": front_of_others(counted, rows, ids)}
-            for rows, some, halted, named in zip(scenes, kept, stopped, shown, strict=True)
+            for (label, rows), some, halted, named in zip(
+                by_label.items(), kept, stopped, shown, strict=True
+            )
         ],
         "energies": [_energy(each) for each in counted],
         "heads": heads,
@@ -159,7 +164,7 @@ def page_data(
         "total": len(summary),
         "designs": len(finished),
         "failed": int((summary["status"] != Status.CONVERGED).sum()),
-        "failures": list(_failures(summary)),
+        "failures": list(_failures(summary, labels)),
         "drawings": stored.drawings,
         "shapes": stored.shapes,
         "prints": _prints([*islice(leading, MOST_PRINTS)], files_of) if files_of else {},
@@ -297,11 +302,11 @@ def _measures(rows: DataFrame) -> dict[str, Series]:
     return crush_text(rows) if mode.driven else {}
 
 
-def _scene(rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
+def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
     """The data of a scene; kept: the rows of the designs on the page."""
     mode, least = mode_of(rows), compared(rows)
     return {
-        "label": scene_label(rows),
+        "label": label,
         "mode": rows["loading_mode"].iloc[0],
         **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead")},
         "axes": [axis.label for axis in mode.curve],
@@ -451,11 +456,10 @@ def _forces(
     return numbers(np.interp(frames["time_s"], history["time_s"], curve_of(history, row)[1]))
 
 
-def _failures(summary: DataFrame) -> Iterator[dict[str, str]]:
+def _failures(summary: DataFrame, labels: Series) -> Iterator[dict[str, str]]:
     """The first cases that did not converge: design, scene, status and message."""
     failed = summary[summary["status"] != Status.CONVERGED][:FAILURES]
-    for rows in by_scene(failed) if len(failed) else []:
-        label = scene_label(rows)
+    for label, rows in by_scene(failed, labels).items():
         for (_, row), design in zip(rows.iterrows(), design_labels(rows, summary), strict=True):
             kept = {name: str(row[name]) for name in ("case_id", "status", "message")}
             yield kept | {"scene": label, "label": design}

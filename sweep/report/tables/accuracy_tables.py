@@ -13,6 +13,7 @@ from sweep.columns import describe_column
 from sweep.modes import mode_of
 from sweep.numbers import (
     NOTHING,
+    counted,
     energy_text,
     in_unit,
     short,
@@ -60,7 +61,7 @@ def scene_title(study: Study, name: str) -> str:
     rows = study.settings
     varied = [key for key in rows if "." in key and (varies(rows[key]) or rows[key].isna().all())]
     rows = rows.drop(columns=varied)
-    shown = {*scene_keys(rows), *HELD_BY_SCENE, "loading.strain", "loading.stroke"}
+    shown = {*scene_keys(rows), *HELD_BY_SCENE}
     kept = [key for key in rows if "." in key and key not in shown]
     words = [
         f"{key.replace('.', ' ').replace('_', ' ')} "
@@ -82,7 +83,8 @@ def answers(study: Study) -> list[str]:
         lines += [line for target in TARGETS for line in _cheapest(study, target)]
     failed = study.settings[study.settings["status"] != Status.CONVERGED]
     if not failed.empty:
-        lines.append(f"Failed: {len(failed)} settings; the first {failed['message'].iloc[0]}.")
+        first = failed["message"].iloc[0]
+        lines.append(f"Failed: {counted(len(failed), 'setting')}; the first: {first}.")
     return lines
 
 

@@ -11,7 +11,7 @@ from pandas.api.types import is_numeric_dtype
 from sweep.columns import ALONG, describe_column
 from sweep.design.slicer.patterns import is_lateral, is_sheet
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
-from sweep.ranking.scenes import ASSUMPTIONS, scene_label
+from sweep.ranking.scenes import ASSUMPTIONS, scene_labels
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -127,7 +127,7 @@ def about_direction(row: Series) -> list[str]:
 def describe_case(row: Series, among: DataFrame) -> str:
     """The scene and the design of one case of a summary, in words."""
     rows = among.loc[[row.name]]
-    return f"{scene_label(rows)}, {design_labels(rows, among)[0]}"
+    return f"{scene_labels(among)[row.name]}, {design_labels(rows, among)[0]}"
 
 
 def design_labels(frame: DataFrame, among: DataFrame) -> list[str]:

@@ -12,7 +12,7 @@ from sweep.columns import end_columns
 from sweep.modes import compared, mode_of
 from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
-from sweep.ranking.scenes import by_scene, scene_label
+from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.legend import OPEN, PASSED_OVER, densifies_twice, is_unsure, marks
 from sweep.report.tables.narrow_note import narrow_note
@@ -195,10 +195,7 @@ def _without_repeats(rows: DataFrame, unit: str) -> DataFrame:
 def case_sheet(summary: DataFrame) -> Sheet:
     """All cases with their designs, scenes and statuses."""
     columns = {"case": summary["case_id"], **design_text(summary, summary)}
-    scene = Series(index=summary.index, dtype=object)
-    for rows in by_scene(summary):
-        scene.loc[rows.index] = scene_label(rows)
-    columns |= {"scene": scene, "status": summary["status"]}
+    columns |= {"scene": scene_labels(summary), "status": summary["status"]}
     return Sheet("", list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
 
 

@@ -1,6 +1,6 @@
 """Which answers change: the order of the designs of a sweep, with and without each part."""
 
-from sweep.ranking.scenes import by_scene, scene_label
+from sweep.ranking.scenes import by_scene
 from sweep.report.tables.sheet import Sheet
 from tests.studies.memory.variants import PARTS, changed
 from tests.studies.rankings.orders import CONFIGS, cases_of, compared, merits
@@ -28,8 +28,8 @@ def table(summaries, parts=PARTS):
     heads, body = ["config", "scene", "designs", *parts], []
     for name in CONFIGS:
         elastic = summaries[name, ELASTIC].reset_index(drop=True)
-        for scene in by_scene(elastic):
-            row = [name, scene_label(scene), str(len(scene))]
+        for label, scene in by_scene(elastic).items():
+            row = [name, label, str(len(scene))]
             for part in parts:
                 rows = summaries[name, part].reset_index(drop=True).loc[scene.index]
                 rho, same = compared(merits(scene), merits(rows))
@@ -49,9 +49,9 @@ def by_loss(summaries, part):
     body = []
     for name in CONFIGS:
         rows = summaries[name, part].reset_index(drop=True)
-        for scene in by_scene(rows):
+        for label, scene in by_scene(rows).items():
             if scene["loading_mode"].iloc[0] != "displacement":
                 continue
             rho, same = compared(scene["absorbed_energy_J"] / scene["mass_g"], lost(scene))
-            body.append([name, scene_label(scene), f"{rho:.2f}", "yes" if same else "no"])
+            body.append([name, label, f"{rho:.2f}", "yes" if same else "no"])
     return Sheet(f"Absorbed or lost, {part}", heads, body)

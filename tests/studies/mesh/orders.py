@@ -1,6 +1,6 @@
 """The order of the designs of the shipped sweeps at the default mesh and at a fine one."""
 
-from sweep.ranking.scenes import by_scene, scene_label
+from sweep.ranking.scenes import by_scene
 from sweep.report.tables.sheet import Sheet
 from sweep.running.beside.refinement import refined
 from tests.studies.rankings.orders import compared, merits
@@ -23,13 +23,13 @@ def by_order(usual, fine):
     body = []
     for name, rows in usual.items():
         rows, others = (table[name].reset_index(drop=True) for table in (usual, fine))
-        for scene in by_scene(rows):
+        for label, scene in by_scene(rows).items():
             before, after = merits(scene), merits(others.loc[scene.index])
             known = before.notna() & after.notna()
             rho, same = compared(before, after)
             ranks = [merit[known].rank(ascending=False) for merit in (before, after)]
             moved = (ranks[0] - ranks[1]).abs().max()
-            cells = [name, scene_label(scene), str(len(scene)), str(int((~known).sum()))]
+            cells = [name, label, str(len(scene)), str(int((~known).sum()))]
             body.append([*cells, f"{rho:.3f}", "yes" if same else "no", f"{moved:g}"])
     notes = (
         f"Spearman's correlation of the order by default and with {FINE} or more elements; worst",

@@ -90,6 +90,6 @@ def invent(case, _=None):
     how = (Status.CONVERGED, "")
     if stopped:
         at = f"{strain:.3g} after {ROWS // 2} steps"
-        how = (Status.STOPPED, f"stopped while loading, at strain {at}: no equilibrium")
+        how = (Status.STOPPED, f"no equilibrium while loading, at strain {at}; why")
     history = {name: curve[name].to_numpy() for name in curve}
     return Result(case, *how, values, history, frames)

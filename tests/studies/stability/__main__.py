@@ -77,7 +77,7 @@ def outcome(found):
     if found.status != "stopped":
         return found.status.replace("_", " ")
     message = found.message.partition(" (tried without success")[0]
-    why = re.split(r";|,| at strain ", message.split(":")[-1])[0]
+    why = re.split(r";|,| at strain | while ", message.split(":")[-1])[0]
     return f"stopped: {why.strip()}"
 
 

@@ -41,7 +41,10 @@ MADE = 5e-3  # energy that backward Euler may generate, as a share of the work d
 STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
 # where walls part since then, it is less at the end of the step
 BORNE = 1e-3  # share of a load that may remain where nothing moves
-SAID = "the time integration gained energy", "work and energies do not balance"
+SAID = (
+    "the time integration gained energy",
+    *(f"work and energies do not balance {where} " for where in ("at", "after")),
+)
 
 
 class Seen(NamedTuple):

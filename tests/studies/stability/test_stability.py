@@ -181,7 +181,7 @@ def test_arms_that_change_places_are_seen():
 def test_outcomes_are_counted(drawn):
     cases = drawn[:2]
     found = audit.Audit(
-        "stopped", "stopped while loading: no way; try less", "", ("wrong",), 2, 0.1
+        "stopped", "no way while loading, at strain 0.1; try less", "", ("wrong",), 2, 0.1
     )  # fmt: skip
     table = counted(cases, [found, found._replace(status="converged", message="", violations=())])
     assert list(table) == [

@@ -30,6 +30,11 @@ def test_best_first_as_in_the_ranking():
     assert next(iter(found.by_id.values())) == pytest.approx(0.225)
 
 
+def test_designs_of_several_heights_pressed_by_the_same_stroke_are_compared():
+    found = assess(table(height_m=20e-3), asked(budget=[5e-3]))
+    assert list(found.by_id.values()) == [0.9, 0.4, 0.3, 0.1]
+
+
 def test_less_is_better_where_the_column_says_so():
     found = assess(table(), asked(by="mass_g"))
     assert list(found.by_id.values()) == [1.0, 2.0, 3.0, 4.0]

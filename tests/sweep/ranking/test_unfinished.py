@@ -10,10 +10,11 @@ from sweep.simulation.until import absorbed_until
 from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
-STOPPED = {"status": "stopped", "message": "stopped while loading: the solution diverged"}
+STOPPED = {"status": "stopped", "message": "the solution diverged while loading; why"}
 UNLOADED = STOPPED | {"loaded": 1, "returned_energy_J": NAN}
 ALLOWED, HEIGHT, ROWS = (5.0, 12.0), 0.02, 40
-GRIDS = 40
+SEEDS = range(250, 310)
+COLUMNS = ["absorbed_energy_J", "peak_force_N", "efficiency", "mass_g"]
 
 
 def crushes(*changes):
@@ -63,7 +64,7 @@ def test_a_force_that_only_rises_gives_the_best_place(force, best):
 
 def test_an_allowed_force_limits_what_the_rest_of_the_stroke_adds():
     column = absorbed_energy_column(10.0)
-    table = crushes(STOPPED | {"height_m": 0.01, "stroke_m": 6e-3, "peak_strain": 0.5})
+    table = crushes(STOPPED | {"peak_strain": 0.5}).assign(height_m=0.01, stroke_m=6e-3)
     table[column] = [0.1, 0.2, 0.3, 0.195]
     table["peak_force_N"] = [20.0, 20.0, 20.0, 8.0]
     table["absorbed_energy_within_model_J"] = 1.0
@@ -82,6 +83,14 @@ def test_budgets_and_requirements_that_are_missed_already_exclude():
     assert named(ranked(hard, require={"max_force": "25 N"})) == []
     (found,) = named(ranked(hard, require={"max_force": "35 N"}))
     assert found == (3, 1, pytest.approx(NAN, nan_ok=True))  # it may exceed the force later
+
+
+@pytest.mark.parametrize("by", [None, "mass_g", "relative_density", "peak_force_N"])
+def test_a_required_energy_may_still_be_reached(by):
+    light = {"absorbed_energy_J": 0.15, "mass_g": 0.5, "relative_density": -1.0}
+    table = crushes(STOPPED | light | {"peak_force_N": 5.0})
+    (case,) = named(ranked(table, by=by, require={"min_absorbed": "0.25 J"}))
+    assert case == (3, 1, pytest.approx(NAN, nan_ok=True))
 
 
 def test_only_cases_of_a_ranked_scene_within_its_top_are_named():
@@ -138,7 +147,8 @@ def grids(rng):
 
 def question(rng):
     """A random question."""
-    require = {"max_force": "9 N", "max_stroke": "7 mm", "min_absorbed": "20 mJ"}
+    least = rng.choice(["20 mJ", "40 mJ", "60 mJ"])
+    require = {"max_force": "9 N", "max_stroke": "7 mm", "min_absorbed": least}
     force = rng.choice([None, None, "5 N", "12 N"])
     if force is not None:
         del require["max_stroke"]  # needs curves
@@ -146,8 +156,8 @@ def question(rng):
         "budget": rng.choice([None, "1.5 g", "100 g"]),
         "panel": ("100 mm", "50 mm") if rng.random() < 0.2 else None,
         "allowed_force": force,
-        "by": rng.choice([None, None, None, "absorbed_energy_J", "peak_force_N", "efficiency"]),
-        "require": {k: v for k, v in require.items() if rng.random() < 0.2},
+        "by": rng.choice([None, None, None, *COLUMNS]),
+        "require": {k: v for k, v in require.items() if rng.random() < 0.3},
         "top": int(rng.integers(1, 5)),
     }
 
@@ -157,19 +167,19 @@ def first(ranking):
     return {*ranking.table["case_id"][ranking.table["place"] == 1]}
 
 
-@pytest.mark.parametrize("seed", range(GRIDS))
+@pytest.mark.parametrize("seed", SEEDS)
 def test_no_first_place_changes_without_a_word(seed):
     """The first design of a grid with stopped cases is also first in the whole grid, or the case
     that is first there is named; no case is promised a place that it does not have.
     """
     rng = np.random.default_rng([38, seed])
     (whole, broken), asked = grids(rng), question(rng)
-    right = ranked(whole, **asked | {"top": None})
+    right, rest = (ranked(table, **asked | {"top": None}) for table in (whole, broken))
     some = ranked(broken, **asked)
     if some.failed == some.cases:
         return  # nothing is ranked
     unfinished = some.unfinished.set_index("case_id")
-    for case_id in first(right) - first(some):
+    for case_id in first(right) - first(rest):
         assert unfinished.loc[case_id, "best_place"] == 1
     places = right.table.set_index("case_id")["place"]
     for case_id, least in unfinished["least_place"].dropna().items():
@@ -181,8 +191,8 @@ def test_no_first_place_changes_without_a_word(seed):
 def test_the_grids_have_first_places_that_change():
     """Else the property above would say nothing."""
     changed = 0
-    for seed in range(GRIDS):
+    for seed in SEEDS:
         rng = np.random.default_rng([38, seed])
         (whole, broken), asked = grids(rng), question(rng)
         changed += first(ranked(whole, **asked)) != first(ranked(broken, **asked))
-    assert changed > GRIDS / 8
+    assert changed > len(SEEDS) / 8

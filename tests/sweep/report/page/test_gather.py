@@ -38,6 +38,23 @@ def test_page_has_every_finished_case_once_and_every_failure(tmp_path):
     assert data["total"] == 3
 
 
+def test_page_and_terminal_have_the_same_scenes(tmp_path):
+    crush, nan = {"loading.strain": 0.5, "loading.stroke": np.nan}, np.nan
+    struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "impact_energy_J": 0.2}
+    table = summary(
+        crush,
+        *(struck | {"striker_speed_m_per_s": speed} for speed in (3.1, 3.1004, 3.1 + 1e-15)),
+        {"loading.strain": nan, "loading.stroke": 6.1e-3},
+        {"stroke_m": 6.1e-3 * (1.0 + 1e-8), "status": "stopped", "message": "no"},
+    )
+    data, ranking = gathered(tmp_path, table), ranked(table, top=None)
+    assert [scene["label"] for scene in data["scenes"]] == list(ranking.lightest_g)
+    on_the_page = {case["id"]: data["scenes"][case["scene"]]["label"] for case in data["cases"]}
+    assert on_the_page == dict(ranking.table[["case_id", "scene"]].to_numpy())
+    assert len(on_the_page) == 5
+    assert [failure["scene"] for failure in data["failures"]] == list(ranking.lost)
+
+
 def test_sweep_without_a_finished_case_has_a_page(tmp_path):
     data = gathered(tmp_path, summary({"status": "stopped", "message": "no"}))
     assert (data["cases"], data["scenes"], len(data["failures"])) == ([], [], 1)

@@ -54,11 +54,11 @@ def test_scenes_are_studied_apart(tmp_path):
 
 def test_failed_settings_keep_their_row(tmp_path):
     rows = all_steps("backward_euler", "bdf2")
-    rows[0] |= {"status": "stopped", "message": "stopped at once"}
+    rows[0] |= {"status": "stopped", "message": "it diverged at once; why"}
     (found,) = study(tmp_path, rows)
     sheet, _ = accuracy_sheets(found, "made up")
     assert sheet.rows[0][2:5] == ["stopped"] * 3
-    assert sheet.notes[-1] == "Failed: 1 settings; the first stopped at once."
+    assert sheet.notes[-1] == "Failed: 1 setting; the first: it diverged at once; why."
     assert not found.settings["front"].iloc[0]
     assert study(tmp_path / "none", [row | {"status": "stopped"} for row in rows]) == []
 

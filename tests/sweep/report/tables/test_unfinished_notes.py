@@ -7,7 +7,7 @@ from sweep.report.tables.design_text import named_case
 from sweep.report.tables.unfinished_notes import MOST, each_once, picture_note, unfinished_notes
 from tests.support.results.specimens import designs, summary
 
-WHY = {"status": "stopped", "message": "stopped while loading, at strain 0.2 after 80 steps: why"}
+WHY = {"status": "stopped", "message": "it diverged while loading, at strain 0.2; why"}
 
 
 def table(stopped):
