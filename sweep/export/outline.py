@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart
 FINE = 1e-7  # mm: the grid of the union
 SLIT = 1e-3  # mm: half the width of gaps that are closed
+MOST_SPECIMENS = 2_000  # placed in a panel: a minute, and files of 100 MB
 
 
 class Layout(NamedTuple):
@@ -87,6 +88,10 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     across, behind = int(filled.across), int(filled.behind)
     right, up = max(shape.bounds[2], TO_MM * width), max(shape.bounds[3], TO_MM * depth)
     gap, rows = TO_MM * BESIDE, behind if design.along else 1
+    if rows * across > MOST_SPECIMENS:
+        raise ExportError(
+            f"a panel of {rows * across:,} specimens; allowed: at most {MOST_SPECIMENS:,}"
+        )
     placed = [
         shapely.affinity.translate(shape, k * (right + gap), j * (up + gap))
         for j in range(rows)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
+from sweep.config.faults import MisfitError
 from sweep.running.cluster import WAIT, Cluster, Scheduler, open_cluster
 from sweep.running.processes import PROCESSES, Processes
 from sweep.running.threads import MOST_THREADS
@@ -19,11 +20,13 @@ def chosen_place(workers: int | None, where: Scheduler) -> tuple[int, Scheduler]
 
     If neither is given, the scheduler of Dask's configuration counts, usually set by
     DASK_SCHEDULER_ADDRESS. Without it all cores are used: by threads as far as more of them pay,
-    beyond that by processes.
+    beyond that by processes. Raises `MisfitError` for a number of workers below 1.
     """
     import dask
     from dask.system import cpu_count
 
+    if workers is not None and (not isinstance(workers, int) or workers < 1):
+        raise MisfitError(f"workers = {workers!r}; allowed: a whole number above 0")
     cores = cpu_count()
     if where is None and workers is None:
         beyond = PROCESSES if cores > MOST_THREADS else None

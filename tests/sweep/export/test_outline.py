@@ -76,6 +76,11 @@ def test_panel_that_holds_nothing_is_refused(sides, asked, one):
         panel(*part(), sides)
 
 
+def test_panel_in_metres_instead_of_millimetres_is_refused():
+    with pytest.raises(ExportError, match=r"panel of [\d,]+ specimens; allowed: at most 2,000"):
+        panel(*part(), (100.0, 50.0))
+
+
 def test_block_is_the_box_round_the_walls():
     design, shape = part(perimeters=2)
     assert block(design.lattice).bounds == pytest.approx(shape.bounds, abs=1e-4)

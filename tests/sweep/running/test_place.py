@@ -3,6 +3,7 @@
 import dask
 import pytest
 
+from sweep.config.faults import MisfitError
 from sweep.running.place import chosen_place, open_place
 from sweep.running.processes import PROCESSES, Processes
 
@@ -43,3 +44,9 @@ def test_processes_that_are_open_stay_open():
             assert same is place
     with open_place(HERE) as place:
         assert place is HERE
+
+
+@pytest.mark.parametrize("workers", [0, -3, "two", 1.5])
+def test_a_run_needs_a_worker(workers):
+    with pytest.raises(MisfitError, match="allowed: a whole number above 0"):
+        chosen_place(workers, None)
