@@ -81,8 +81,7 @@ def in_si(text: object, unit: str) -> float:
         raise MisfitError("not a number with a unit")
     number, written = match[1], match[2].strip()
     if not written:
-        quoted = isinstance(text, str)
-        raise MisfitError("a number in quotes, without a unit" if quoted else "a bare number")
+        raise MisfitError("a bare number")
     size, powers = _unit(written)
     if powers != _unit(unit).powers:
         raise MisfitError(f"{in_words(written)} is a unit of another kind")

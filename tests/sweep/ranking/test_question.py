@@ -33,7 +33,7 @@ def test_budgets_are_a_list():
         ({"budget": ["2 g", 0.01]}, "budget = 0.01: a bare number"),
         ({"budget": np.float64(2.0)}, "a bare number"),
         ({"panel": ("1 m", 0.1)}, 'panel = 0.1: a bare number; .* "100 mm"'),
-        ({"budget": "25"}, '"25": a number in quotes, without a unit; allowed: a mass'),
+        ({"budget": "25"}, '"25": a bare number; allowed: a mass with a unit, such as "25 g"'),
         ({"panel": "100 mm"}, r"^panel = '100 mm'; allowed: two lengths, such as"),
         ({"allowed_force": 50.0}, 'allowed_force = 50.0: a bare number; .* "50 N"'),
     ],
