@@ -121,7 +121,7 @@ def test_sweep_with_a_failure_is_no_figure(monkeypatch):
     failing, simulating = cases.crush(2, 0.6, 3), import_module("sweep.simulation.simulate")
     usual = simulating.tolerances
     monkeypatch.setattr(simulating, "tolerances", lambda *of: usual(*of)._replace(iterations=0))
-    with pytest.raises(SystemExit, match=rf"^case {failing.case_id}: stopped"):
+    with pytest.raises(SystemExit, match=rf"^case {failing.case_id}: no equilibrium"):
         sweeps.swept([failing], 1)
 
 

@@ -92,7 +92,7 @@ def test_no_picture_is_drawn_of_a_case_that_stops(monkeypatch, tmp_path):
     assert not converges(stops)
     monkeypatch.setattr(frames, "report", lambda: stops)
     with pytest.raises(
-        SystemExit, match=rf"^case {stops.case_id}, .*solver.time_step = 0.0001.*: s"
+        SystemExit, match=rf"^case {stops.case_id}, .*solver.time_step = 0.0001.*: the solution d"
     ):
         frames.draw(tmp_path)
     assert list(tmp_path.iterdir()) == []
