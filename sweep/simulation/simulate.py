@@ -214,7 +214,13 @@ PRESSED: Inputs = {
     "solver": {"load_steps": 1},
 }
 SMALLEST: Mapping[str, Sequence[Inputs]] = {
-    "marches": [{"lattice": CELL, "loading": {"release_time": 1e-4, "duration": 2e-4}}],
+    "marches": [
+        {
+            "lattice": CELL,
+            "loading": {"release_time": 1e-4, "duration": 2e-4},
+            "solver": {"time_step": 1e-4},
+        }
+    ],
     "arcs": [
         {
             "lattice": {"kind": "custom", "structure": WALL},

@@ -50,13 +50,14 @@ class Copy:
     def first_red(self, tests, plain):
         """The first test that is red, `ENDLESS` if time is up, None if all are green."""
         # No bytecode: a sign that is flipped changes neither the length of a file nor, within a
-        # second, its time, and Python would not notice.
+        # second, its time, and Python would not notice. A process of several would compile first.
+        alone = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST_")}
         quiet = {"PYTHONDONTWRITEBYTECODE": "1", "CRUMPLE_CACHE_DIR": str(self.folder / "cache")}
         try:
             done = subprocess.run(
                 [sys.executable, *PYTEST, *tests],
                 cwd=self.folder,
-                env=os.environ | quiet | (PLAIN if plain else {}),
+                env=alone | quiet | (PLAIN if plain else {}),
                 capture_output=True,
                 text=True,
                 timeout=SOON if plain else WAIT,
