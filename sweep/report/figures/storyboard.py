@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pandas import Series
 
 INTEGRATOR = "dissipated_integrator_J"
-GAINED = " + gained in time integration"
+GAINED = " + gained in load or time steps"
 PARTS = {
     "stretch_J": "stretching",
     "bend_J": "bending",
@@ -28,7 +28,7 @@ PARTS = {
     "kinetic_J": "motion",
     "dissipated_material_J": "lost in the material",
     "dissipated_friction_J": "lost to friction",
-    INTEGRATOR: "lost in time integration",
+    INTEGRATOR: "lost in snap-through, time steps",
 }
 """Columns of a history that add up to the work done, in words."""
 

@@ -156,7 +156,7 @@ def test_what_time_integration_gains_is_added_to_the_work(dead):
     ax = axes_of(case_plots.energies, history, dead)
     line = ax.get_lines()[-1]
     np.testing.assert_allclose(line.get_ydata(), 1.1e3 * history["work_in_J"])
-    assert line.get_label().endswith(" + gained in time integration")
+    assert line.get_label().endswith(" + gained in load or time steps")
     top = max(stack.get_paths()[0].vertices[:, 1].max() for stack in ax.collections)
     assert top == pytest.approx(line.get_ydata().max())
 
