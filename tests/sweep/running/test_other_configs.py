@@ -7,8 +7,10 @@ import pytest
 from sweep.__main__ import main
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_attributes
+from sweep.store.write import Writer
 from tests.support.results.standin import cases, simulate
 
+MISSING = "of the", "cases of the", "of 5 cases of the"
 CONFIG = """
 name = "trial"
 [grid]
@@ -54,3 +56,18 @@ def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
             others = others and "2 cases belong to other configs than the last run"
         assert ("other configs" in told) == bool(others)
         assert others in told
+
+
+@pytest.mark.parametrize("verb", ["rank", "status", "report"])
+def test_cases_that_an_interrupted_run_left_out_are_counted(tmp_path, capsys, verb):
+    path, whole = tmp_path / "trial.h5", cases(5)
+    with Writer(path, {case.case_id: case.axes for case in whole}) as writer:
+        writer.append([simulate(case) for case in whole[:3]])
+    assert read_attributes(path)["other_cases"] == 0
+    main([verb, str(path)])
+    output = "".join(capsys.readouterr())
+    assert any(f"2 {words} last run are missing" in output for words in MISSING)
+    with Writer(path, {case.case_id: case.axes for case in whole}) as writer:
+        writer.append([simulate(case) for case in whole[3:]])
+    main([verb, str(path)])
+    assert "missing" not in "".join(capsys.readouterr())
