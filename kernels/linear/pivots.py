@@ -1,7 +1,7 @@
 """Treatment of pivots that are zero or positive within round-off.
 
-The argument ``rounded`` of a factorisation is `ROUNDED`, `CONVEX` or `THROUGH`: the least pivot, as
-a share of its diagonal, that counts as zero.
+The argument ``rounded`` of a factorisation, `ROUNDED` or `THROUGH`, is the least pivot, as a share
+of its diagonal, that counts as zero.
 """
 
 import math
@@ -11,7 +11,6 @@ from kernels.compile.jit import jit_exact
 ZERO_PIVOT = 1e-11  # a pivot below this share of its diagonal is zero within round-off
 SOFT = 1e-6  # share of its diagonal that replaces such a pivot
 ROUNDED = -1e-13  # a negative pivot above this share is round-off too: see `condensed.block_ldlt`
-CONVEX = -math.inf  # in a positive semi-definite matrix every negative pivot is round-off
 THROUGH = math.inf  # no pivot is replaced, negative ones are no failure: they are counted
 
 

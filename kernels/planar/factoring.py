@@ -11,20 +11,23 @@ LENGTHS = 2  # x and y, the first slots of a block
 
 
 @jit_exact
-def factor(problem, x, step, evaluation, projected, through):
+def factor(problem, x, step, evaluation, shift, through):
     """Factor the Hessian of all terms at ``x``; see `solve.problem.Problem.factor`."""
     scene, neighbours = problem.scene, problem.neighbours
-    matrix = neighbours.system.matrix
+    matrix, scale = neighbours.system.matrix, scene.coordinates.scale
     clear(matrix)
-    fold.hessian(x, scene.fold, matrix, projected)
-    spring.hessian(x, scene.spring, matrix, projected)
-    contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix, projected)
+    fold.hessian(x, scene.fold, matrix)
+    spring.hessian(x, scene.spring, matrix)
+    contact.hessian(x, scene.contact, neighbours.pairs, neighbours.touching, matrix)
     friction.hessian(evaluation.u, neighbours.lagged_contacts, slip_of(problem, step), matrix)
     if step.dynamic:
         inertia.hessian(scene.coordinates.mass, step.h, matrix.diagonal)
         damping.hessian(scene, step.h, matrix.diagonal)
+    if shift > 0.0:
+        for i in range(scale.size):
+            matrix.diagonal[i] += shift * scale[i] * scale[i]
     failed, pivot = system.factor(
-        neighbours.system, scene.layout, problem.buffers.stiffness, projected, through
+        neighbours.system, scene.layout, problem.buffers.stiffness, through
     )
     if matrix.missing[0] != 0:
         return NO_ROOM, pivot

@@ -29,11 +29,11 @@ LEAST = np.dtype(
 
 
 @jit_exact
-def evaluate(problem, x, step, evaluation, projected):
-    """Return E in J; fill ``evaluation`` and the Hessian of the walls, ``projected`` or exact."""
+def evaluate(problem, x, step, evaluation):
+    """Return E in J; fill ``evaluation`` and the Hessian of the walls."""
     scene, neighbours, coordinates = problem.scene, problem.neighbours, problem.scene.coordinates
     moves.begin(x, step.y, evaluation)
-    store_walls(problem, x, evaluation, projected)
+    store_walls(problem, x, evaluation)
     evaluation.stored[CONTACT] = contact.evaluate(
         x,
         scene.contact,
@@ -47,7 +47,7 @@ def evaluate(problem, x, step, evaluation, projected):
     total += loads.evaluate(evaluation.u, coordinates.load, step.factor, evaluation.g)
     if step.dynamic:
         total += inertia.evaluate(x, step.x_pred, coordinates.mass, step.h, evaluation.g)
-        total += _damping(problem, step, evaluation, projected)
+        total += _damping(problem, step, evaluation)
     total += lagging.friction(problem, step, evaluation)
     return moves.end(evaluation, total)
 
@@ -60,7 +60,7 @@ def store(problem, x, step, evaluation):
     have no E_c.
     """
     recall(problem, 0.0)
-    store_walls(problem, x, evaluation, True)
+    store_walls(problem, x, evaluation)
 
 
 @jit_exact
@@ -75,7 +75,7 @@ def recall(problem, duration):
 
 
 @jit_exact
-def store_walls(problem, x, evaluation, projected):
+def store_walls(problem, x, evaluation):
     """Fill stored energies, shape and stiffness of the walls and the `LEAST` measures; add the
     gradient to ``evaluation.elastic``.
     """
@@ -84,13 +84,13 @@ def store_walls(problem, x, evaluation, projected):
     memory, least = buffers.memory, buffers.least[0]
     least.length = elements.measure(x, scene.walls, buffers.before.frame, shape)
     evaluation.stored[STRETCH] = stretch.evaluate(
-        scene.stretch, scene.law, memory, shape, resultants, projected
+        scene.stretch, scene.law, memory, shape, resultants, False
     )
     evaluation.stored[BEND] = bend.evaluate(
-        scene.bend, scene.stretch, memory, shape, resultants, projected
+        scene.bend, scene.stretch, memory, shape, resultants, False
     )
     elements.clear(shape, stiffness)
-    elements.add(resultants, scene.stretch.geometric, projected, shape, stiffness)
+    elements.add(resultants, scene.stretch.geometric, False, shape, stiffness)
     elements.gather(scene.walls, shape, evaluation.elastic)
     evaluation.stored[STRETCH] += spring.evaluate(x, scene.spring, evaluation.elastic)
     folding, least.opening = fold.evaluate(x, scene.fold, evaluation.elastic)
@@ -98,13 +98,13 @@ def store_walls(problem, x, evaluation, projected):
 
 
 @jit_exact
-def _damping(problem, step, evaluation, projected):
+def _damping(problem, step, evaluation):
     """Return D in J; fill ``evaluation.material`` and add it to the gradient."""
     buffers = problem.buffers
     zero_rows(buffers.shape.slope)
     total = damping.evaluate(
         evaluation.u, problem.scene, buffers.before, step.h,
-        buffers.shape, buffers.resultants, buffers.stiffness, projected, evaluation.material,
+        buffers.shape, buffers.resultants, buffers.stiffness, evaluation.material,
     )  # fmt: skip
     add(evaluation.material, evaluation.g)
     return total

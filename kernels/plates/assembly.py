@@ -87,21 +87,13 @@ def add_stencil(matrix, layout, pull, nodes, count, width, part):
 
 
 @jit
-def _subtract(part, projected):
-    """Replace the projected Hessian of a contact by its excess over the exact Hessian ``part``."""
-    for i in range(part.shape[0]):
-        for j in range(part.shape[0]):
-            projected[i, j] -= part[i, j]
-
-
-@jit
 def add_contacts(problem, x, step, evaluation):
     """Add the second derivatives of contact at ``x``, of friction and of contact with platens."""
     scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
     matrix, layout, pull, part = neighbours.matrix, scene.layout, buffers.pull, buffers.part
     touching, lagged = neighbours.touching, neighbours.lagged_contacts
     for n in range(touching.count[0]):
-        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
+        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, part)
         add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, part)
     slip = slip_of(problem, step)
     for k in range(lagged.count[0]):
@@ -116,19 +108,6 @@ def add_contacts(problem, x, step, evaluation):
         if stiffness != 0.0:
             c = scene.mirror.coordinate[i]
             add_entry(matrix, layout, pull, c, c, stiffness)
-
-
-@jit
-def project_contacts(problem, x):
-    """Remove the negative parts of contact from the matrix that `add_contacts` has filled."""
-    scene, neighbours, buffers = problem.scene, problem.neighbours, problem.buffers
-    matrix, layout, pull = neighbours.matrix, scene.layout, buffers.pull
-    part, projected, touching = buffers.part, buffers.projected, neighbours.touching
-    for n in range(touching.count[0]):
-        contact.block(x, scene.contact, neighbours.pairs, touching, n, False, part)
-        count = contact.block(x, scene.contact, neighbours.pairs, touching, n, True, projected)
-        _subtract(part, projected)
-        add_stencil(matrix, layout, pull, touching.nodes[n], count, POSITION, projected)
 
 
 @jit

@@ -1,10 +1,4 @@
-"""The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored.
-
-Where the exact Hessian H is not positive definite, H_+ + sigma W replaces it. H_+ is H without the
-negative parts of contacts: a wall that turns about the wall it touches has a negative stiffness as
-large as force / gap, and a shift that compensates for it would slow all nodes. W are the weights of
-`Layout`. The shift sigma is raised from below its last value until all pivots are positive.
-"""
+"""The Hessian of a lattice of plates at the point of the last `potential.evaluate`, factored."""
 
 from kernels.arrays import zero
 from kernels.compile.jit import jit_exact
@@ -17,11 +11,6 @@ from kernels.plates.element import shell
 from kernels.plates.layout import PER_NODE
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from kernels.terms import inertia
-
-RAISED = 4.0  # ratio of a shift to the previous one, which was too small
-LOWERED = 1.0 / 3.0  # ratio of the first shift tried to the last one that was large enough
-LEAST_SHIFT = 1e-6  # as a share of the stiffness of the stiffest length
-MOST_SHIFT = 1e3
 
 
 @jit_exact
@@ -47,34 +36,18 @@ def _assemble(problem, x, step, evaluation):
 
 
 @jit_exact
-def _shifted(problem):
-    """Factor H_+ + sigma W, raising sigma until it is large enough; return whether that
-    succeeds.
+def factor(problem, x, step, evaluation, shift, through):
+    """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`.
+
+    The weights of the shift are those of `Layout`. A shifted matrix is the one of the call before.
     """
-    layout, matrix, shift = problem.scene.layout, problem.neighbours.matrix, problem.buffers.shift
-    stiffest = ldlt.stiffest(matrix, layout.is_length)
-    sigma = max(LOWERED * shift[0], LEAST_SHIFT * stiffest)
-    while sigma <= MOST_SHIFT * stiffest:
-        failed, _ = ldlt.factor(matrix, layout.scale, layout.weight, sigma, ROUNDED)
-        if failed < 0:
-            shift[0] = sigma
-            return True
-        sigma *= RAISED
-    return False
-
-
-@jit_exact
-def factor(problem, x, step, evaluation, projected, through):
-    """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`."""
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
-    if projected:  # the matrix is the exact Hessian, which is not positive definite
-        assembly.project_contacts(problem, x)
-        return (POSITIVE if _shifted(problem) else NEGATIVE), 0.0
-    _assemble(problem, x, step, evaluation)
-    if matrix.missing[0] != 0:
-        return NO_ROOM, 0.0
+    if shift == 0.0:
+        _assemble(problem, x, step, evaluation)
+        if matrix.missing[0] != 0:
+            return NO_ROOM, 0.0
     rounded = THROUGH if through else ROUNDED
-    failed, pivot = ldlt.factor(matrix, layout.scale, layout.weight, 0.0, rounded)
+    failed, pivot = ldlt.factor(matrix, layout.scale, layout.weight, shift, rounded)
     return (NEGATIVE if failed >= 0 else POSITIVE), pivot
 
 

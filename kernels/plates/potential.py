@@ -19,7 +19,7 @@ from kernels.terms import inertia, loads
 
 
 @jit_exact
-def evaluate(problem, x, step, evaluation, projected):
+def evaluate(problem, x, step, evaluation):
     """Return E in J; fill ``evaluation``."""
     coordinates = problem.scene.coordinates
     moves.begin(x, step.y, evaluation)

@@ -23,10 +23,9 @@ class Buffers(NamedTuple):
 
     committed (n_nodes, k): frames of the nodes and their `thickness.THICKENING`; memory: memory of
     the law at its material points (`shell`). Both are rows of `history.State.memory`. shell:
-    scratch of one quad; second (24, 24): its Hessian. part, projected (12, 12): Hessians of one
-    contact. parts (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the
-    driven coordinate. diagonal (n,), unknowns (u,), weight (n_nodes,): scratch. shift (1,): last
-    shift of a projected Hessian, N/m.
+    scratch of one quad; second (24, 24): its Hessian. part (12, 12): Hessian of one contact. parts
+    (3,): energies of the walls, J. pull (n,): derivatives of the gradient in the driven coordinate.
+    diagonal (n,), unknowns (u,), weight (n_nodes,): scratch.
     """
 
     committed: np.ndarray
@@ -34,12 +33,10 @@ class Buffers(NamedTuple):
     shell: object
     second: np.ndarray
     part: np.ndarray
-    projected: np.ndarray
     parts: np.ndarray
     pull: np.ndarray
     diagonal: np.ndarray
     unknowns: np.ndarray
-    shift: np.ndarray
     weight: np.ndarray
 
 
@@ -96,10 +93,10 @@ def make_buffers(scene, committed):
     line = np.zeros((committed.shape[0] - n, relaxing_shear.LINE))
     return Buffers(
         committed[:n], Memory(committed[n:], line, scene.law.make_pace()),
-        shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)), np.zeros((12, 12)),
+        shell.make_scratch(), np.zeros((24, 24)), np.zeros((12, 12)),
         np.zeros(3),
         np.zeros(layout.leader.size), np.zeros(layout.leader.size), np.zeros(layout.scale.size),
-        np.zeros(1), np.zeros(layout.block.size),
+        np.zeros(layout.block.size),
     )  # fmt: skip
 
 

@@ -156,12 +156,12 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
         progress.increment, progress.longest_move = 0.0, 0.0
         progress.iterations += 1
         step = _step(workspace, stage, progress, progress.load)
-        problem.evaluate(x, step, evaluation, False)
+        problem.evaluate(x, step, evaluation)
         problem.reduce(evaluation.g, work.residual)
         size = largest_residual(work.residual, coordinates)
         if not size < np.inf:
             return NOT_FINITE
-        result, _ = problem.factor(x, step, evaluation, False, True)
+        result, _ = problem.factor(x, step, evaluation, 0.0, True)
         if result == NO_ROOM:
             return OUTGROWN
         for i in range(x.size):

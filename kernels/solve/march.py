@@ -234,7 +234,6 @@ def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, c
         if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
             break
         problem.exchange(step, workspace.evaluation)
-        copy(x, workspace.work.trial)  # for a projected Hessian, which is evaluated there
         zero(workspace.work.dx)
         descent.evaluated, descent.since_factor = True, np.inf
         progress.corrections, progress.minimum_iterations = progress.corrections + 1, 0

@@ -1,15 +1,18 @@
 """Newton's method with a line search: minimises the potential of one step.
 
-The exact Hessian is used where it is positive definite (all pivots positive). Elsewhere the search
-direction is the Newton direction of the projected Hessian, or the direction of negative curvature
-of the first negative pivot, whichever has the larger predicted decrease. The line search starts
-from the admissible share of the move and backtracks to sufficient decrease (Armijo); predictors and
-moves that drive the problem are accepted at any finite energy. Converged means: scaled residual and
-Newton decrement below tolerance *and* no negative pivot of the exact Hessian at a point within
-`Coordinates.close`. A factor is reused within that distance. A residual above the tolerance is
-round-off where positions do not resolve the move that it led to.
+The Hessian H is used where it is positive definite (all pivots positive). Elsewhere H + sigma W
+replaces it, W being the square of `Coordinates.scale`. The shift sigma, in N/m, slows soft moves
+alone: where a part of a lattice snaps, the rest of it goes on by Newton steps. (A Hessian that is
+projected element by element stiffens it everywhere.) It is raised from below its last value until
+all pivots are positive. An equilibrium with a negative pivot is left along the direction of
+negative curvature of that pivot. The line search starts from the admissible share of the move and
+backtracks to sufficient decrease (Armijo); predictors and moves that drive the problem are accepted
+at any finite energy. Converged means: scaled residual and Newton decrement below tolerance *and* no
+negative pivot of the exact Hessian at a point within `Coordinates.close`. A factor is reused within
+that distance. A residual above the tolerance is round-off where positions do not resolve the move
+that it led to.
 
-Exact means not projected. Lagged forces have a primal-dual matrix, which is the second derivative
+Exact means not shifted. Lagged forces have a primal-dual matrix, which is the second derivative
 where the duals agree (`Problem.follow`), and `solver.hessian` of configs may leave a part out. In
 both cases, a point without a negative pivot need not be a minimum.
 """
@@ -38,6 +41,10 @@ HALVINGS = 40  # greatest number in a line search
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # share of a move: a shorter one is a stall
+FIRST_SHIFT = 2.0  # least shift, as a multiple of the negative curvature that was met
+RAISED = 4.0  # ratio of a shift to the previous one, which was too small
+LOWERED = 1.0 / 3.0  # ratio of the first shift tried to the last one that was large enough
+RAISES = 32  # most in a row
 RESOLVED = 1e-11  # relative energy changes below it are round-off
 DRIVEN_CAP = 5.0  # least cap of a move, as a multiple of the driven move in it: with a
 # smaller cap the driven coordinate would often not arrive
@@ -48,6 +55,8 @@ DESCENT = np.dtype(
             # Set before a minimisation.
             ("target", np.float64),  # of the driven coordinate, m
             ("evaluated", np.bool_),  # whether `Workspace.evaluation` is of x
+            # Over the minimisations of a march.
+            ("shift", np.float64),  # the last one that was large enough, N/m
             # Over the minimisations of a step.
             # bound of the move, m, since the last factor of an exact Hessian without a negative
             # pivot; infinite: there is no such factor, or it has to be renewed.
@@ -116,12 +125,11 @@ def _newton_direction(problem, evaluation, work, remaining):
 
 @jit_exact
 def _escape_direction(problem, evaluation, work, pivot):
-    """Fill ``work.escape`` with a descent direction of negative curvature, `Coordinates.leap` long.
+    """Make ``work.escape``, of `Problem.descend`, a descent direction, `Coordinates.leap` long.
 
     ``pivot``: d . H d of `Problem.descend`. Return slope and curvature along the direction, J.
     """
     coordinates = problem.scene.coordinates
-    problem.descend(work.escape)
     slope = dot(evaluation.g, work.escape)
     factor = coordinates.leap / _longest(work.escape, coordinates) * (-1.0 if slope > 0.0 else 1.0)
     for i in range(work.escape.size):
@@ -163,14 +171,14 @@ def _predictor(x, dx, coordinates, target):
 
 @jit_exact
 def _choose_move(slope, escape, coordinates, work, descent):
-    """Fill dx with the Newton direction, or with the escape direction if its predicted decrease is
-    larger; cap its length, and return it as a `Move`.
+    """Fill dx with the Newton direction or, at an equilibrium that is not stable, with the escape
+    direction; cap its length, and return it as a `Move`.
 
     slope: of the Newton direction. escape: slope and curvature of the other one.
     """
     drives, remaining = descent.remaining != 0.0, abs(descent.remaining)
     fall, curvature = escape
-    if drives or descent.stable or fall + 0.5 * curvature > 0.5 * slope:
+    if descent.stable or not descent.balanced:
         copy(work.direction, work.dx)
         fall, curvature = slope, 0.0
     else:
@@ -234,7 +242,7 @@ def _search(x, problem, step, noise, evaluation, work, descent, move, share):
     while halvings < HALVINGS and share >= LEAST_SHARE:
         for i in range(x.size):
             work.trial[i] = x[i] + share * work.dx[i]
-        problem.evaluate(work.trial, step, evaluation, False)
+        problem.evaluate(work.trial, step, evaluation)
         reached = evaluation.sums[0].potential
         sufficient = move.any_energy or _decreases(reached, descent.potential, share, model, noise)
         if sufficient and reached < np.inf:
@@ -261,15 +269,33 @@ def _balance(x, problem, tolerance, evaluation, work, descent):
 
 
 @jit_exact
+def _factor_shifted(x, problem, step, evaluation, work, pivot, descent):
+    """Factor H + sigma W; return the result of `Problem.factor`.
+
+    ``pivot``: d . H d, d = ``work.escape``, which bounds the least sigma.
+    """
+    size, scale = 0.0, problem.scene.coordinates.scale
+    for i in range(scale.size):
+        size += (scale[i] * work.escape[i]) ** 2
+    shift = max(LOWERED * descent.shift, -FIRST_SHIFT * pivot / size)
+    for _ in range(RAISES):
+        result, _ = problem.factor(x, step, evaluation, shift, False)
+        if result != NEGATIVE:
+            descent.shift = shift
+            return result
+        shift *= RAISED
+    return NEGATIVE
+
+
+@jit_exact
 def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
-    """Unless ``x`` is an equilibrium, factor the exact Hessian and, if it has a negative pivot, the
-    projected one.
+    """Factor the Hessian and, if it has a negative pivot away from an equilibrium, a shifted one.
 
     Return the outcome, `UNFINISHED` if the factor can be used; and slope and curvature along
-    ``work.escape``, J. Without a negative pivot that is not filled, and both are 0.
+    ``work.escape``, J, both 0 but at an equilibrium with a negative pivot.
     """
     escape = (0.0, 0.0)
-    result, pivot = problem.factor(x, step, evaluation, False, False)
+    result, pivot = problem.factor(x, step, evaluation, 0.0, False)
     if result != NO_ROOM:
         limit = allowed(problem.stiffest(), tolerance)
         descent.balanced = descent.balanced and descent.residual <= limit
@@ -277,12 +303,10 @@ def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
         descent.since_factor = 0.0 if descent.stable and descent.duals_fit else np.inf
         if descent.stable:
             return UNFINISHED, escape
-        escape = _escape_direction(problem, evaluation, work, pivot)
+        problem.descend(work.escape)
         if descent.balanced:
-            return UNFINISHED, escape
-        # The trial point is x up to round-off of the driven coordinate: the evaluation stays valid.
-        problem.evaluate(work.trial, step, evaluation, True)
-        result, _ = problem.factor(x, step, evaluation, True, False)
+            return UNFINISHED, _escape_direction(problem, evaluation, work, pivot)
+        result = _factor_shifted(x, problem, step, evaluation, work, pivot, descent)
     if result == NO_ROOM:
         descent.since_factor = np.inf
         return OUTGROWN, escape

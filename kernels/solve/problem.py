@@ -107,12 +107,8 @@ class Problem(Protocol):
     def begin(self, step, ahead, scratch):
         """Prepare the data at the start of the step. ahead: `integrators.Ahead`. scratch (n,)."""
 
-    def evaluate(self, x, step, evaluation, projected):
-        """Return the potential of the step at ``x`` in J, and fill ``evaluation``.
-
-        projected: `factor`, called with the same flag, will use the positive semi-definite
-        projection of the Hessian.
-        """
+    def evaluate(self, x, step, evaluation):
+        """Return the potential of the step at ``x`` in J, and fill ``evaluation``."""
 
     def store(self, x, step, evaluation):
         """Renew the part of ``evaluation.stored`` that `project` may have changed, in a step of no
@@ -133,12 +129,13 @@ class Problem(Protocol):
 
     # The linear system at the point of the last `evaluate`.
 
-    def factor(self, x, step, evaluation, projected, through):
+    def factor(self, x, step, evaluation, shift, through):
         """Factor the Hessian; return the result and the first negative pivot.
 
-        projected: as in the last `evaluate`. POSITIVE: all pivots are positive. NEGATIVE: a pivot
-        is negative; the factorisation stops there, unless ``through``. NO_ROOM: the pattern lacks
-        an entry, which `Scene.renew_neighbours` adds.
+        shift: sigma of `newton` in N/m, 0 for the exact Hessian; before a shifted one the exact one
+        has been factored at the same point. POSITIVE: all pivots are positive. NEGATIVE: a pivot is
+        negative; the factorisation stops there, unless ``through``. NO_ROOM: the pattern lacks an
+        entry, which `Scene.renew_neighbours` adds.
         """
 
     def solve(self, b):

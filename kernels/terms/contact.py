@@ -170,18 +170,18 @@ def evaluate(x, contact, pairs, drift, touching, g):
 
 
 @jit
-def hessian(x, contact, pairs, touching, matrix, projected):
-    """Add d2E_c/dx2 at ``x`` of the contacts in ``touching``; projected: without concave parts."""
+def hessian(x, contact, pairs, touching, matrix):
+    """Add d2E_c/dx2 at ``x`` of the contacts in ``touching``."""
     _platens_hessian(x, contact, matrix)
-    profile.hessian(x, contact.profiles, contact.stiffness, matrix, projected)
+    profile.hessian(x, contact.profiles, contact.stiffness, matrix)
     for n in range(touching.count[0]):
         k, end = touching.pair[n], touching.end[n]
         p, dc = pairs.node[k], pairs.d_contact[k]
         a, b = pair(contact.edges, pairs.edge[k])
         _, slope, curvature = phi(touching.weight[n], contact.stiffness, dc, touching.distance[n])
         if end < 0:
-            push_stiffen(matrix, x, p, a, b, curvature, 0.0 if projected else slope)
-        elif not projected:
+            push_stiffen(matrix, x, p, a, b, curvature, slope)
+        else:
             push_point_stiffen(matrix, x, p, a if end == 0 else b, curvature, slope)
 
 

@@ -77,7 +77,7 @@ def prepare(x0, scene, memory, before, ahead, place, past, resultants):
 
 
 @jit
-def evaluate(u, scene, before, h, shape, resultants, stiffness, projected, g):
+def evaluate(u, scene, before, h, shape, resultants, stiffness, g):
     """Return D in J for a move ``u`` = x - y in ``h`` (s); add dD/dx to ``g`` and the walls' part
     of the Hessian to ``stiffness``. Slopes of ``shape`` are zero on entry.
     """
@@ -92,8 +92,8 @@ def evaluate(u, scene, before, h, shape, resultants, stiffness, projected, g):
         total += rayleigh.evaluate(u, scene.walls, before.stiffness, rate, shape, stiffness)
     if scene.damp.relaxation > 0.0:
         rate = scene.damp.relaxation / h
-        total += kelvin_voigt.evaluate(scene, before, rate, shape, resultants, projected)
-        elements.add(resultants, True, projected, shape, stiffness)
+        total += kelvin_voigt.evaluate(scene, before, rate, shape, resultants)
+        elements.add(resultants, True, False, shape, stiffness)
     if scene.damp.beta_k > 0.0 or scene.damp.relaxation > 0.0:
         elements.gather(scene.walls, shape, g)
     return total

@@ -109,8 +109,8 @@ def _curl(matrix, b, c, moment, qx, qy):
 
 
 @jit
-def hessian(x, fold, matrix, projected):
-    """Add d2E_f/dx2; projected: without the second derivatives of the angle."""
+def hessian(x, fold, matrix):
+    """Add d2E_f/dx2."""
     for k in range(fold.limit.size):
         opened = opening(x, fold, k)
         if opened < fold.limit[k]:
@@ -127,6 +127,5 @@ def hessian(x, fold, matrix, projected):
             _outer(matrix, a, b, -rigidity, px, py, rx, ry)
             _outer(matrix, c, b, rigidity, qx, qy, rx, ry)
             _outer(matrix, a, c, -rigidity, px, py, qx, qy)
-            if not projected:
-                _curl(matrix, b, c, scale * slope, qx, qy)
-                _curl(matrix, b, a, -scale * slope, px, py)
+            _curl(matrix, b, c, scale * slope, qx, qy)
+            _curl(matrix, b, a, -scale * slope, px, py)

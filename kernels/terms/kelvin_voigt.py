@@ -61,7 +61,7 @@ def extrapolate(scene, shape, strain, past, share):
 
 
 @jit
-def evaluate(scene, before, rate, shape, resultants, projected):
+def evaluate(scene, before, rate, shape, resultants):
     """Return D in J; write its derivatives into ``resultants``. before: `damping.Before`, with
     strains and turns at y, from which rates are measured.
     """
@@ -72,6 +72,6 @@ def evaluate(scene, before, rate, shape, resultants, projected):
         change = strain - before.strain[k]
         stress = viscosity * change
         total += 0.5 * volume * stress * change
-        stretch.push(scene.stretch, resultants, k, volume, (one, two), stress, viscosity, projected)
+        stretch.push(scene.stretch, resultants, k, volume, (one, two), stress, viscosity, False)
         total += _bend(scene.bend, before.shape, rate, k, shape, resultants)
     return total

@@ -129,19 +129,18 @@ def _elements(x, profiles, k, i, stiffness, g):
 
 
 @jit
-def hessian(x, profiles, stiffness, matrix, projected):
-    """Add d2E_p/dx2 at ``x``; projected: without concave parts."""
+def hessian(x, profiles, stiffness, matrix):
+    """Add d2E_p/dx2 at ``x``."""
     for k in range(profiles.radius.size):
         for p in profiles.nodes:
             starts = profiles.node_half[p]
             nx, ny, d, bend = near_node(x, profiles, k, p, starts)
             if d < starts:
                 _, slope, curvature = phi(profiles.tributary[p], stiffness, starts, d)
-                across = 0.0 if projected else slope * bend
-                _stiffen(matrix, p, profiles.carrier[k], (nx, ny), curvature, across)
+                _stiffen(matrix, p, profiles.carrier[k], (nx, ny), curvature, slope * bend)
         for i in range(profiles.start[k], profiles.start[k + 1]):
             if profiles.weight[i] > 0.0:
-                _stiffen_elements(x, profiles, k, i, stiffness, matrix, projected)
+                _stiffen_elements(x, profiles, k, i, stiffness, matrix)
 
 
 @jit
@@ -158,7 +157,7 @@ def _stiffen(matrix, p, carrier, n, curvature, across):
 
 
 @jit
-def _stiffen_elements(x, profiles, k, i, stiffness, matrix, projected):
+def _stiffen_elements(x, profiles, k, i, stiffness, matrix):
     """Add the Hessian of vertex ``i`` with elements."""
     weight, carrier = profiles.weight[i], profiles.carrier[k]
     for e in range(profiles.edges.shape[0]):
@@ -167,7 +166,6 @@ def _stiffen_elements(x, profiles, k, i, stiffness, matrix, projected):
         if d >= starts:
             continue
         _, slope, curvature = phi(weight, stiffness, starts, d)
-        slope = 0.0 if projected else slope
         apart = d + profiles.radius[k]
         if 0.0 < tau < 1.0:
             _stiffen_inside(matrix, x, profiles, k, e, tau, (nx, ny, apart), curvature, slope)
@@ -177,7 +175,7 @@ def _stiffen_elements(x, profiles, k, i, stiffness, matrix, projected):
         for end in range(2):
             q = profiles.edges[e, end]
             nx, ny, d = near_end(x, profiles, k, i, q)
-            if profiles.subtract[e, end] != 0.0 and d < starts and not projected:
+            if profiles.subtract[e, end] != 0.0 and d < starts:
                 _, slope, curvature = phi(-weight, stiffness, starts, d)
                 across = slope / (d + profiles.radius[k])
                 _stiffen(matrix, q, carrier, (nx, ny), curvature, across)

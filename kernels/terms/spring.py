@@ -33,12 +33,10 @@ def evaluate(x, spring, g):
 
 
 @jit
-def hessian(x, spring, matrix, projected):
-    """Add d2E/dx2; projected: without the geometric stiffness of a compressed spring."""
+def hessian(x, spring, matrix):
+    """Add d2E/dx2."""
     for k in range(spring.l0.size):
         a, b = pair(spring.nodes, k)
         _, _, d = direction(x, a, b)
         force = spring.stiffness[k] * (d - spring.l0[k])
-        if projected:
-            force = max(force, 0.0)
         push_point_stiffen(matrix, x, b, a, spring.stiffness[k], force)

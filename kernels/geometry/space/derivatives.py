@@ -17,10 +17,8 @@ by rho_k):
 q n stands for the vector of blocks q_i n. In the plane this is `kernels.geometry.distance`.
 """
 
-import math
-
 from kernels.compile.jit import jit
-from kernels.geometry.space.vectors import combined, inner, length, plus, times
+from kernels.geometry.space.vectors import combined, inner, length, times
 
 # Derivatives of the shares q in the two parameters.
 TRIANGLE = ((0.0, 1.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0))
@@ -43,12 +41,6 @@ def _summed(one, q, two, other):
         one * q[2] + two * other[2],
         one * q[3] + two * other[3],
     )
-
-
-@jit
-def product(q, other):
-    """Return the inner product of four weights with four others."""
-    return q[0] * other[0] + q[1] * other[1] + q[2] * other[2] + q[3] * other[3]
 
 
 @jit
@@ -121,53 +113,18 @@ def _add_across(K, q, u, v, n, factor):
 
 
 @jit
-def _uncoupled(u, rho, v, sigma):
-    """Return the basis turned so that the weights rho and sigma are orthogonal."""
-    angle = 0.5 * math.atan2(2.0 * product(rho, sigma), product(rho, rho) - product(sigma, sigma))
-    c, s = math.cos(angle), math.sin(angle)
-    return (
-        plus(times(c, u), s, v), _summed(c, rho, s, sigma),
-        plus(times(c, v), -s, u), _summed(c, sigma, -s, rho),
-    )  # fmt: skip
-
-
-@jit
-def _add_positive(K, q, rho, u, n, force, d):
-    """Add the positive part of -force [(q u)(rho n)^T + (rho n)(q u)^T + d (rho n)(rho n)^T].
-
-    q u and rho n are orthogonal: one eigenvalue is positive, one negative.
-    """
-    qq, rr = product(q, q), product(rho, rho)
-    if rr == 0.0 or force == 0.0:
-        return
-    root = math.sqrt(d * d * rr * rr + 4.0 * qq * rr)
-    eigenvalue = 0.5 * (d * rr + root) if force < 0.0 else 0.5 * (d * rr - root)
-    scale = -force * eigenvalue / (qq * rr + eigenvalue * eigenvalue)
-    along, across = math.sqrt(rr), eigenvalue / math.sqrt(rr)
-    _add(K, q, rho, u, n, (scale * along * along, scale * along * across, scale * across * across))
-
-
-@jit
-def fill(points, slopes, q, free, stiffness, force, projected, K):
+def fill(points, slopes, q, free, stiffness, force, K):
     """Write stiffness (grad d)(grad d)^T + force d2 d to ``K`` (12, 12); return n.
 
     points: positions of the four nodes; slopes: `TRIANGLE` or `EDGES`; q, free: see the module.
-    projected: without the negative parts of both terms, each on its own.
     """
     n, d = gap(q, points)
     u, rho, v, sigma = tangents(points, slopes, free)
     for i in range(12):
         for j in range(12):
             K[i, j] = 0.0
-    if not projected or stiffness > 0.0:
-        _add(K, q, NOTHING, n, n, (stiffness, 0.0, 0.0))
-    if not projected or force > 0.0:
-        _add_across(K, q, u, v, n, force / d)
-    if projected:
-        u, rho, v, sigma = _uncoupled(u, rho, v, sigma)
-        _add_positive(K, q, rho, u, n, force, d)
-        _add_positive(K, q, sigma, v, n, force, d)
-    else:
-        _add(K, q, rho, u, n, (0.0, -force, -force * d))
-        _add(K, q, sigma, v, n, (0.0, -force, -force * d))
+    _add(K, q, NOTHING, n, n, (stiffness, 0.0, 0.0))
+    _add_across(K, q, u, v, n, force / d)
+    _add(K, q, rho, u, n, (0.0, -force, -force * d))
+    _add(K, q, sigma, v, n, (0.0, -force, -force * d))
     return n

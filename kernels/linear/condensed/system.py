@@ -6,7 +6,7 @@ from kernels.compile.simd import LANES
 from kernels.linear.condensed import block_ldlt, condense, periodic_images
 from kernels.linear.condensed.block_matrix import IMAGE, INNER, add_image
 from kernels.linear.condensed.bundles import CONDENSED, OPEN, rows_of
-from kernels.linear.pivots import CONVEX, ROUNDED, THROUGH
+from kernels.linear.pivots import ROUNDED, THROUGH
 
 
 @jit
@@ -71,15 +71,13 @@ def add_walls(system, layout, stiffness, rounded):
 
 
 @jit_exact
-def factor(system, layout, stiffness, projected, through):
+def factor(system, layout, stiffness, through):
     """Add the walls to the matrix and factor the system.
 
     Return (failed, pivot): whether there is a negative pivot, and the first one; its place is kept
     for `descend`. through: negative pivots do not stop the factorisation, see `negatives`.
     """
-    rounded, place = CONVEX if projected else ROUNDED, system.place[0]
-    if through:
-        rounded = THROUGH
+    rounded, place = THROUGH if through else ROUNDED, system.place[0]
     place.wall, place.row, pivot = add_walls(system, layout, stiffness, rounded)
     if place.wall < 0:
         block_ldlt.add_diagonal(system.matrix, layout.scale)

@@ -129,7 +129,7 @@ def factor(matrix, scale, weights, shift, rounded):
 
     Return (failed, pivot): unknown and value of the first negative pivot, -1 if none. scale (n,):
     stiffness of each unknown, in its unit, relative to which a pivot is zero within round-off.
-    weights (n,): by unknown. rounded: `ROUNDED`, `CONVEX` or `THROUGH`.
+    weights (n,): by unknown. rounded: `ROUNDED` or `THROUGH`.
     """
     _read_diagonal(matrix, weights, shift)
     matrix.failed[0] = -1

@@ -142,22 +142,19 @@ def _push_apart(contact, pairs, touching, n, points, g):
 
 
 @jit
-def block(x, contact, pairs, touching, n, projected, K):
+def block(x, contact, pairs, touching, n, K):
     """Write the Hessian of contact ``n`` of ``touching`` at ``x`` to ``K`` (12, 12); return the
     number of its nodes.
 
     Row and column 3 i + k: coordinate k of node touching.nodes[n, i]; rows and columns of further
-    nodes are zero. projected: positive semi-definite, without the negative parts of the terms of
-    `geometry.space.derivatives.fill`.
+    nodes are zero.
     """
     points, share = corners(x, touching, n), shares(touching, n)
     i = touching.pair[n]
     slopes = derivatives.TRIANGLE if i == NO_PAIR else derivatives.EDGES
     slope, curvature = touching.slope[n], touching.curvature[n]
-    normal = derivatives.fill(
-        points, slopes, share, touching.free[n], curvature, slope, projected, K
-    )
-    if i != NO_PAIR and not projected:
+    normal = derivatives.fill(points, slopes, share, touching.free[n], curvature, slope, K)
+    if i != NO_PAIR:
         value, slope, first, second = _mollified(contact, pairs, touching, n, points)
         if first != 0.0:
             parallel.add(points, value * first, value * second, share, normal, slope * first, K)

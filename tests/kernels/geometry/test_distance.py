@@ -29,7 +29,7 @@ def term_of_segment():
         distance.push(g, x, POINT, START, END, force)
         return value
 
-    def add(x, matrix, projected):
+    def add(x, matrix):
         _, force, stiffness = half_square(np.sqrt(distance.squared_distance(x, POINT, START, END)))
         distance.push_stiffen(matrix, x, POINT, START, END, stiffness, force)
 
@@ -44,7 +44,7 @@ def term_of_node():
         distance.push_point(g, x, POINT, START, force)
         return value
 
-    def add(x, matrix, projected):
+    def add(x, matrix):
         _, force, stiffness = half_square(distance.direction(x, START, POINT)[2])
         distance.push_point_stiffen(matrix, x, POINT, START, stiffness, force)
 

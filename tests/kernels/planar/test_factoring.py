@@ -1,4 +1,4 @@
-"""The factor of a step: of all its terms, with room for near pairs; the projected one."""
+"""The factor of a step: of all its terms, with room for near pairs; with a shift."""
 
 import numpy as np
 import pytest
@@ -6,22 +6,19 @@ import pytest
 from tests.support.kernels.solving import neighbours_of, reduction, whole
 from tests.support.kernels.states import (
     DT,
-    RAYLEIGH,
     SCENES,
     SIZE,
     STATES,
-    VISCOUS,
     loaded,
     step_to,
-    unit,
 )
 
 
 @pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("projected", [False, True])
+@pytest.mark.parametrize("shift", [0.0, 30.0])
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("name", SCENES)
-def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
+def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, shift, dt):
     """All free coordinates have room. Tied ones move together, held ones do not move.
 
     If a pivot is negative, the direction returned with it has that curvature.
@@ -29,13 +26,13 @@ def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, projected, dt):
     scene = SCENES[name]()
     x = STATES[state](scene)
     args, R = step_to(scene, x, 0, dt), reduction(scene)
-    negative, pivot, missing = args.factor(x, projected)
+    negative, pivot, missing = args.factor(x, shift)
     assert not missing
-    full = R.T @ args.hessian(x, projected) @ R
+    weights = shift * np.diag(scene.terms.coordinates.scale**2)
+    full = R.T @ (args.hessian(x) + weights) @ R
     size = np.abs(full).max()
     definite = np.linalg.eigvalsh(full)[0] > -1e-12 * size
     assert definite == (not negative)
-    assert not (negative and projected)
     if not negative:
         b = full @ np.random.default_rng(3).uniform(-1, 1, len(full))  # that is borne
         y = args.solve(np.linalg.lstsq(R.T, b)[0])
@@ -57,22 +54,6 @@ def test_what_has_come_near_needs_room_and_gets_it(state):
     args = whole(scene, x)
     at_rest = neighbours_of(scene.x_rest, scene.terms, SIZE)
     assert args.beside(at_rest).energy(x) == pytest.approx(args.energy(x), rel=1e-12)
-    assert args.beside(at_rest).factor(x, True)[2]
-    assert not args.factor(x, True)[2]
+    assert args.beside(at_rest).factor(x)[2]
+    assert not args.factor(x)[2]
     assert np.any(args.neighbours.system.kind != at_rest.system.kind)
-
-
-@pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize(
-    "damping", [RAYLEIGH, VISCOUS], ids=lambda damping: damping.get("model", "default")
-)
-@pytest.mark.parametrize("state", STATES)
-@pytest.mark.parametrize("seed", range(3))
-def test_projected_hessian_is_semi_definite(seed, state, damping, dt):
-    scene = loaded(damping=damping)
-    x = STATES[state](scene, seed)
-    args, size = step_to(scene, x, seed, dt), unit(scene)
-    exact, projected = (args.hessian(x, how) * np.outer(size, size) for how in (False, True))
-    values = np.linalg.eigvalsh(projected)
-    assert values[0] > -1e-12 * values[-1]
-    assert np.abs(projected - exact).max() > 1e-5 * values[-1]

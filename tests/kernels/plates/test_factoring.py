@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from kernels.plates.factoring import LOWERED, RAISED
 from kernels.plates.neighbour_lists import make_matrix
 from kernels.solve.problem import NEGATIVE, NO_ROOM, POSITIVE
 from tests.support.kernels.pressed_plates import (
@@ -71,43 +70,21 @@ def test_some_of_these_states_are_unstable():
     assert {NEGATIVE, POSITIVE} == set(found)
 
 
-def test_the_shift_is_about_the_least_that_makes_all_pivots_positive():
+def test_a_shift_is_added_to_the_hessian():
+    """So many times the weights that all pivots are positive; the matrix itself stays exact."""
     of = scene("glued")
-    x, layout, R = pinched(of), of.terms.layout, reduction(of)
+    x, W, R = pinched(of), np.diag(of.terms.layout.weight), reduction(of)
     args = whole(of, x)
     assert args.factored(x)[0] == NEGATIVE
-    assert args.factored(x, projected=True)[0] == POSITIVE
-    sigma, H, W = args.problem.buffers.shift[0], args.entries(), np.diag(layout.weight)
-    assert np.linalg.eigvalsh(H + sigma * W)[0] > 0.0
-    assert np.linalg.eigvalsh(H + sigma / RAISED * W)[0] < 0.0
+    H = args.entries()
+    least = -eigh(H, W, eigvals_only=True, subset_by_index=[0, 0])[0]
+    assert args.factored(x, 0.99 * least)[0] == NEGATIVE
+    assert args.factored(x, 1.01 * least)[0] == POSITIVE
+    assert args.factored(x, 2.0 * least)[0] == POSITIVE
+    np.testing.assert_array_equal(args.entries(), H)
     g = forces(x.size)
-    expected = R @ np.linalg.solve(H + sigma * W, R.T @ g)
+    expected = R @ np.linalg.solve(H + 2.0 * least * W, R.T @ g)
     np.testing.assert_allclose(args.solve(g), expected, rtol=0, atol=1e-8 * np.abs(expected).max())
-    args.factored(x, projected=True)
-    assert args.problem.buffers.shift[0] == pytest.approx(sigma * RAISED * LOWERED)
-
-
-def test_the_projected_matrix_lacks_the_negative_parts_of_contacts_only():
-    """Without them a much smaller shift is enough."""
-    of = scene("glued")
-    x, layout = pinched(of), of.terms.layout
-    args = whole(of, x)
-    args.factored(x)
-    exact = args.entries()
-    args.factored(x, projected=True)
-    projected, W = args.entries(), np.diag(layout.weight)
-    least = [eigh(H, W, eigvals_only=True, subset_by_index=[0, 0])[0] for H in (exact, projected)]
-    assert least[0] < 10.0 * least[1] < 0.0
-    change = np.abs(projected - exact)[~layout.is_length]  # rotations touch nothing
-    assert change.max() <= 1e-9 * np.abs(exact).max()
-    free = bent(of)
-    apart = whole(of, free)
-    assert apart.factored(free)[0] == NEGATIVE
-    exact = apart.entries()
-    apart.factored(free, projected=True)
-    touches = of.terms.contact.low_nodes.size  # platens press, which has no negative part
-    assert touches > 0
-    np.testing.assert_array_equal(apart.entries(), exact)
 
 
 def test_the_stiffest_length_is_the_largest_on_the_diagonal():
@@ -128,10 +105,10 @@ def test_what_has_come_near_needs_room_and_gets_it():
     assert lacking.energy(x) == pytest.approx(
         args.lagging(at_rest.lagged_contacts).energy(x), rel=1e-12
     )
-    assert lacking.problem.factor(x, args.step, lacking.found(x)[1], False, False)[0] == NO_ROOM
+    assert lacking.problem.factor(x, args.step, lacking.found(x)[1], 0.0, False)[0] == NO_ROOM
     renewed = of.terms.renew_neighbours(at_rest, x, 0.0)
     there = args.beside(renewed)
-    assert there.problem.factor(x, args.step, there.found(x)[1], False, False)[0] != NO_ROOM
+    assert there.problem.factor(x, args.step, there.found(x)[1], 0.0, False)[0] != NO_ROOM
     again = of.terms.renew_neighbours(renewed, x, 0.0)
     assert np.shares_memory(again.matrix.values, renewed.matrix.values)
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from kernels.terms import fold
-from tests.support.kernels.terms import derivative_error, least_share, of_points
+from tests.support.kernels.terms import derivative_error, of_points
 
 LIMIT = fold.LIMIT
 FOLD = fold.Fold(np.array([[0, 1, 2]]), np.array([LIMIT]), np.array([3.0]))
 CORNER = of_points(
     lambda x, g: fold.evaluate(x, FOLD, g)[0],
-    lambda x, matrix, projected: fold.hessian(x, FOLD, matrix, projected),
+    lambda x, matrix: fold.hessian(x, FOLD, matrix),
 )
 
 
@@ -60,13 +60,6 @@ def test_closing_takes_infinite_energy():
     assert CORNER.energy(x) == np.inf
     energies = [CORNER.energy(folded(g)) for g in LIMIT * np.logspace(-1e-3, -12, 50)]
     assert np.all(np.diff(energies) > 0)
-
-
-@pytest.mark.parametrize("share", [1e-3, 0.05, 0.5, 0.95])
-def test_projected_fold_is_semi_definite(share):
-    x = folded(share * LIMIT)
-    assert least_share(CORNER, x) > -1e-12
-    assert np.linalg.eigvalsh(CORNER.hessian(x))[0] < -1e-2
 
 
 @pytest.mark.parametrize("turn", [1.0, 2.8, -2.0])

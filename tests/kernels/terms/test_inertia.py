@@ -13,7 +13,7 @@ MASS = np.array([2.0, 2.0, 0.5, 0.5, 0.0, 0.0])  # two nodes, then rotations
 def term_of(x_pred, mass, dt) -> Term:
     """Inertia with its Hessian."""
 
-    def second(x, projected):
+    def second(x):
         diagonal = np.zeros_like(x)
         inertia.hessian(mass, dt, diagonal)
         return np.diag(diagonal)

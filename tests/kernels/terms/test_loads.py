@@ -13,7 +13,7 @@ def term_of(factor) -> Term:
     """Loads of a factor, from x = 0."""
     return Term(
         lambda x, g: loads.evaluate(x, LOAD, factor, g),
-        lambda x, projected: np.zeros((LOAD.size, LOAD.size)),
+        lambda x: np.zeros((LOAD.size, LOAD.size)),
     )
 
 

@@ -16,7 +16,6 @@ from kernels.compile.jit import jit_exact, jit_owning
 from kernels.solve.problem import FREE, LED, NEGATIVE, POSITIVE, Coordinates
 
 MARGIN = 0.4  # of a: a particle that has moved farther needs a new list
-SOFT = 1e-3  # of h / a^2: stiffness of a projected Hessian on top of a hill
 WELLS, SPRINGS = range(2)
 ROW = np.dtype(
     (
@@ -99,7 +98,7 @@ def store(problem, x, step, found):
 
 
 @jit_exact
-def evaluate(problem, x, step, found, projected):
+def evaluate(problem, x, step, found):
     coordinates = problem.scene.coordinates
     for part in (found.elastic, found.friction, found.material):
         zero(part)
@@ -136,14 +135,12 @@ def _is_solved(coordinates, i):
 
 
 @jit_exact
-def factor(problem, x, step, found, projected, through):
+def factor(problem, x, step, found, shift, through):
     scene, buffers, coordinates = problem.scene, problem.buffers, problem.scene.coordinates
     met, first, before = POSITIVE, 0.0, 0.0
     buffers.place[0] = -1
     for i in range(x.size):
-        stiffness = _well(scene, x[i])[2]
-        if projected:
-            stiffness = max(stiffness, SOFT * scene.height / scene.width**2)
+        stiffness = _well(scene, x[i])[2] + shift
         for end in (i > 0, i + 1 < x.size):
             stiffness += scene.spring * end
         if step.dynamic:

@@ -104,12 +104,12 @@ def pressed(of, x):
 class WholeOfPlates(Whole):
     """All that a step minimises, as one term, with the matrix of its unknowns."""
 
-    def factored(self, x, projected=False, through=False):
+    def factored(self, x, shift=0.0, through=False):
         """Result of `factor` at ``x``, and the negative pivot."""
         _, found = self.found(x)
-        met, pivot = self.problem.factor(x, self.step, found, False, through)
-        if projected:
-            met, pivot = self.problem.factor(x, self.step, found, True, through)
+        met, pivot = self.problem.factor(x, self.step, found, 0.0, through)
+        if shift > 0.0:
+            met, pivot = self.problem.factor(x, self.step, found, shift, through)
         assert met != NO_ROOM
         return met, pivot
 

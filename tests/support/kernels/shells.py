@@ -203,8 +203,7 @@ def term_of(of: Structure, law: RelaxingSheet = LINEAR) -> Term:
     def slope(x: Floats, g: Floats) -> float:
         return float(shell.evaluate(x, of.frames, of.walls, law, memory, room, g, np.zeros(3)))
 
-    def second(x: Floats, projected: bool) -> Floats:
-        assert not projected
+    def second(x: Floats) -> Floats:
         full = np.zeros((x.size, x.size))
         for nodes, own in zip(of.walls.quads, element_hessians(of, x, law), strict=True):
             at = (6 * nodes[:, None] + np.arange(6)).ravel()

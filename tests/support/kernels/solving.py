@@ -47,10 +47,10 @@ class Whole:
         """The same with other contacts that have friction."""
         return self.beside(referred(self.neighbours)._replace(lagged_contacts=lagged_contacts))
 
-    def found(self, x, projected=False) -> tuple[float, Evaluation]:
+    def found(self, x) -> tuple[float, Evaluation]:
         """Energy and other results of `evaluate` at ``x``."""
         found = make_workspace(x.size, STORED).evaluation
-        return self.problem.evaluate(x, self.step, found, projected), found
+        return self.problem.evaluate(x, self.step, found), found
 
     def energy_gradient(self, x):
         """Energy and gradient (n,) at ``x``."""
@@ -65,14 +65,14 @@ class Whole:
         """Gradient (n,) at ``x``."""
         return self.found(x)[1].g
 
-    def hessian(self, x, projected=False):
+    def hessian(self, x):
         """Hessian (n, n) at ``x``, put together apart from `factoring.factor`."""
-        _, found = self.found(x, projected)
+        _, found = self.found(x)
         terms, matrix, step = self.terms, full_matrix(x.size), self.step
-        fold.hessian(x, terms.fold, matrix, projected)
-        spring.hessian(x, terms.spring, matrix, projected)
+        fold.hessian(x, terms.fold, matrix)
+        spring.hessian(x, terms.spring, matrix)
         neighbours = self.neighbours
-        contact.hessian(x, terms.contact, neighbours.pairs, neighbours.touching, matrix, projected)
+        contact.hessian(x, terms.contact, neighbours.pairs, neighbours.touching, matrix)
         friction.hessian(found.u, self.neighbours.lagged_contacts, self.slip, matrix)
         walls = assembled(terms.walls, self.problem.buffers.stiffness, x.size)
         inert = (1.0 / step.h + terms.damp.alpha_m) / step.h * step.dynamic
@@ -83,10 +83,10 @@ class Whole:
         """Slip below which friction is smoothed, m."""
         return self.terms.friction.slip * (self.step.h if self.step.dynamic else 1.0)
 
-    def factor(self, x, projected=False):
+    def factor(self, x, shift=0.0):
         """Whether there is a negative pivot at ``x``, the first one; whether room is lacking."""
-        _, found = self.found(x, projected)
-        result, pivot = self.problem.factor(x, self.step, found, projected, False)
+        _, found = self.found(x)
+        result, pivot = self.problem.factor(x, self.step, found, shift, False)
         return result == NEGATIVE, pivot, result == NO_ROOM
 
     def solve(self, b):
@@ -192,7 +192,7 @@ def descend(
     workspace.work.dx[:] = 0.0 if move is None else move
     if evaluated:
         workspace.work.trial[:] = x
-        problem.evaluate(x, args.step, workspace.evaluation, False)
+        problem.evaluate(x, args.step, workspace.evaluation)
     while True:
         left = allowed._replace(iterations=allowed.iterations - done)
         outcome = newton.minimise(

@@ -89,11 +89,11 @@ def term_of(x, touch, listed=None) -> Term:
     def slope(y, g):
         return contact.evaluate(y, touch, listed, np.inf, touching, g)
 
-    def second(y, projected):
+    def second(y):
         contact.evaluate(y, touch, listed, np.inf, touching, np.zeros_like(y))
         matrix, K = np.zeros((y.size, y.size)), np.zeros((12, 12))
         for n in range(touching.count[0]):
-            size = contact.block(y, touch, listed, touching, n, projected, K)
+            size = contact.block(y, touch, listed, touching, n, K)
             nodes = touching.nodes[n, :size]
             at = (SIZE * nodes[:, None] + np.arange(3)).ravel()
             matrix[np.ix_(at, at)] += K[: 3 * size, : 3 * size]

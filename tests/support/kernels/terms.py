@@ -23,11 +23,12 @@ NO_STRETCH = stretch.Stretch(np.empty(0), np.empty(0), np.empty((2, 0)), True)
 class Term:
     """An energy of the coordinates x (n,).
 
-    ``slope(x, g)`` adds its gradient to g and returns it; ``second(x, projected)``: Hessian (n, n).
+    ``slope(x, g)`` adds its gradient to g and returns it; ``second(x)``: Hessian (n, n);
+    ``projected(x)``: the same without negative eigenvalues of any element, for terms that have it.
     """
 
-    def __init__(self, slope, second):
-        self.slope, self.second = slope, second
+    def __init__(self, slope, second, projected=None):
+        self.slope, self.second, self.projected = slope, second, projected
 
     def energy_gradient(self, x: np.ndarray) -> tuple[float, np.ndarray]:
         """Energy and gradient (n,) at ``x``."""
@@ -44,7 +45,7 @@ class Term:
 
     def hessian(self, x: np.ndarray, projected: bool = False) -> np.ndarray:
         """Hessian (n, n) at ``x``, exact or ``projected``."""
-        return self.second(x, projected)
+        return self.projected(x) if projected else self.second(x)
 
 
 def difference(one: Term, other: Term, x: np.ndarray) -> float:
@@ -108,7 +109,10 @@ def of_walls(walls: elements.Walls, write, x0=None) -> Term:
         elements.gather(walls, shape, g)
         return value
 
-    return Term(slope, lambda x, projected: assembled(walls, found(x, projected)[2], x.size))
+    def hessian(x, projected=False):
+        return assembled(walls, found(x, projected)[2], x.size)
+
+    return Term(slope, hessian, lambda x: hessian(x, True))
 
 
 def bending_of(walls: elements.Walls, bending: bend.Bend, x0=None, along=NO_STRETCH) -> Term:
@@ -140,21 +144,19 @@ def damping_of(terms: PlanarScene, x0: np.ndarray, dt: float) -> Term:
     """Damping of a step of ``dt`` from x0."""
     walls, before = terms.walls, before_of(terms, x0)
 
-    def found(x, projected, g):
+    def found(x, g):
         shape, resultants, stiffness = room(walls)
         elements.measure(x, walls, before.frame, shape)
-        value = damping.evaluate(
-            x - x0, terms, before, dt, shape, resultants, stiffness, projected, g
-        )
+        value = damping.evaluate(x - x0, terms, before, dt, shape, resultants, stiffness, g)
         return value, stiffness
 
-    def second(x, projected):
-        _, stiffness = found(x, projected, np.zeros_like(x))
+    def second(x):
+        _, stiffness = found(x, np.zeros_like(x))
         diagonal = np.zeros_like(x)
         damping.hessian(terms, dt, diagonal)
         return assembled(walls, stiffness, x.size) + np.diag(diagonal)
 
-    return Term(lambda x, g: found(x, False, g)[0], second)
+    return Term(lambda x, g: found(x, g)[0], second)
 
 
 def full_matrix(n: int) -> Blocks:
@@ -185,11 +187,11 @@ def dense(matrix: Blocks) -> np.ndarray:
 
 
 def of_points(slope, add) -> Term:
-    """Term with ``slope(x, g)`` as in `Term`, whose Hessian ``add(x, matrix, projected)`` adds."""
+    """Term with ``slope(x, g)`` as in `Term`, whose Hessian ``add(x, matrix)`` adds."""
 
-    def second(x, projected):
+    def second(x):
         matrix = full_matrix(x.size)
-        add(x, matrix, projected)
+        add(x, matrix)
         assert matrix.missing[0] == 0
         return dense(matrix)
 
@@ -204,9 +206,9 @@ def touch_of(contacts: contact.Contact, listed: near_pairs.Pairs, anchor: np.nda
         drift = near_pairs.farthest(x, anchor, contacts.tributary.size)
         return contact.evaluate(x, contacts, listed, drift, touching, g)
 
-    def add(x, matrix, projected):
+    def add(x, matrix):
         slope(x, np.zeros_like(x))
-        contact.hessian(x, contacts, listed, touching, matrix, projected)
+        contact.hessian(x, contacts, listed, touching, matrix)
 
     return of_points(slope, add)
 

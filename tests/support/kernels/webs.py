@@ -103,7 +103,7 @@ class Problem:
         matrix.diagonal[:] = self.diagonal
         for nodes, half in self.contacts:
             self._contact(nodes, half, lambda i, j, value: block_matrix.add(matrix, i, j, value))
-        return system.factor(self.found, self.layout, self.stiffness, False, False)
+        return system.factor(self.found, self.layout, self.stiffness, False)
 
     def solve(self, b):
         """Solution by coordinate after the factor."""

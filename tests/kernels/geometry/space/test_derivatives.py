@@ -46,10 +46,10 @@ def distance(find, slopes, stiffness=0.0, force=1.0) -> Term:
             g[3 * nodes[i] : 3 * nodes[i] + 3] += force * share[i] * np.array(n)
         return force * d
 
-    def second(y, projected):
+    def second(y):
         nodes, share, free, points = at(y)
         K, matrix = np.full((12, 12), np.nan), np.zeros((12, 12))
-        derivatives.fill(points, slopes, share, free, stiffness, force, projected, K)
+        derivatives.fill(points, slopes, share, free, stiffness, force, K)
         place = (3 * np.array(nodes)[:, None] + np.arange(3)).ravel()
         np.add.at(matrix, np.ix_(place, place), K)
         return matrix
@@ -96,26 +96,6 @@ def test_the_gradient_is_continuous_over_sides_and_corners():
             off = 1e-9 * np.array([np.cos(angle), np.sin(angle)])
             slopes.append(TRIANGLE.gradient(turned([(*(place + off), 0.3), *CORNERS], 1.0)))
         np.testing.assert_allclose(slopes, np.tile(slopes[0], (7, 1)), atol=1e-7)
-
-
-@pytest.mark.parametrize("force", [1.0, -1.0, 0.0])
-@pytest.mark.parametrize("stiffness", [0.0, 3.0, -3.0])
-@pytest.mark.parametrize(
-    ("find", "slopes"), [(of_triangle, derivatives.TRIANGLE), (of_edges, derivatives.EDGES)]
-)
-def test_projected_without_negative_parts(find, slopes, stiffness, force):
-    term = distance(find, slopes, stiffness, force)
-    for seed in range(30):
-        y = np.random.default_rng(seed).normal(size=12)
-        whole, part = term.hessian(y), term.hessian(y, True)
-        largest = np.abs(whole).max()
-        assert np.linalg.eigvalsh(part)[0] >= -1e-12 * largest
-        if stiffness <= 0.0 and force == 0.0:
-            assert np.abs(part).max() == 0.0
-        if stiffness == 0.0:  # the projection is the nearest semi-definite matrix
-            values, vectors = np.linalg.eigh(whole)
-            expected = (vectors * np.maximum(values, 0.0)) @ vectors.T
-            np.testing.assert_allclose(part, expected, atol=1e-12 * largest)
 
 
 def test_a_rigid_rotation_turns_the_force_with_it():

@@ -23,7 +23,7 @@ def factor_of(scale) -> Term:
         g += first * np.concatenate([-by_u, by_u, -by_v, by_v])
         return value
 
-    def second(y, projected):
+    def second(y):
         K = np.zeros((12, 12))
         _, first, curvature = parallel.factor(points_of(y), scale)
         parallel.add(points_of(y), first, curvature, SHARE, NORMAL, 0.0, K)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.linear.pivots import CONVEX, ROUNDED, SOFT, THROUGH
+from kernels.linear.pivots import ROUNDED, SOFT, THROUGH
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.matrix import clear
 from kernels.linear.supernodal.solution import solve
@@ -146,19 +146,6 @@ def test_a_small_but_true_negative_pivot_is_seen(size):
     matrix = assembled(sizes, pairs, np.zeros((len(sizes), 3)), full, spans)
     _, pivot = factored(matrix)
     assert pivot == pytest.approx(-1e-6, rel=1e-5)
-
-
-def test_convex_takes_a_negative_pivot_for_round_off():
-    def make(a):
-        a = dominant(a)
-        a[17, 17] = -1.0
-        return a
-
-    _, _, matrix = random_case(3, 25, 0.1, make)
-    assert factored(matrix, ROUNDED)[0] == 17
-    assert factored(matrix, CONVEX) == (-1, 0.0)
-    assert ldlt.negatives(matrix) == 0
-    assert matrix.pivots[matrix.home[17]] == SOFT
 
 
 def test_a_shift_is_added_to_the_diagonal_and_leaves_the_matrix():

@@ -42,7 +42,7 @@ def two(seed=None):
 def term_of(x0, contacts, slip) -> Term:
     """Friction of a step from x0."""
 
-    def second(x, projected):
+    def second(x):
         matrix, K = np.zeros((x.size, x.size)), np.zeros((12, 12))
         for k in range(contacts.count[0]):
             size = friction.block(x - x0, contacts, slip, k, K)

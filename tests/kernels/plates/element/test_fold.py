@@ -27,7 +27,7 @@ def slope(q, g):
     return fold.evaluate(q, CORNERS, AREAS, STIFFNESS, g)
 
 
-def second(q, projected):
+def second(q):
     full = np.zeros((24, 24))
     fold.hessian(q, CORNERS, AREAS, STIFFNESS, np.empty(24), full)
     return full

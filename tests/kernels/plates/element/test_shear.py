@@ -18,7 +18,7 @@ def term(rest):
     def slope(q, g):
         return shear.evaluate(q, SIZE, rest, STIFFNESS, g)
 
-    def second(q, projected):
+    def second(q):
         full = np.zeros((24, 24))
         rows, pushed, inner = np.empty((7, 24)), np.empty((7, 24)), np.empty((7, 7))
         shear.hessian(q, SIZE, rest, STIFFNESS, rows, pushed, inner, full)
