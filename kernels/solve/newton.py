@@ -3,14 +3,14 @@
 The Hessian H is used where it is positive definite (all pivots positive). Elsewhere H + sigma W
 replaces it, W being the square of `Coordinates.scale`. The shift sigma, in N/m, slows soft moves
 alone: where a part of a lattice snaps, the rest of it goes on by Newton steps. (A Hessian that is
-projected element by element stiffens it everywhere.) It is raised from below its last value until
-all pivots are positive. An equilibrium with a negative pivot is left along the direction of
-negative curvature of that pivot. The line search starts from the admissible share of the move and
-backtracks to sufficient decrease (Armijo); predictors and moves that drive the problem are accepted
-at any finite energy. Converged means: scaled residual and Newton decrement below tolerance *and* no
-negative pivot of the exact Hessian at a point within `Coordinates.close`. A factor is reused within
-that distance. A residual above the tolerance is round-off where positions do not resolve the move
-that it led to.
+projected element by element is too stiff everywhere.) It is raised from twice the curvature along
+the direction of the first negative pivot until all pivots are positive. At an equilibrium, that
+direction itself is the search direction. The line search starts from the admissible share of the
+move and backtracks to sufficient decrease (Armijo); predictors and moves that drive the problem are
+accepted at any finite energy. Converged means: scaled residual and Newton decrement below tolerance
+*and* no negative pivot of the exact Hessian at a point within `Coordinates.close`. A factor is
+reused within that distance. A residual above the tolerance is round-off where positions do not
+resolve the move that it led to.
 
 Exact means not shifted. Lagged forces have a primal-dual matrix, which is the second derivative
 where the duals agree (`Problem.follow`), and `solver.hessian` of configs may leave a part out. In
@@ -41,9 +41,8 @@ HALVINGS = 40  # greatest number in a line search
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # share of a move: a shorter one is a stall
-FIRST_SHIFT = 2.0  # least shift, as a multiple of the negative curvature that was met
+FIRST_SHIFT = 2.0  # of the least shift that may do: of the negative curvature that was met
 RAISED = 4.0  # ratio of a shift to the previous one, which was too small
-LOWERED = 1.0 / 3.0  # ratio of the first shift tried to the last one that was large enough
 RAISES = 32  # most in a row
 RESOLVED = 1e-11  # relative energy changes below it are round-off
 DRIVEN_CAP = 5.0  # least cap of a move, as a multiple of the driven move in it: with a
@@ -55,8 +54,6 @@ DESCENT = np.dtype(
             # Set before a minimisation.
             ("target", np.float64),  # of the driven coordinate, m
             ("evaluated", np.bool_),  # whether `Workspace.evaluation` is of x
-            # Over the minimisations of a march.
-            ("shift", np.float64),  # the last one that was large enough, N/m
             # Over the minimisations of a step.
             # bound of the move, m, since the last factor of an exact Hessian without a negative
             # pivot; infinite: there is no such factor, or it has to be renewed.
@@ -269,7 +266,7 @@ def _balance(x, problem, tolerance, evaluation, work, descent):
 
 
 @jit_exact
-def _factor_shifted(x, problem, step, evaluation, work, pivot, descent):
+def _factor_shifted(x, problem, step, evaluation, work, pivot):
     """Factor H + sigma W; return the result of `Problem.factor`.
 
     ``pivot``: d . H d, d = ``work.escape``, which bounds the least sigma.
@@ -277,11 +274,10 @@ def _factor_shifted(x, problem, step, evaluation, work, pivot, descent):
     size, scale = 0.0, problem.scene.coordinates.scale
     for i in range(scale.size):
         size += (scale[i] * work.escape[i]) ** 2
-    shift = max(LOWERED * descent.shift, -FIRST_SHIFT * pivot / size)
+    shift = -FIRST_SHIFT * pivot / size
     for _ in range(RAISES):
         result, _ = problem.factor(x, step, evaluation, shift, False)
         if result != NEGATIVE:
-            descent.shift = shift
             return result
         shift *= RAISED
     return NEGATIVE
@@ -306,7 +302,7 @@ def _renew_factor(x, problem, step, tolerance, evaluation, work, descent):
         problem.descend(work.escape)
         if descent.balanced:
             return UNFINISHED, _escape_direction(problem, evaluation, work, pivot)
-        result = _factor_shifted(x, problem, step, evaluation, work, pivot, descent)
+        result = _factor_shifted(x, problem, step, evaluation, work, pivot)
     if result == NO_ROOM:
         descent.since_factor = np.inf
         return OUTGROWN, escape

@@ -75,8 +75,8 @@ class Beam:
         def pushed(x, g):
             return profile.evaluate(x, self.profiles, touch.stiffness, g)
 
-        def second(x, matrix, projected):
-            profile.hessian(x, self.profiles, touch.stiffness, matrix, projected)
+        def second(x, matrix):
+            profile.hessian(x, self.profiles, touch.stiffness, matrix)
 
         self.terms = [
             of_walls(walls, along, self.of.rest),

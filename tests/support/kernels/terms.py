@@ -242,7 +242,9 @@ def derivative_error(term, x: np.ndarray, unit=1.0, step: float = 1e-3) -> float
 
 
 def least_share(term, x: np.ndarray, unit=1.0) -> float:
-    """Smallest eigenvalue of the projected Hessian as a share of the largest one."""
+    """Smallest eigenvalue of the projected Hessian, of the exact one of terms without it, as a
+    share of the largest one.
+    """
     unit = np.broadcast_to(unit, x.shape)
-    values = np.linalg.eigvalsh(term.hessian(x, True) * np.outer(unit, unit))
+    values = np.linalg.eigvalsh(term.hessian(x, term.projected is not None) * np.outer(unit, unit))
     return values[0] / np.abs(values).max()

@@ -65,7 +65,7 @@ def test_the_book_enters_what_contact_gains():
     of_step = whole(of, x)
     state, found = of.at_rest(), workspace.make_workspace(x.size, STORED).evaluation
     state.x[:] = x
-    of_step.problem.evaluate(x, of_step.step, found, False)
+    of_step.problem.evaluate(x, of_step.step, found)
     state.stored[:], before = found.stored, found.stored.copy()
     assert before[CONTACT] > 0.0
     assert energy_book.project(of_step.problem, of_step.step, state, found, np.zeros(x.size))
