@@ -171,7 +171,7 @@ def test_no_iteration_raises_the_energy(seed, dt):
 
 
 @pytest.mark.parametrize(
-    ("force", "contact", "dt"), [(2.0, "none", 1e-3), (20.0, "barrier", np.inf)]
+    ("force", "contact", "dt"), [(2.0, "none", 1e-3), (15.0, "barrier", np.inf)]
 )
 def test_it_ends_quadratically(force, contact, dt):
     """Order log(r'' / r') / log(r' / r) of the last residuals that are more than round-off."""

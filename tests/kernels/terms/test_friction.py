@@ -45,7 +45,7 @@ def term_of(x0, contacts, slip) -> Term:
     """Friction of a step from x0."""
     return of_points(
         lambda x, g: friction.evaluate(contacts, x - x0, slip, g),
-        lambda x, matrix, _: friction.hessian(x - x0, contacts, slip, matrix),
+        lambda x, matrix: friction.hessian(x - x0, contacts, slip, matrix),
     )
 
 

@@ -145,7 +145,7 @@ def test_friction_of_a_profile(shape, along, slope):
     assert friction.evaluate(contacts, lifted, 0.01, np.zeros_like(x)) == pytest.approx(0.0)
     term = of_points(
         lambda y, g: friction.evaluate(contacts, y - x, 0.5, g),
-        lambda y, matrix, _: friction.hessian(y - x, contacts, 0.5, matrix),
+        lambda y, matrix: friction.hessian(y - x, contacts, 0.5, matrix),
     )
     moved = x + np.random.default_rng(1).uniform(-0.05, 0.05, x.size)
     assert derivative_error(term, moved, WALL.unit, 1e-4) < 1e-6
