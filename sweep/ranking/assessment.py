@@ -9,7 +9,7 @@ from pandas import DataFrame
 
 from sweep.columns import describe_column, less_is_better
 from sweep.ranking.merit import Compared, doubtful
-from sweep.ranking.places import pareto
+from sweep.ranking.pareto import pareto
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
 from sweep.ranking.ranking import Ranking

@@ -1,4 +1,4 @@
-"""The places of sorted designs, which designs may share because of errors, and the Pareto front."""
+"""The places of sorted designs, which designs may share because of errors."""
 
 from __future__ import annotations
 
@@ -7,14 +7,6 @@ from pandas import DataFrame, Series, concat
 
 from sweep.columns import correction_column, end_columns, less_is_better
 from sweep.ranking.merit import doubtful
-
-
-def pareto(mass: Series, energy: Series) -> Series:
-    """True for designs such that none lighter absorbs as much and none as light absorbs more."""
-    mass = mass.round(9)  # designs of equal mass may differ by round-off
-    best = energy.groupby(mass).max().dropna()
-    lighter = best.cummax().shift(fill_value=-np.inf)
-    return (energy == mass.map(best)) & (energy > mass.map(lighter))
 
 
 def places_by(rows: DataFrame, by: str) -> Series:

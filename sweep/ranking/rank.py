@@ -25,7 +25,8 @@ from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed import needed_columns, widened
-from sweep.ranking.places import pareto, passed_over, places_by, reach
+from sweep.ranking.pareto import pareto
+from sweep.ranking.places import passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import Outcome, check, judge, limits

@@ -6,7 +6,7 @@ from kernels.solve import arc_length
 from sweep.config.case import Case
 from sweep.config.kinds.solver import Arcs
 from sweep.scene.mesh import Floats
-from sweep.scene.terms import Scene
+from sweep.scene.scene import Scene
 
 
 def arc_of(scene: Scene, case: Case) -> arc_length.Arc | None:

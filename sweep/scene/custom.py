@@ -22,7 +22,7 @@ from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
-from sweep.scene.terms import (
+from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,

@@ -25,7 +25,7 @@ from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
-from sweep.scene.terms import Parts, contact_stiffness, force_scale, solved_by, walls_of
+from sweep.scene.scene import Parts, contact_stiffness, force_scale, solved_by, walls_of
 
 Shift = Callable[[Floats], Floats]
 """Stress-free shift in x, m, at heights in m."""

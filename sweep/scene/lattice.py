@@ -15,7 +15,7 @@ from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, leaders, supports
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
-from sweep.scene.terms import (
+from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,

@@ -14,7 +14,7 @@ from sweep.config.kinds.directed import Ramp, Role
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import InTime, Solver, Static
 from sweep.scene.plates.scene import Scene as PlateScene
-from sweep.scene.terms import Scene, time_step
+from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15

@@ -11,7 +11,7 @@ from sweep.config.kinds.cells import Cells
 from sweep.scene.beams import bends
 from sweep.scene.images import Repeated, draw, images_of, parts_of
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.terms import Scene, assemble
+from sweep.scene.scene import Scene, assemble
 
 
 def build_periodic(case: Case) -> Scene:

@@ -16,7 +16,7 @@ from sweep.scene.coordinates import leaders, supports
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
 from sweep.scene.lattice import follow_platens, initial_velocity, load_of, reported, rest_of
 from sweep.scene.mesh import Ints, bow, row_nodes
-from sweep.scene.terms import Scene, add_bodies, assemble, target_of
+from sweep.scene.scene import Scene, add_bodies, assemble, target_of
 
 
 @dataclass(frozen=True)

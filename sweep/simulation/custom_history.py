@@ -7,7 +7,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
-from sweep.scene.terms import Scene
+from sweep.scene.scene import Scene
 
 MOVES = ("x_m", "y_m", "rotation_rad")
 REACTIONS = ("reaction_x_N", "reaction_y_N", "reaction_moment_Nm")

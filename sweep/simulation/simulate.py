@@ -33,8 +33,8 @@ from sweep.scene.plates.law import UnstableMaterialError
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.profiles import outlines
+from sweep.scene.scene import Scene, striker_of
 from sweep.scene.sides import build_tied
-from sweep.scene.terms import Scene, striker_of
 from sweep.simulation.base import patch_width
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (

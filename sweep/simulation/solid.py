@@ -5,7 +5,7 @@ from sweep.config.kinds.sheet import Surface
 from sweep.design.network import mass, relative_density
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.sheet import SheetMesh, solid_of
-from sweep.scene.terms import Scene
+from sweep.scene.scene import Scene
 
 
 def drawn_mass(case: Case, scene: Scene | PlateScene) -> float:

@@ -25,7 +25,7 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.striker import Struck
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
-from sweep.scene.terms import Scene
+from sweep.scene.scene import Scene
 from sweep.simulation.deceleration import filtered_peak
 from sweep.simulation.solid import filled
 

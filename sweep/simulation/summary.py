@@ -17,7 +17,7 @@ from sweep.result import design_columns
 from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
-from sweep.scene.terms import Scene
+from sweep.scene.scene import Scene
 from sweep.simulation.base import base_columns, patch_width
 from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles

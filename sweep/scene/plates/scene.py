@@ -21,14 +21,14 @@ from sweep.scene.plates.law import law_of_sheet, shear_moduli
 from sweep.scene.plates.mesh import build_mesh
 from sweep.scene.plates.sheet import mesh_of_sheet, solid_of
 from sweep.scene.plates.shell_mesh import ShellMesh
-from sweep.scene.terms import driven_by, friction_of, heavy, roles, striker_of
+from sweep.scene.scene import driven_by, friction_of, heavy, roles, striker_of
 
 NONE = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A case as arrays, like `scene.terms.Scene`, with plates.
+    """A case as arrays, like `scene.scene.Scene`, with plates.
 
     Forces and energies belong to the walls in ``mesh``, one of `Plan.copies` equal parts.
     """

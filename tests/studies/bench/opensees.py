@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from sweep.scene.loading import stages, tolerances
-from sweep.scene.terms import time_step
+from sweep.scene.scene import time_step
 from tests.studies.bench.measuring.clock import seconds
 from tests.studies.bench.measuring.marching import Spent
 

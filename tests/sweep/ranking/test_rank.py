@@ -1,13 +1,9 @@
 """Rankings: which designs are compared, by which column, and which are left out."""
 
-import itertools
-
-import numpy as np
 import pandas as pd
 import pytest
 
 from sweep.columns import COLUMNS
-from sweep.ranking.places import pareto
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import USUAL, rank, ranked
 from sweep.report.tables.sheets import ranking_sheets
@@ -29,23 +25,6 @@ def test_budget_is_spent_on_energy_not_on_energy_per_gram():
     ranking = rank(summary(*designs([1.0, 2.0, 4.0], [0.10, 0.18, 0.40])), budget="2 g")
     assert ids(ranking) == [1, 0]
     assert list(ranking["budget_g"]) == [2.0, 2.0]
-
-
-def test_pareto_agrees_with_its_definition():
-    rng = np.random.default_rng(7)
-    mass = pd.Series(rng.integers(1, 12, 60).astype(float))
-    energy = pd.Series(rng.integers(1, 12, 60).astype(float))
-    expected = [True] * 60
-    for i, j in itertools.permutations(range(60), 2):
-        no_worse = mass[j] <= mass[i] and energy[j] >= energy[i]
-        if no_worse and (mass[j] < mass[i] or energy[j] > energy[i]):
-            expected[i] = False
-    assert list(pareto(mass, energy)) == expected
-
-
-def test_round_off_of_equal_masses_is_no_merit():
-    mass, energy = pd.Series([1.4, 1.4 + 3e-13, 1.4 - 3e-13]), pd.Series([1.0, 2.0, 0.5])
-    assert list(pareto(mass, energy)) == [False, True, False]
 
 
 def test_pareto_compares_periods_of_panels_per_area():
@@ -215,8 +194,3 @@ def test_refusals_name_what_is_allowed():
         rank(table, allowed_force="60 N")
     with pytest.raises(RankError, match=r"panel = .*; allowed: two lengths, such as"):
         rank(table, panel=("0.1 m",))
-
-
-def test_a_design_without_the_energy_hides_no_heavier_one_from_the_front():
-    mass, energy = pd.Series([1.0, 2.0, 3.0]), pd.Series([0.1, np.nan, 0.3])
-    assert list(pareto(mass, energy)) == [True, False, True]
