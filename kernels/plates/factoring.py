@@ -39,7 +39,7 @@ def _assemble(problem, x, step, evaluation):
 def factor(problem, x, step, evaluation, shift, through):
     """Factor the Hessian at ``x``, of all terms; see `solve.problem.Problem.factor`.
 
-    The weights of the shift are those of `Layout`. A shifted matrix is the one of the call before.
+    The weights of the shift are in `Layout`. With a shift, the matrix of the call before is used.
     """
     layout, matrix = problem.scene.layout, problem.neighbours.matrix
     if shift == 0.0:
