@@ -24,9 +24,9 @@ is nearer to the joint than this part: t_c is reduced by the ratio of the path t
 Parts of two arms at rest that are farther apart than D along the path are apart by more than t in
 the plane: by D sin(gamma/2) = t [cos(gamma/2) + gamma/2 sin(gamma/2)]. Contact of walls that are
 printed into each other starts at 0.9 x their rest distance, so that the rest state is free of
-stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance a barrier keeps it from
-crossing: collision detection alone would stop every move that presses it. The rules are evaluated
-once for a scene.
+stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance, or below t_c if that is
+less, a barrier keeps it from crossing: collision detection alone would stop every move that presses
+it. The rules are evaluated once for a scene.
 """
 
 import math
@@ -386,7 +386,8 @@ def special_pairs(x, edges, l0, node_thickness, edge_thickness, tributary):
             rules.node[k], rules.weight[k] = p, weight[e]
             rules.distance[k] = starts if rest >= starts else REST_SHARE * rest
             if weight[e] == 0.0:
-                rules.distance[k] = GUARDED_SHARE * rest if tributary[p] > 0.0 else 0.0
+                guarded = min(GUARDED_SHARE * rest, starts)
+                rules.distance[k] = guarded if tributary[p] > 0.0 else 0.0
             rules.subtract[k, 0] = 1.0 if _is_counted(p, e, a, graph, weight) else 0.0
             rules.subtract[k, 1] = 1.0 if _is_counted(p, e, b, graph, weight) else 0.0
         for i in range(count):

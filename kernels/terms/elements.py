@@ -25,6 +25,7 @@ from kernels.compile.jit import jit
 from kernels.geometry.angle import between
 
 NEAR_ENOUGH = 0.5  # rad
+WHOLE = 2.0 * math.pi  # rad
 
 
 class Walls(NamedTuple):
@@ -78,7 +79,7 @@ def renew_frame(x, walls, frame):
     """Update ``frame`` (m, 3): direction at rest of every element rotated with its ends (cos, sin),
     and the mean phi of its ends.
 
-    Turns are measured from the frame, so that they never wrap. A frame within `NEAR_ENOUGH` of the
+    Small angles from it take a short arctangent (`between`). A frame within `NEAR_ENOUGH` of the
     present phi is kept.
     """
     for k in range(frame.shape[0]):
@@ -93,7 +94,9 @@ def renew_frame(x, walls, frame):
 
 @jit
 def measure(x, walls, frame, shape):
-    """Fill directions, lengths and turns; return the shortest length in m."""
+    """Fill directions, lengths and turns, whose mean is at most half round; return the shortest
+    length in m.
+    """
     shortest = np.inf
     for k in range(shape.length.size):
         i, j = 2 * walls.edges[k, 0], 2 * walls.edges[k, 1]
@@ -106,6 +109,7 @@ def measure(x, walls, frame, shape):
     for k in range(shape.length.size):
         one, two = x[walls.dofs[k, 2]], x[walls.dofs[k, 5]]
         turned = between(frame[k, 0], frame[k, 1], shape.t[0, k], shape.t[1, k])
+        turned += WHOLE * round((0.5 * (one + two) - frame[k, 2] - turned) / WHOLE)
         shape.turn[0, k] = turned - (one - frame[k, 2])
         shape.turn[1, k] = turned - (two - frame[k, 2])
     return shortest

@@ -256,6 +256,20 @@ def test_what_is_far_along_the_network_touches_with_its_full_length():
     assert np.all(rules(touch, 1)[0][bend[1:]] < touch.tributary[1])
 
 
+def test_no_contact_starts_beyond_the_thickness_of_the_walls():
+    """Walls that leave a sharp corner and bend apart: neighbour lists reach one thickness far."""
+    ends = [(3 + 4 * np.cos(1.2), -4 * np.sin(1.2)), (3, 0), (0, 0), (3, 0.26)]
+    ends.append((3 + 4 * np.cos(1.2), 0.26 + 4 * np.sin(1.2)))
+    of = frame(ends, [(0, 1), (1, 2), (2, 3), (3, 4)], 6)
+    touch = contact_of(of)
+    _, distance, _ = rules(touch, 0)
+    assert distance.max() == pytest.approx(T)
+    listed = near_pairs.find(of.rest, touch, 100.0)
+    apart = listed.distance > 5.0 * T
+    assert np.any(touch.special_weight[listed.rule[apart & (listed.rule >= 0)]] == 0.0)
+    assert listed.d_contact.max() <= touch.reach
+
+
 @pytest.mark.parametrize("of", [joint_of_four(), grid(2, 8.0, 4), star(0, 10, 20)])
 def test_every_node_has_one_owner(of):
     subtract = contact_near_joints.owners(len(of.points), of.edges)

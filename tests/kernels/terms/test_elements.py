@@ -74,7 +74,7 @@ def test_a_rigid_motion_changes_no_deformation(turn):
     moved = carried(FRAME, x, turn)
     _, expected = measured(x)
     assert np.abs(expected.turn).max() > 0.1
-    for x0 in (moved, carried(FRAME, x, turn - 2.0)):
+    for x0 in (moved, carried(FRAME, x, turn - 2.0), carried(FRAME, x, turn + 4.0)):
         _, shape = measured(moved, x0)
         np.testing.assert_allclose(shape.length, expected.length, rtol=1e-12)
         np.testing.assert_allclose(shape.turn, expected.turn, rtol=0, atol=1e-12)

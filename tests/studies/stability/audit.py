@@ -317,7 +317,7 @@ def _balance(seen):
     else:
         yield f"{least / allowed:.1e} of the allowed residual"
     _, found = step.found(seen.x)
-    second = stored(seen.x, seen.terms, seen.step.x0)
+    second = stored(seen.x, seen.terms)
     error = np.abs(second.gradient - found.elastic).max()
     if not error <= SAME * second.scale + allowed:
         yield f"forces differ by {error / second.scale:.1e} from the second model"

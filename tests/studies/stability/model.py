@@ -23,11 +23,11 @@ class Stored(NamedTuple):
     scale: float
 
 
-def stored(x, terms, x0):
-    """Stored energy of the walls of a scene at ``x`` (n,) in a step from ``x0``, see `_turns`."""
+def stored(x, terms):
+    """Stored energy of the walls of a scene at ``x`` (n,)."""
     g, edges, stretch = np.zeros_like(x), terms.walls.edges, terms.stretch
     vector = np.diff(x[: 2 * terms.layout.n_nodes].reshape(-1, 2)[edges], axis=1)[:, 0]
-    length, turn = np.hypot(*vector.T), _turns(x, x0, vector, terms.walls)
+    length, turn = np.hypot(*vector.T), _turns(x, vector, terms.walls)
     same, mixed = stretch.arc
     strain = length / stretch.l0 - 1.0 + same * np.sum(turn**2, axis=0) + mixed * turn[0] * turn[1]
     density, stress = _guarded(terms.law.relaxing.elastic.curve, strain)
@@ -130,14 +130,11 @@ def _through_sections(turn, strain, bend):
     return energy, moments, bend.volume * by_strain
 
 
-def _turns(x, x0, vector, walls):
-    """Turns of both ends of every element, (2, m).
-
-    The chord turns less than half round from where both nodes held it when the step began.
-    """
+def _turns(x, vector, walls):
+    """Turns of both ends of every element, (2, m); their mean is at most half round."""
     rotation = walls.dofs[:, [2, 5]].T
     bearing, rest = np.arctan2(*vector.T[::-1]), np.arctan2(*walls.rest.T[::-1])
-    mean = x0[rotation].mean(axis=0)
+    mean = x[rotation].mean(axis=0)
     return _wrapped(bearing - rest - mean) - (x[rotation] - mean)
 
 
