@@ -12,6 +12,7 @@ from sweep.config.kinds.specimen import (
     WallLattice,
     check_proportion,
     check_size,
+    check_thin,
     thickness_of,
 )
 from sweep.config.kinds.table import (
@@ -266,6 +267,7 @@ def _check_openings(lattice: Cells) -> None:
             raise RefusedError("lattice.infill", lattice.infill, allowed)
         allowed = f"below half the width of the narrowest cell, {at_most(limit)} m here"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
+    check_thin(thickness, limit)
     gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
         outline, count = lattice.outline[axis], getattr(lattice, key)
