@@ -322,9 +322,25 @@ def quoted(name: str) -> str:
     return list2cmdline([name]) if sys.platform == "win32" else quote(name)
 
 
+def flush() -> None:
+    """Write buffered output, unless the reader has closed the pipe."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        silence()
+
+
+def silence() -> None:
+    """Discard buffered and later output, so that Python reports no second error at the exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def say(text: object, end: str = "\n") -> None:
-    """Print a line."""
-    sys.stdout.write(f"{plain(text)}{end}")
+    """Print a line. A reader that has closed the pipe changes neither work nor exit status."""
+    try:
+        sys.stdout.write(f"{plain(text)}{end}")
+    except BrokenPipeError:
+        silence()
 
 
 def say_all(lines: Iterable[object]) -> None:
@@ -335,5 +351,5 @@ def say_all(lines: Iterable[object]) -> None:
 
 def hint(lines: Iterable[str]) -> None:
     """Print lines on stderr, after the output on stdout."""
-    sys.stdout.flush()
+    flush()
     sys.stderr.writelines(f"{plain(line)}\n" for line in lines)
