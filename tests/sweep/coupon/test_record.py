@@ -97,6 +97,14 @@ def test_what_is_no_test_is_refused(tmp_path, test, wrong):
         read_coupon(written(tmp_path, test))
 
 
+@pytest.mark.parametrize("name", ["strain", "stress"])
+def test_a_chosen_column_of_one_number_is_refused(tmp_path, name):
+    path = written(tmp_path, changed(**{name: 0.0 * TEST.strain}))
+    number = str(1 + ["time", "strain", "stress"].index(name))
+    with pytest.raises(CouponError, match=f"the same {name} in all rows; needed: a column"):
+        read_coupon(path, Answers(columns={name: number}))
+
+
 def test_preload_is_shifted_as_the_user_says_with_a_sentence(tmp_path):
     path = written(tmp_path, changed(strain=TEST.strain + 0.01, stress=TEST.stress + 1e6))
     found = read_coupon(path, Answers(zero="first"))
