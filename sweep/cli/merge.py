@@ -23,6 +23,7 @@ def merge(out: str, files: list[str]) -> None:
     about = read_attributes(files[0])
     if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
         hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
+    about = {name: value for name, value in about.items() if name != "part"}
     with Writer(out, attributes=about) as writer:
         writer.fold(files=files)
     say(f"{out}: {counted(len(read_summary(out)), 'case')}")

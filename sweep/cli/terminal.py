@@ -9,7 +9,7 @@ from itertools import zip_longest
 from shlex import quote
 from subprocess import list2cmdline
 from textwrap import wrap
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.numbers import NOTHING, budget_text, in_unit, text_in
 from sweep.plain_text import plain
@@ -54,18 +54,29 @@ def version_counts(counts: Mapping[int, int]) -> str:
     return f"rows of model version {words}"
 
 
-def warnings(file: str, ranking: Ranking) -> Iterator[str]:
-    """Warnings about cases for a reader of the ranking."""
+def incomplete(count: int, about: Mapping[str, Any]) -> Iterator[str]:
+    """Warnings that a file of ``count`` cases lacks some that could lead; about: its attributes."""
     from sweep.cli.status_json import missing_cases
-    from sweep.result import HOW_TO_RENEW
-    from sweep.store.read import read_attributes
 
-    about = read_attributes(file)
-    if missing := missing_cases(ranking.cases, about):
+    if missing := missing_cases(count, about):
         yield (
             f"{missing} of {about['asked_cases']} cases of the last run are missing, and may "
             "change the order: the same crumple run computes them."
         )
+    if part := about.get("part"):
+        yield (
+            f"This file has part {part} of a sweep: designs of the other parts may be better; "
+            "crumple merge combines all parts."
+        )
+
+
+def warnings(file: str, ranking: Ranking) -> Iterator[str]:
+    """Warnings about cases for a reader of the ranking."""
+    from sweep.result import HOW_TO_RENEW
+    from sweep.store.read import read_attributes
+
+    about = read_attributes(file)
+    yield from incomplete(ranking.cases, about)
     if others := about["other_cases"]:
         yield (
             f"{others} of {ranking.cases} cases belong to other configs than the last run; "

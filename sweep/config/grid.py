@@ -73,7 +73,8 @@ class Config:
 
     cases: for a config with a search, the cases that the search has chosen so far. left_out: the
     combinations without a case. seed: of a search. recipe: content of its file; nothing for cases
-    without a file. notes: sentences about the slicer profiles that were read.
+    without a file. notes: sentences about the slicer profiles that were read. part: "1/2" for the
+    first of two parts of a sweep.
     """
 
     name: str
@@ -85,6 +86,7 @@ class Config:
     left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
     notes: tuple[str, ...] = ()
+    part: str = ""
 
     def __repr__(self) -> str:
         searched = f", a search of {', '.join(self.recipe.search)}" if self.recipe.search else ""
