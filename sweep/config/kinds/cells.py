@@ -1,6 +1,8 @@
 """A lattice of cells of one family, drawn in a box."""
 
-from typing import Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field
 
 from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import (
@@ -20,7 +22,6 @@ from sweep.config.kinds.table import (
     Inputs,
     Length,
     Mass,
-    Positive,
     RefusedError,
     Share,
     own_values,
@@ -66,7 +67,7 @@ class Cells(WallLattice):
     cell_size: Length | None = None
     mass: Mass | None = None
     infill: Share | None = None
-    grading: Positive = 1.0
+    grading: Annotated[float, Field(ge=1e-3, le=1e3)] = 1.0
     perimeters: Lines = 0
     line_width: Length | None = None
     solid_layers: Lines = 0

@@ -55,6 +55,7 @@ UNFIT = {
     'wall_thickness = "1e-300 mm"': (
         *('lattice.wall_thickness = "1e-300 mm"', "at least 2.084e-06 mm", "a millionth"),
     ),
+    "grading = 1e-300": ("lattice.grading = 1e-300", "at least 0.001, at most 1000"),
     'kind = "gyroid"\nwall_thickness = "1e-300 mm"': (
         *('lattice.wall_thickness = "1e-300 mm"', "at least", "a millionth"),
     ),
