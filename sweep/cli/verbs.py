@@ -331,9 +331,9 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
         return by_id(summary, arguments.case), ""
     question = asked(arguments)
     summary = with_allowed(arguments.file, summary, question)
-    found = by_number(summary, int(arguments.case), arguments.scene, question)
+    row_and_place = by_number(summary, int(arguments.case), arguments.scene, question)
     hint(incomplete(len(summary), read_attributes(arguments.file)))
-    return found
+    return row_and_place
 
 
 def _exit_status(summary: DataFrame) -> int:

@@ -254,7 +254,7 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
     return {"panel mm": sides[0] + " x " + sides[1]}
 
 
-def panel_note(rows: DataFrame, asked: Sequence[float]) -> list[str]:
+def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
     """The number of specimens in a panel, what strikes them, and whether they fill the lengths (m)
     of the question; none without a panel.
     """
@@ -268,16 +268,16 @@ def panel_note(rows: DataFrame, asked: Sequence[float]) -> list[str]:
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     struck = [STRUCK_PANEL] if has(rows, "struck").any() else []
-    unlike = _not_filled(rows, asked)
+    unlike = _not_filled(rows, panel)
     if most == 1:
         return [ONE_SPECIMEN.format(size), *unlike]
     count = least if least == most else f"{least} to {most}"
     return [PANEL.format(count, size), *unlike, *struck]
 
 
-def _not_filled(rows: DataFrame, asked: Sequence[float]) -> Iterator[str]:
+def _not_filled(rows: DataFrame, panel: Sequence[float]) -> Iterator[str]:
     """A sentence if whole specimens do not nearly make the panel of the question."""
     true = rows[["panel_width_m", "panel_depth_m"]]
-    if (off := float((true / list(asked) - 1.0).abs().max(axis=None))) > OFF:
-        sides = " x ".join(f"{in_unit(side, 'mm'):.4g}" for side in asked)
+    if (off := float((true / list(panel) - 1.0).abs().max(axis=None))) > OFF:
+        sides = " x ".join(f"{in_unit(side, 'mm'):.4g}" for side in panel)
         yield NOT_FILLED.format(sides, percent(off))
