@@ -65,7 +65,9 @@ def test_a_file_that_is_there_gets_more_rows(array, capsys):
 def test_a_part_is_ranked_and_exported_with_a_warning(array, capsys):
     crumple(capsys, "run", "array.toml", "--part", "1/2", "--out", "one.h5")
     crumple(capsys, "run", "array.toml", "--part", "2/2", "--out", "two.h5")
-    crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")
+    few = "these files have 1/2 of a sweep of 2 parts"
+    assert few in crumple(capsys, "merge", "few.h5", "one.h5")[2]
+    assert few not in crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")[2]
     for words in (["rank"], ["export", "1", "--to", "part.stl"], ["report"]):
         verb, *rest = words
         for file, told in (("one.h5", True), ("all.h5", False)):
