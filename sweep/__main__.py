@@ -714,6 +714,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         argument_parser.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs
     from sweep.cli.refusals import refusals
+    from sweep.cli.terminal import flush, silence
 
     if arguments.verb not in verbs.VERBS:
         argument_parser.verbs[arguments.verb].error(
@@ -724,15 +725,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
         status = verbs.VERBS[arguments.verb](arguments)
-        sys.stdout.flush()
-    except BrokenPipeError:
-        _silence()
-        return 0
+        flush()
     except KeyboardInterrupt as stop:
         print(str(stop) or "interrupted", file=sys.stderr)
         return 1
     except OSError as error:
-        _silence()
+        silence()
         return _refuse(arguments.verb, error)
     except refusals() as refusal:
         return _refuse(arguments.verb, refusal)
@@ -742,11 +740,6 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _refuse(verb: str, why: Exception) -> int:
     print(f"crumple {verb}: {plain(why)}", file=sys.stderr)
     return getattr(why, "exit_status", 2)
-
-
-def _silence() -> None:
-    """Discard buffered output, so that Python reports no second error at the exit."""
-    os.dup2(_nowhere(), sys.stdout.fileno())
 
 
 def _nowhere() -> int:

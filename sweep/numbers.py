@@ -139,9 +139,13 @@ def numerals(values: Series) -> Series:
 
 
 def three_digits(value: float) -> str:
-    """A number with at least three significant digits, without exponent: 0.0123, 1.23, 1234."""
+    """A number with at least three significant digits: 0.0123, 1.23, 1234; below a millionth with
+    an exponent.
+    """
     if not math.isfinite(value):
         return NOTHING
+    if 0.0 < abs(value) < 1e-6:
+        return f"{value:.2e}"
     decimals = 2 - math.floor(math.log10(abs(value))) if value else 0
     return f"{value:.{max(decimals, 0)}f}"
 

@@ -23,6 +23,10 @@ def merge(out: str, files: list[str]) -> None:
     about = read_attributes(files[0])
     if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
         hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
+    parts = {str(part) for file in files if (part := read_attributes(file).get("part"))}
+    if (count := max((int(part.split("/")[1]) for part in parts), default=0)) > len(parts):
+        hint([f"these files have {', '.join(sorted(parts))} of a sweep of {count} parts"])
+    about = {name: value for name, value in about.items() if name != "part"}
     with Writer(out, attributes=about) as writer:
         writer.fold(files=files)
     say(f"{out}: {counted(len(read_summary(out)), 'case')}")

@@ -41,7 +41,7 @@ LOADINGS = {
 mode = "crush"                       # a platen comes down and goes back up
 strain = "60 %"                      # of the height
 platen = "contact"                   # loose between plates; "glued": bonded to them
-allowed_forces = ["500 N", "2 kN"]   # each adds a column: the energy up to this force
+allowed_forces = ["500 N", "2 kN"]   # each adds a column to the results: energy up to it
 # cycles = 2                         # pressed twice
 """,
     "drop": """\

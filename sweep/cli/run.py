@@ -96,7 +96,7 @@ def _part(config: Config, arguments: Namespace) -> Config:
         raise ArgumentError(
             f"--part {number}/{count}: the sweep has only {len(config.cases)} cases"
         )
-    return replace(config, cases=cases)
+    return replace(config, cases=cases, part=f"{number}/{count}")
 
 
 def _screen(

@@ -9,7 +9,7 @@ from itertools import zip_longest
 from shlex import quote
 from subprocess import list2cmdline
 from textwrap import wrap
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.numbers import NOTHING, budget_text, in_unit, text_in
 from sweep.plain_text import plain
@@ -54,18 +54,29 @@ def version_counts(counts: Mapping[int, int]) -> str:
     return f"rows of model version {words}"
 
 
-def warnings(file: str, ranking: Ranking) -> Iterator[str]:
-    """Warnings about cases for a reader of the ranking."""
+def incomplete(count: int, about: Mapping[str, Any]) -> Iterator[str]:
+    """Warnings that a file of ``count`` cases lacks some that could lead; about: its attributes."""
     from sweep.cli.status_json import missing_cases
-    from sweep.result import HOW_TO_RENEW
-    from sweep.store.read import read_attributes
 
-    about = read_attributes(file)
-    if missing := missing_cases(ranking.cases, about):
+    if missing := missing_cases(count, about):
         yield (
             f"{missing} of {about['asked_cases']} cases of the last run are missing, and may "
             "change the order: the same crumple run computes them."
         )
+    if part := about.get("part"):
+        yield (
+            f"This file has part {part} of a sweep: designs of the other parts may be better; "
+            "crumple merge combines all parts."
+        )
+
+
+def warnings(file: str, ranking: Ranking) -> Iterator[str]:
+    """Warnings about cases for a reader of the ranking."""
+    from sweep.result import HOW_TO_RENEW
+    from sweep.store.read import read_attributes
+
+    about = read_attributes(file)
+    yield from incomplete(ranking.cases, about)
     if others := about["other_cases"]:
         yield (
             f"{others} of {ranking.cases} cases belong to other configs than the last run; "
@@ -322,9 +333,25 @@ def quoted(name: str) -> str:
     return list2cmdline([name]) if sys.platform == "win32" else quote(name)
 
 
+def flush() -> None:
+    """Write buffered output, unless the reader has closed the pipe."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        silence()
+
+
+def silence() -> None:
+    """Discard buffered and later output, so that Python reports no second error at the exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def say(text: object, end: str = "\n") -> None:
-    """Print a line."""
-    sys.stdout.write(f"{plain(text)}{end}")
+    """Print a line. A reader that has closed the pipe changes neither work nor exit status."""
+    try:
+        sys.stdout.write(f"{plain(text)}{end}")
+    except BrokenPipeError:
+        silence()
 
 
 def say_all(lines: Iterable[object]) -> None:
@@ -335,5 +362,5 @@ def say_all(lines: Iterable[object]) -> None:
 
 def hint(lines: Iterable[str]) -> None:
     """Print lines on stderr, after the output on stdout."""
-    sys.stdout.flush()
+    flush()
     sys.stderr.writelines(f"{plain(line)}\n" for line in lines)

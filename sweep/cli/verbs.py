@@ -12,6 +12,7 @@ from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.status import failed_cases, print_status
 from sweep.cli.terminal import (
     hint,
+    incomplete,
     nearest_commands,
     print_ranking,
     print_sheets,
@@ -194,7 +195,6 @@ def export(arguments: Namespace) -> int:
 
 def report(arguments: Namespace) -> int:
     """Write a results file as one HTML page."""
-    from sweep.cli.status_json import missing_cases
     from sweep.export.page import export_page
     from sweep.ranking.question import Question
     from sweep.store.read import read_attributes, read_summary
@@ -215,8 +215,7 @@ def report(arguments: Namespace) -> int:
         hint(["there is no browser to open it"])
     if failed := len(failed_cases(summary)):
         hint([f"{failed} of {len(summary)} cases failed: the page lists them"])
-    if missing := missing_cases(len(summary), read_attributes(arguments.file)):
-        hint([f"{missing} cases of the last run are missing: they may change the order"])
+    hint(incomplete(len(summary), read_attributes(arguments.file)))
     return _exit_status(summary)
 
 
@@ -322,6 +321,7 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
     """The row that CASE refers to, and a sentence about its place if CASE is a number."""
     from sweep.cli.find_case import by_id, by_number, is_number
     from sweep.ranking.curves import with_allowed
+    from sweep.store.read import read_attributes
 
     if not (arguments.case and is_number(arguments.case)):
         if options := _of_a_number(arguments):
@@ -331,7 +331,9 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
         return by_id(summary, arguments.case), ""
     question = asked(arguments)
     summary = with_allowed(arguments.file, summary, question)
-    return by_number(summary, int(arguments.case), arguments.scene, question)
+    row_and_place = by_number(summary, int(arguments.case), arguments.scene, question)
+    hint(incomplete(len(summary), read_attributes(arguments.file)))
+    return row_and_place
 
 
 def _exit_status(summary: DataFrame) -> int:

@@ -24,7 +24,9 @@ from sweep.numbers import counted, text_in
 MAX_CASES = 1_000_000
 _QUANTITY = re.compile(r'"([\d.eE+-]+)\s*(.+)"')
 _LENGTH = re.compile(r"(?<![\w.])([\d.]+(?:e[+-]?\d+)?) m(?![\w/^])")  # in SI
+_NUMBER = re.compile(r"[\d.]+(?:e[+-]?\d+)?")
 PRINTABLE = "lattice.printable"
+FAMILY = frozenset(("lattice.kind", "lattice.pattern"))
 OF_A_FILE = frozenset(f"material.{name}" for name in UNITS)
 SWEEP = "cases of crumple.case, or what crumple.load_config returns"
 ONLY_OPTIMIZE = "only `crumple optimize` searches; allowed here: lists of values in [grid]"
@@ -71,7 +73,8 @@ class Config:
 
     cases: for a config with a search, the cases that the search has chosen so far. left_out: the
     combinations without a case. seed: of a search. recipe: content of its file; nothing for cases
-    without a file. notes: sentences about the slicer profiles that were read.
+    without a file. notes: sentences about the slicer profiles that were read. part: "1/2" for the
+    first of two parts of a sweep.
     """
 
     name: str
@@ -83,6 +86,7 @@ class Config:
     left_out: LeftOut = field(default_factory=LeftOut)
     seed: int = 0
     notes: tuple[str, ...] = ()
+    part: str = ""
 
     def __repr__(self) -> str:
         searched = f", a search of {', '.join(self.recipe.search)}" if self.recipe.search else ""
@@ -133,9 +137,10 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     """The cases, and which combinations are left out, as their values cannot be combined.
 
     The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
-    value that no combination can use, unless it is merely not printable, a grid without any
-    possible case, a key that no case uses, and a table of [[exclude]] that drops no case. A search
-    is tried at a few points (`_combinations`), and has no cases.
+    value that no combination can use, unless it is merely not printable, or a kind of lattice that
+    does not fit values which other kinds can use; a grid without any possible case; a key that no
+    case uses; and a table of [[exclude]] that drops no case. A search is tried at a few points
+    (`_combinations`), and has no cases.
     """
     count = recipe.count
     if count > MAX_CASES:
@@ -159,7 +164,7 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
         if case.case_id not in cases.ids:
             cases.add(case)
         unused = still_unused(unused, draft.given, case) if unused else unused
-    refused = [draft for draft in impossible if draft.needs(usable)] if cases else impossible
+    refused = [draft for draft in impossible if draft.is_mistaken(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
         raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))
     if not cases:
@@ -190,9 +195,15 @@ class _Combination:
         """Its values along the axes, as the file writes them."""
         return {(key, written.text) for key, written in self.chosen.items()}
 
-    def needs(self, usable: set[tuple[str, str]]) -> bool:
-        """Whether it has a value that is not usable, not merely walls that are not printable."""
-        return [fault.key for fault in self.faults] != [PRINTABLE] and not self.texts <= usable
+    def is_mistaken(self, usable: set[tuple[str, str]]) -> bool:
+        """Whether it has a value that is not usable; but not if merely its walls do not print, or
+        if its kind of lattice does not fit values that other kinds can use.
+        """
+        unusable = {key for axis, text in self.texts - usable for key in _keys(axis)}
+        if not unusable or [fault.key for fault in self.faults] == [PRINTABLE]:
+            return False
+        given = self.given.keys() - unusable
+        return unusable.isdisjoint(FAMILY) or any(f.key not in given for f in self.faults)
 
     def value(self, key: str) -> Any:
         """The value of the case; for an alias, the value that all its targets share."""
@@ -336,12 +347,16 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
 
 
 def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:
-    """One fault for each refused value; count: number of all combinations."""
-    alike: dict[str, list[tuple[Fault, Values]]] = {}
+    """One fault for each refused value and reason, whatever its numbers; count: number of all
+    combinations.
+    """
+    alike: dict[tuple[str, str], list[tuple[Fault, Values]]] = {}
     for draft in refused:
         for fault in draft.faults:
-            value = fault.key if recipe.search else fault.line.split(":")[0]
-            alike.setdefault(value, []).append((fault, draft.chosen))
+            value, _, reason = fault.line.partition(":")
+            alike.setdefault(
+                (fault.key, "") if recipe.search else (value, _NUMBER.sub("", reason)), []
+            ).append((fault, draft.chosen))
     return [_merged(refusals, count, recipe) for refusals in alike.values()]
 
 

@@ -47,6 +47,7 @@ CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 """Where a word ends in "LoadCell" and "XForce"."""
 EQUAL = 0.01  # share of the range of a column within which two columns are the same
 LONGEST = 40  # most characters of a head that are shown
+CONSTANT = " (constant)"
 MOST_HEADS = 8  # most heads that a message lists
 EXAMPLES = {"time": "s", "displacement": "mm", "strain": "%", "force": "N", "stress": "MPa"}
 
@@ -130,7 +131,7 @@ def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
 
     If no unit fits, columns whose words fit and whose unit is not the unit of any quantity.
     """
-    moving = [k for k, values in enumerate(table.values.T) if np.ptp(_finite_or_zero(values)) > 0.0]
+    moving = [k for k in range(len(table.heads)) if _moves(table, k)]
     units = {k: given or table.units[k] for k in moving}
     columns = [k for k in moving if _may_be(table.heads[k], units[k], quantity)]
     if not columns:
@@ -140,10 +141,11 @@ def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
     return own if len(own) == 1 else columns
 
 
-def _finite_or_zero(values: Floats) -> Floats:
-    """The finite values, or one zero if there are none."""
+def _moves(table: Table, k: int) -> bool:
+    """Whether a column has different finite numbers."""
+    values = table.values[:, k]
     finite = values[np.isfinite(values)]
-    return finite if finite.size else np.zeros(1)
+    return bool(finite.size and np.ptp(finite) > 0.0)
 
 
 def _may_be(head: str, unit: str, quantity: str) -> bool:
@@ -200,8 +202,9 @@ def _name(table: Table, k: int) -> str:
 
 
 def heads_of(table: Table) -> str:
-    """The heads of a table, in words."""
-    heads = [shown(head) for head in table.heads if head]
+    """The heads of a table, in words, and which columns have one value and are therefore unused."""
+    named = [k for k, head in enumerate(table.heads) if head]
+    heads = [shown(table.heads[k]) + CONSTANT * (not _moves(table, k)) for k in named]
     if not heads:
         return f"its {len(table.heads)} columns have no heads, so that --units are needed too"
     more = f" and {len(heads) - MOST_HEADS} more" if len(heads) > MOST_HEADS else ""

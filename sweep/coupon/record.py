@@ -63,6 +63,9 @@ def _coupon(path: Path, answers: Answers) -> Coupon:
     raw = measured(table, columns, answers)
     if raw is None:
         raise MisfitError(_needed(columns.questions))
+    for quantity, values in (("strain", raw.strain), ("stress", raw.stress)):
+        if not np.ptp(values):
+            raise MisfitError(f"the same {quantity} in all rows; needed: a column that changes")
     texts = [*table.heads, *(" ".join(row) for row in table.lines)]
     time, strain, stress = _zeroed(_directed(raw, columns, answers, texts), columns, answers)
     if raw.to_scale:

@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 from sweep.design.slicer.patterns import Sliced
 
+THIN = 1e-6  # least thickness of walls, as a share of the greatest
+
 
 class Drawing(NamedTuple):
     """A network of walls that a user has drawn, from its lower left corner.

@@ -7,14 +7,13 @@ import numpy as np
 
 from sweep.design.box import infill_walls
 from sweep.design.drawing import FEW, extent, pitch, sketch
-from sweep.design.geometry import Geometry
+from sweep.design.geometry import THIN, Geometry
 from sweep.design.infill import trait
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
 
 SLACK = 1 / 3  # relative error allowed in a share: one or two cells differ by as much
 CLOSE = 1e-14  # tolerance, as a share of the greatest mass
-THIN = 1e-6  # least thickness tried, as a share of the greatest
 
 
 def infill_share(geometry: Geometry) -> float:

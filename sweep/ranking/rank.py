@@ -230,6 +230,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
         lost=labels[~labels.isin(list(scene_rows))].value_counts(sort=False).to_dict(),
+        panel=tuple(in_si(side, "m") for side in panel or ()),
         per=per,
         required=required,
         outcomes={

@@ -42,6 +42,7 @@ class Ranking:
     lightest_g : the least mass (g) of each scene. lightest : the row of that design.
     lost : number of cases of each scene in which no case completed its loading.
     narrow : patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
+    panel : the two lengths (m) of the panel in the question; none without one.
     per : to which the allowed force and the requirements apply, "specimen" or "panel".
     required : the limit (SI) of each requirement.
     outcomes : how the designs of each scene meet them, within each budget; empty if none are given.
@@ -67,6 +68,7 @@ class Ranking:
     lightest: Mapping[str, DataFrame]
     lost: Mapping[str, int] = field(default_factory=dict)
     narrow: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    panel: tuple[float, ...] = ()
     per: str = "specimen"
     required: Mapping[str, float] = field(default_factory=dict)
     outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)

@@ -71,6 +71,7 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         place = stack.enter_context(open_place(scheduler))
         try:
             about = describe_run(config_text(config))
+            about |= {"part": config.part} if config.part else {}
             writer = stack.enter_context(Writer(out, cases.labels, about))
         except WriteError as error:
             if cases.ids - finished_ids(out, rerun):

@@ -46,8 +46,8 @@ def test_quantities_are_shown_in_a_unit_and_read_back():
 
 
 def test_numbers_show_three_digits():
-    numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, NAN, float("inf")]
-    expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "–", "–"]
+    numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, 1.234e-300, NAN, float("inf")]
+    expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "1.23e-300", "–", "–"]
     assert [three_digits(number) for number in numbers] == expected
 
 

@@ -1,6 +1,8 @@
 """A lattice of cells of one family, drawn in a box."""
 
-from typing import Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field
 
 from sweep.config.kinds.mesh import nodes_of
 from sweep.config.kinds.specimen import (
@@ -12,6 +14,7 @@ from sweep.config.kinds.specimen import (
     WallLattice,
     check_proportion,
     check_size,
+    check_thin,
     thickness_of,
 )
 from sweep.config.kinds.table import (
@@ -19,7 +22,6 @@ from sweep.config.kinds.table import (
     Inputs,
     Length,
     Mass,
-    Positive,
     RefusedError,
     Share,
     own_values,
@@ -65,7 +67,7 @@ class Cells(WallLattice):
     cell_size: Length | None = None
     mass: Mass | None = None
     infill: Share | None = None
-    grading: Positive = 1.0
+    grading: Annotated[float, Field(ge=1e-3, le=1e3)] = 1.0
     perimeters: Lines = 0
     line_width: Length | None = None
     solid_layers: Lines = 0
@@ -266,6 +268,7 @@ def _check_openings(lattice: Cells) -> None:
             raise RefusedError("lattice.infill", lattice.infill, allowed)
         allowed = f"below half the width of the narrowest cell, {at_most(limit)} m here"
         raise RefusedError("lattice.wall_thickness", thickness, allowed)
+    check_thin(thickness, limit)
     gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
         outline, count = lattice.outline[axis], getattr(lattice, key)

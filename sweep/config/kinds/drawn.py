@@ -9,7 +9,13 @@ from pydantic import AfterValidator
 from pydantic_core import PydanticCustomError
 
 from sweep.config.kinds.mesh import nodes_of
-from sweep.config.kinds.specimen import WallLattice, check_proportion, check_size, thickness_of
+from sweep.config.kinds.specimen import (
+    WallLattice,
+    check_proportion,
+    check_size,
+    check_thin,
+    thickness_of,
+)
 from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.geometry import Drawing, Geometry
 from sweep.numbers import at_most
@@ -85,6 +91,7 @@ class Drawn(WallLattice):
         if lattice.wall_thickness >= lattice.thickest:
             allowed = f"below half the width of the widest cell, {at_most(lattice.thickest)} m here"
             raise RefusedError("lattice.wall_thickness", lattice.wall_thickness, allowed)
+        check_thin(lattice.wall_thickness, lattice.thickest)
         return lattice
 
     @classmethod

@@ -13,6 +13,7 @@ from sweep.config.kinds.specimen import (
     Specimen,
     check_imperfection,
     check_thickness,
+    check_thin,
 )
 from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.surfaces.names import BLOCK, SHEETS
@@ -202,6 +203,7 @@ class Sheet(Surface):
         lattice = checked(draft(wanted))
         if lattice.mass is not None:
             check_thickness(lattice.wall_thickness, inputs)
+        check_thin(lattice.wall_thickness, THICKEST * lattice.period)
         if lattice.misfit:
             raise _misfit(lattice, inputs, *narrowest(lattice, draft, step))
         if wanted > widest(height, step):

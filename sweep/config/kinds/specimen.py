@@ -9,7 +9,7 @@ from pydantic import Field
 
 from sweep.config.kinds.table import Few, Inputs, Length, RefusedError, Size, Table
 from sweep.config.structures.structure import Structure
-from sweep.design.geometry import Geometry
+from sweep.design.geometry import THIN, Geometry
 from sweep.numbers import at_least, at_most
 
 if TYPE_CHECKING:
@@ -266,6 +266,13 @@ def cause(specimen: Specimen, inputs: Inputs, keys: tuple[str, ...]) -> tuple[st
     numbers = {key: value for key, value in values.items() if not isinstance(value, str)}
     key = max(numbers or values or keys[-1:], key=lambda key: numbers.get(key, 0.0))
     return f"lattice.{key}", specimen.value(key)
+
+
+def check_thin(thickness: float, thickest: float) -> None:
+    """Refuse walls that are thinner than the least share of the greatest thickness (m)."""
+    if thickness < (least := THIN * thickest):
+        allowed = f"at least {at_least(least)} m, a millionth of the greatest thickness"
+        raise RefusedError("lattice.wall_thickness", thickness, allowed)
 
 
 def thickness_of(lattice: WallLattice, mass: float, inputs: Inputs, density: float) -> float:

@@ -385,7 +385,18 @@ class Reader:
             raise MisfitError(
                 f"a bare number above {key.bare_most:g}, which may be meant in percent"
             )
+        if key.bare and isinstance(raw, str) and _is_number(raw):
+            raise MisfitError("a number in quotes, without a unit")
         return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _is_share(key: Key, raw: object) -> bool:

@@ -109,7 +109,7 @@ def legend(ranking: Ranking) -> str:
         counted = [CRUSHED.format(noun=noun, until=ranking.until, of=of)] if mode.driven else []
         whole = mode.notes and not (mode.driven and ranking.limited)
         lines += [*counted, *(meanings(table, mode) if whole else [])]
-    lines += panel_note(table) + column_notes(ranking) + _notes(ranking)
+    lines += panel_note(table, ranking.panel) + column_notes(ranking) + _notes(ranking)
     return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *_error_notes(table)]))
 
 

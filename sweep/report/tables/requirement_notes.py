@@ -9,7 +9,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 from sweep.modes import MODES, has, mode_of
-from sweep.numbers import budget_text, energy_text, in_unit, numerals, tenths, three_digits
+from sweep.numbers import budget_text, energy_text, in_unit, numerals, percent, tenths, three_digits
 from sweep.ranking.merit import doubtful, is_period
 from sweep.ranking.requirement_table import MEASURES
 
@@ -25,6 +25,12 @@ PANEL = (
     "panel N: force of the {} separate specimens of a panel together. Its true size is {} mm.\n"
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
+)
+OFF = 0.05  # relative difference of a side
+NOT_FILLED = (
+    "Whole specimens do not fill the panel of {} mm in the question: a side differs by up to {} %."
+    "\n"
+    "Mass, energy and force of the panel are of its true size."
 )
 WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm; effects of its edges are neglected."
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
@@ -248,8 +254,10 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
     return {"panel mm": sides[0] + " x " + sides[1]}
 
 
-def panel_note(rows: DataFrame) -> list[str]:
-    """The number of specimens in a panel, and what strikes them; none without a panel."""
+def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
+    """The number of specimens in a panel, what strikes them, and whether they fill the lengths (m)
+    of the question; none without a panel.
+    """
     if "panel_specimens" not in rows or has(rows, "dead").all():
         return []
     whole = is_period(rows)
@@ -260,6 +268,16 @@ def panel_note(rows: DataFrame) -> list[str]:
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     struck = [STRUCK_PANEL] if has(rows, "struck").any() else []
+    unlike = _not_filled(rows, panel)
     if most == 1:
-        return [ONE_SPECIMEN.format(size)]
-    return [PANEL.format(least if least == most else f"{least} to {most}", size), *struck]
+        return [ONE_SPECIMEN.format(size), *unlike]
+    count = least if least == most else f"{least} to {most}"
+    return [PANEL.format(count, size), *unlike, *struck]
+
+
+def _not_filled(rows: DataFrame, panel: Sequence[float]) -> Iterator[str]:
+    """A sentence if whole specimens do not nearly make the panel of the question."""
+    true = rows[["panel_width_m", "panel_depth_m"]]
+    if (off := float((true / list(panel) - 1.0).abs().max(axis=None))) > OFF:
+        sides = " x ".join(f"{in_unit(side, 'mm'):.4g}" for side in panel)
+        yield NOT_FILLED.format(sides, percent(off))

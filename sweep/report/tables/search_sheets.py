@@ -74,12 +74,13 @@ def _again(values: Series) -> list[str]:
 
 
 def _verdict(spread: Spread) -> Iterator[str]:
-    """Sentences about how reliable the value of the first design is."""
+    """Sentences about how reliable the place and the value of the first design are."""
     worst, values = spread.worst, spread.at_corners[AS_GIVEN]
     kept = worst / values
     if spread.failed:
         yield f"{spread.failed} values are missing, as these cases failed."
     yield from _limits_missed(spread)
+    yield from _rivals(spread)
     first = float(kept.iloc[0])
     if first < NARROW or first > 1.0 / NARROW:
         at = _where(spread)
@@ -89,6 +90,23 @@ def _verdict(spread: Spread) -> Iterator[str]:
     if safest.notna().any() and (k := int(safest.argmax())):
         place, value = spread.rows["place"].iloc[k], three_digits(float(worst.iloc[k]))
         yield f"The safest of these is number {place}, with {value} at its worst."
+
+
+def _rivals(spread: Spread) -> Iterator[str]:
+    """Sentences about designs that may be better than the first one."""
+    places, values = spread.rows["place"], spread.sign * spread.at_corners
+    values.index = places.index
+    errors = abs(values.get(FINE, values[AS_GIVEN]) - values[AS_GIVEN])
+    behind = values[AS_GIVEN].iloc[0] - values[AS_GIVEN]
+    if near := [*map(str, places[behind <= errors + errors.iloc[0]].iloc[1:])]:
+        all_of = ", ".join([str(places.iloc[0]), *near])
+        yield f"The first place is not certain: the errors of the mesh of {all_of} overlap."
+    ahead: dict[int, list[str]] = {}
+    for name in spread.swaps:
+        if first := spread.first(name):
+            ahead.setdefault(first, []).append(name)
+    for row, corners in ahead.items():
+        yield f"Number {places.iloc[row]} is the best with {', '.join(corners)}."
 
 
 def _limits_missed(spread: Spread) -> Iterator[str]:

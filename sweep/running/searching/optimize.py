@@ -3,11 +3,11 @@ line.
 """
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 
-from sweep.config.axis import Written
+from sweep.config.axis import Choice, Written
 from sweep.config.case import Case
 from sweep.config.grid import Config
 from sweep.config.load import Source, load_config
@@ -111,8 +111,20 @@ def check_searchable(config: Config) -> None:
 def search_of(config: Config, question: Question, out: str, how: Settings) -> Search:
     """The search for the designs that answer a question, into the results file `out`."""
     check_start(question, start_of(config, question, out, how))
+    for line in _like_ranges(config):
+        announce(line)
     space = DesignSpace(_with_force(config, question), *_limits(question))
     return Search(space, question, out, how)
+
+
+def _like_ranges(config: Config) -> Iterator[str]:
+    """A line for each list of two numbers in a [search], which may be meant as a range."""
+    for key, axis in config.recipe.search.items():
+        numbers = axis.values if isinstance(axis, Choice) and len(axis.values) == 2 else ()
+        if all(isinstance(one.value, int | float) for one in numbers) and numbers:
+            low, high = (one.text for one in sorted(numbers, key=lambda one: one.value))
+            between = f"{{from = {low}, to = {high}}}"
+            yield f"[search] {key}: only {low} and {high}; for all between them: {between}"
 
 
 def start_of(config: Config, question: Question, out: str, how: Settings) -> list[Case]:

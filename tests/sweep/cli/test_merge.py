@@ -62,6 +62,20 @@ def test_a_file_that_is_there_gets_more_rows(array, capsys):
     assert len(read_summary("two.h5")) == 2
 
 
+def test_a_part_is_ranked_and_exported_with_a_warning(array, capsys):
+    crumple(capsys, "run", "array.toml", "--part", "1/2", "--out", "one.h5")
+    crumple(capsys, "run", "array.toml", "--part", "2/2", "--out", "two.h5")
+    few = "these files have 1/2 of a sweep of 2 parts"
+    assert few in crumple(capsys, "merge", "few.h5", "one.h5")[2]
+    assert few not in crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")[2]
+    for words in (["rank"], ["export", "1", "--to", "part.stl"], ["report"]):
+        verb, *rest = words
+        for file, told in (("one.h5", True), ("all.h5", False)):
+            status, *output = crumple(capsys, verb, file, *rest)
+            assert status == 0
+            assert ("has part 1/2 of a sweep" in "".join(output)) == told
+
+
 @pytest.mark.parametrize("part", ["0/2", "3/2", "1", "a/b", "1/0", "-1/2"])
 def test_a_part_that_is_none_is_refused(array, capsys, part):
     status, _, err = crumple(capsys, "run", "array.toml", f"--part={part}")

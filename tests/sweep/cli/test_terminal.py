@@ -44,12 +44,16 @@ def test_scheduler_that_is_none_ends_the_command(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
 
 
-def test_output_that_nobody_reads_is_no_error(file):
-    read, write = os.pipe()
+@pytest.mark.parametrize("words", [["status"], ["rank", "--json"]])
+def test_output_that_nobody_reads_changes_no_exit_status(tmp_path, words):
+    cases = [{"case_id": f"{k:016x}"} for k in range(1, 100)]
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, *cases))
+    read, pipe = os.pipe()
     os.close(read)
-    with os.fdopen(write, "w") as pipe:
-        done = started("status", file, stdout=pipe)
-    assert (done.returncode, done.stderr) == (0, "")
+    with os.fdopen(pipe, "w") as nobody:
+        done = started(words[0], file, *words[1:], stdout=nobody)
+    assert done.returncode == 1
+    assert "pipe" not in done.stderr
 
 
 def test_output_that_is_closed_is_no_error(file):

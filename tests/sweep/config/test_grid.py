@@ -169,6 +169,32 @@ def test_a_value_that_no_combination_can_use_is_refused(lines):
     assert line.endswith("(2 of 6 combinations)")
 
 
+KINDS_OF_ONE_MASS = (
+    '[lattice]\nmass = "50 g"\nwidth = "100 mm"\ndepth = "50 mm"\nheight = "15 mm"\n'
+    '[grid]\nlattice.kind = ["square", "kagome", "gyroid"]\n'
+    'lattice.cell_size = ["10 mm", "15 mm"]\n'
+)
+
+
+def test_a_kind_that_does_not_fit_values_of_others_is_left_out(load):
+    config = load(KINDS_OF_ONE_MASS)
+    assert len(config.cases) == 3
+    assert config.left_out.impossible == 3
+    kagome, gyroid = config.left_out.reasons
+    assert kagome.startswith('lattice.mass = "50 g": does not fit; allowed: between ')
+    assert kagome.endswith('with lattice.kind = "kagome", lattice.cell_size = "10 mm")')
+    assert "where walls are below a fifth of the period (2 of 6" in gyroid
+
+
+def test_a_kind_that_lacks_a_key_or_has_a_bad_value_of_its_own_is_refused(lines):
+    told = lines(KINDS_OF_ONE_MASS.replace("gyroid", "drawn"))
+    assert any(line.startswith("lattice.file is missing; needed: ") for line in told)
+    (line,) = lines(
+        '[[zip]]\nlattice.kind = ["square", "hex"]\nlattice.wall_thickness = ["0.8 mm", "9 mm"]'
+    )
+    assert line.startswith('lattice.wall_thickness = "9 mm": does not fit')
+
+
 def test_what_is_excluded_does_not_make_a_value_usable(lines):
     excluded = '[[exclude]]\nlattice.mass = "1.4 g"\nlattice.kind = "hex"'
     (line,) = lines(MASSES + excluded)

@@ -69,7 +69,10 @@ def test_test_of_a_file_is_what_the_user_says(tmp_path):
         ("time_s,e,stress_Pa", (1, 1, 1), "--columns strain=..., or displacement=... with --gaug"),
         ("strain,stress_Pa", (1, 1, 1), "rows have 3 values, but there are 2 heads; needed: as"),
         ("Time,Strain,Stress", (1, 1, 1), "--units time=s strain=% stress=MPa, or other units"),
-        ("time_s,strain,stress_Pa", (1, 1, 0), "--columns stress=..., or force"),
+        (
+            *("time_s,strain,stress_Pa", (1, 1, 0)),
+            r"--columns stress=..., or force.*: time, strain, stress \(constant\)",
+        ),
     ],
 )
 def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wrong):
@@ -92,6 +95,14 @@ def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wro
 def test_what_is_no_test_is_refused(tmp_path, test, wrong):
     with pytest.raises(CouponError, match=wrong):
         read_coupon(written(tmp_path, test))
+
+
+@pytest.mark.parametrize("name", ["strain", "stress"])
+def test_a_chosen_column_of_one_number_is_refused(tmp_path, name):
+    path = written(tmp_path, changed(**{name: 0.0 * TEST.strain}))
+    number = str(1 + ["time", "strain", "stress"].index(name))
+    with pytest.raises(CouponError, match=f"the same {name} in all rows; needed: a column"):
+        read_coupon(path, Answers(columns={name: number}))
 
 
 def test_preload_is_shifted_as_the_user_says_with_a_sentence(tmp_path):

@@ -244,6 +244,13 @@ def test_a_strain_above_one_needs_its_unit(load, refused):
         assert case.material.fracture_strain == strain
 
 
+@pytest.mark.parametrize("number", ["60", "0.6", " 6e-1 "])
+def test_a_share_in_quotes_needs_its_unit(refused, number):
+    told = refused(f'[loading]\nstrain = "{number}"', f'loading.strain = "{number}"', "allowed: a")
+    assert "in quotes" in told
+    assert "bare number" not in told
+
+
 def test_a_text_with_line_breaks_stays_in_one_line(lines):
     assert len(lines('[material]\nname = "a\\nb"\n"c\\nd" = 1')) == 2
 

@@ -74,6 +74,15 @@ def test_quantities_are_those_of_a_maker():
     assert quantity("max_force", 12345.6, digits=3) == "12300 N"
 
 
+@pytest.mark.parametrize(
+    ("asked", "told"), [(("130 mm", "50 mm"), ""), (("130 mm", "56 mm"), "130 x 56 mm")]
+)
+def test_a_panel_that_specimens_do_not_fill_is_told(asked, told):
+    words = legend(ranked(CRUSHES, panel=asked))
+    line = f"do not fill the panel of {told} in the question: a side differs by up to "
+    assert (line in words) == bool(told)
+
+
 def test_a_panel_of_one_specimen_has_no_neighbours():
     table = CRUSHES.assign(outer_width_m=50e-3, depth_m=50e-3)
     words = legend(ranked(table, panel=("50 mm", "50 mm")))

@@ -19,7 +19,8 @@ def sheet(fine, thin, thick, column=ENERGY):
     values = {AS_GIVEN: rows[column], FINE: fine, "walls -5 %": thin, "walls +5 %": thick}
     table = DataFrame({name: list(numbers) for name, numbers in values.items()})
     failed = int(table.isna().to_numpy().sum())
-    return finalist_sheet(Spread(rows, column, table, table.rank(), failed), OWN)
+    places = table.rank(ascending=column == "mass_g", method="min")
+    return finalist_sheet(Spread(rows, column, table, places, failed), OWN)
 
 
 def test_row_has_the_fine_mesh_and_the_spread():
@@ -30,10 +31,21 @@ def test_row_has_the_fine_mesh_and_the_spread():
     assert len(found.notes) == 1
 
 
+def test_a_first_place_that_the_mesh_or_a_print_may_reverse_is_told():
+    near = "The first place is not certain: the errors of the mesh of 1, 2 overlap."
+    ahead = "Number 2 is the best with walls +5 %."
+    assert near in sheet((0.36, 0.36), (0.36, 0.29), (0.37, 0.31)).notes
+    assert ahead not in sheet((0.36, 0.36), (0.36, 0.29), (0.37, 0.31)).notes
+    certain = sheet((0.39, 0.31), (0.39, 0.3), (0.3, 0.31)).notes
+    assert near not in certain
+    assert ahead in certain
+
+
 def test_least_is_the_best_where_the_column_says_so():
     found = sheet((1.0, 2.0), (1.0, 2.0), (3.0, 2.1), "mass_g")
-    assert "with walls +5 % it has 300 % of this value." in found.notes[1]
-    assert found.notes[2].startswith("The safest of these is number 2, with 2.10")
+    assert found.notes[1] == "Number 2 is the best with walls +5 %."
+    assert "with walls +5 % it has 300 % of this value." in found.notes[2]
+    assert found.notes[3].startswith("The safest of these is number 2, with 2.10")
 
 
 @pytest.mark.parametrize("missing", [1, 3])

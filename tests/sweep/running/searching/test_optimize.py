@@ -30,6 +30,16 @@ def test_the_designs_that_were_tried_and_the_best_are_returned(tables, tmp_path)
     assert best[ENERGY].item() == results.table[ENERGY].max()
 
 
+def test_two_numbers_that_may_be_meant_as_a_range_are_told(tables, capsys):
+    optimize(tables, by=ENERGY, evaluations=4)
+    assert "only" not in capsys.readouterr().err
+    key = "lattice.wall_thickness"
+    tables["search"][key] = ["1.2 mm", "0.4 mm"]
+    optimize(tables, by=ENERGY, evaluations=4, out="two.h5")
+    told = f'[search] {key}: only "0.4 mm" and "1.2 mm"; for all between them: '
+    assert told + '{from = "0.4 mm", to = "1.2 mm"}' in capsys.readouterr().err
+
+
 def test_it_goes_on_where_it_ended_and_another_seed_does_not(tables):
     config = load_config(tables)
     first = optimize(config, by=ENERGY, evaluations=8)
