@@ -125,6 +125,13 @@ def slipped_off() -> Failure:
     return Status.SLIPPED, f"{why}; {advice}"
 
 
+def tipped_over() -> Failure:
+    """The walls of a crush between loose flat platens bear nothing at full stroke."""
+    why = "the lattice tipped over between the loose platens, and bears nothing at full stroke"
+    advice = 'try a wider or lower lattice, or a loading.platen of "glued"'
+    return Status.SLIPPED, f"{why}; {advice}"
+
+
 def still_pushed_back(where: str) -> Failure:
     """The striker of a case that has finished is still accelerated upwards."""
     why = "the lattice still pushes the striker back"

@@ -50,6 +50,7 @@ from sweep.simulation.failures import (
     still_pushed_back,
     stopped,
     timed_out,
+    tipped_over,
     unbalanced,
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
@@ -75,6 +76,7 @@ CURABLE = {  # other steps or another imperfection may help
 EXPIRED = 2  # value of `stop[0]` after the time limit
 LOST, REGAINED = 0.1, 0.25  # share of the greatest force: a lattice slips away from a striker
 UNTOUCHED = 1e-6  # share of the typical force: a striker touches nothing
+UNSTRAINED = 1e-15  # share of typical force times height: energy of walls that bear nothing
 CREATED = 0.1  # energy that an integrator may create, as a share of the work done
 
 
@@ -115,14 +117,17 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles, peaks_of(case, rows))
     bears = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
+    stands = not (run.ended and _tips_over(case, curves, run.cycles, scene.force_scale))
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and not bears:
         status, message = slipped_off()
+    if not stands:
+        status, message = tipped_over()
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
     unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
-    counts = run.is_loaded() and not unresolved and bears
+    counts = run.is_loaded() and not unresolved and bears and stands
     if status != Status.CONVERGED:
         summary |= dict.fromkeys(OF_THE_WHOLE_RUN, np.nan)
     summary |= {
@@ -171,6 +176,18 @@ def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typi
     after = force[force.argmax() :]
     lost = after.min() < LOST * force.max() and after[-1] < REGAINED * force.max()
     return bool(force.max() > UNTOUCHED * typical and not lost)
+
+
+def _tips_over(case: Case, curves: Curves, cycles: Sequence[CycleRows], typical: float) -> bool:
+    """Whether walls between loose flat platens store nothing at full stroke.
+
+    A tall lattice tips over as a rigid body. typical: force, N.
+    """
+    loading = case.loading
+    if not isinstance(loading, Crush) or loading.is_shaped or loading.platen != "contact":
+        return False
+    stored = curves["stretch_J"] + curves["bend_J"]
+    return bool(stored[cycles[0].loaded] < UNSTRAINED * typical * case.height)
 
 
 def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:
@@ -272,7 +289,7 @@ class _Run:
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
         self.done = self.reached = 1  # rows that are kept, and their number before any were dropped
         self.planned = 1  # rows of the stages so far, including rows that steps leave out
-        self.noise, self.expired, self.curable = 0.0, False, False
+        self.noise, self.expired, self.curable, self.ended = 0.0, False, False, False
 
     def _begin(self) -> None:
         """Fill the first row: initial kinetic energy and the energy of springs count as work done.
@@ -301,6 +318,7 @@ class _Run:
                     return self._failed(outcome, phase.name)
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
+        self.ended = True
         if not self._balances(self.done):
             if self._left(self.done) <= self.done * self.noise:
                 return self._failed(outcomes.UNRESOLVED, phase.name)

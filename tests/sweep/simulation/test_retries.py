@@ -145,7 +145,7 @@ def test_the_switch_is_no_part_of_the_id():
 def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
     case = scene(269)[1].changed(solver={"time_limit": 300.0})  # compilation may be part of it
     result = simulate_again(case)
-    assert (result.status, result.summary["retry"]) == (Status.CONVERGED, "")
+    assert (result.status, result.summary["retry"]) == (Status.SLIPPED, "")  # it tips over
     assert result.summary["steps"] > case.solver.load_steps
 
 
