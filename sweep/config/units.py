@@ -6,7 +6,7 @@ have a prefix and a plural. No regular expression here backtracks: a long text c
 
 import re
 from collections.abc import Iterator
-from math import isfinite, pi
+from math import pi
 from typing import NamedTuple
 
 from sweep.config.faults import ConfigError, Fault, MisfitError
@@ -65,6 +65,7 @@ PREFIXES = {
 }
 SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
 """Other signs in a unit -> the signs that are understood."""
+SMALLEST, LARGEST = 1e-30, 1e30  # in SI: beyond, products of quantities would overflow
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
 _POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)
@@ -86,8 +87,10 @@ def in_si(text: object, unit: str) -> float:
     if powers != _unit(unit).powers:
         raise MisfitError(f"{in_words(written)} is a unit of another kind")
     value = float(number) * size
-    if not isfinite(value):
+    if abs(value) > LARGEST:
         raise MisfitError("too large")
+    if value and abs(value) < SMALLEST:
+        raise MisfitError("too small")
     return float(f"{value:.15g}")
 
 

@@ -115,6 +115,8 @@ def test_percent_is_written_once(text):
         (25, "a bare number"),
         ("1e999 m", "too large"),
         ("1e308 km", "too large"),
+        ("-1e31 m", "too large"),
+        ("1e-29 mm", "too small"),
         ("1 s", "of another kind"),
     ],
 )
