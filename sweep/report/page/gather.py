@@ -52,7 +52,8 @@ from sweep.report.page.thinning import (
 )
 from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import meanings, other_bow, unprintable
+from sweep.report.tables.legend import meanings
+from sweep.report.tables.marks import other_bow, unprintable
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
