@@ -35,7 +35,7 @@ HOMES = {
     "dask": "sweep.running",
     "distributed": "sweep.running.cluster sweep.running.dask_graph",
     "dask_jobqueue": "sweep.running.cluster",
-    "h5py": "sweep.store.read sweep.store.hdf5 sweep.export.shapes",
+    "h5py": "sweep.store.sealed_file sweep.store.hdf5 sweep.export.shapes",
     "matplotlib": "sweep.report.figures.case_plots",
     "manifold3d": "sweep.export.solid",
     "ezdxf": "sweep.export.dxf sweep.config.drawings.dxf",
@@ -107,6 +107,7 @@ TESTED_ELSEWHERE = {
     "sweep.store.batch": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",
+    "sweep.store.sealed_file": "sweep/store/test_damage.py",
     "sweep.version": "sweep/cli/test_verbs.py",
 }
 # Quantities are converted for people in `sweep.numbers`: elsewhere nothing is multiplied by these.
