@@ -80,10 +80,10 @@ class Result:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
-    from sweep.config.defaults.slicer_settings import slicer_settings
     from sweep.config.kinds.printable import what_does_not_print
     from sweep.config.kinds.sliced import Sliced
     from sweep.config.kinds.sliced_sheet import SlicedSheet
+    from sweep.config.slicer_settings import slicer_settings
 
     lattice, loading = case.lattice, case.loading
     return {
