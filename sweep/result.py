@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sweep.columns import COLUMNS, TIED_SIDES, absorbed_energy_column, cycle_columns
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 
 if TYPE_CHECKING:
     from sweep.config.case import Case

@@ -17,13 +17,13 @@ import numpy as np
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
 from sweep.design.slicer.patterns import is_sheet
-from sweep.modes import MODES, compared, mode_of
+from sweep.loading_modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, is_period, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed import needed_columns, widened
+from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES

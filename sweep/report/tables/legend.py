@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
-from sweep.modes import MODES, Mode, has
+from sweep.loading_modes import MODES, Mode, has
 from sweep.numbers import tenths
 from sweep.ranking.merit import is_period, unequal_periods
 from sweep.report.tables.marks import densifies_twice, is_unsure, mark_notes

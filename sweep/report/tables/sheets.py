@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.columns import end_columns
-from sweep.modes import compared, mode_of
+from sweep.loading_modes import compared, mode_of
 from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.scenes import scene_labels

@@ -6,7 +6,7 @@ import pytest
 from sweep.columns import absorbed_energy_column
 from sweep.ranking.rank import ranked
 from sweep.simulation.densification import efficiency, packed_row, weights
-from sweep.simulation.until import absorbed_until
+from sweep.simulation.up_to_force import absorbed_until
 from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
