@@ -14,7 +14,7 @@ def test_every_config_that_is_shipped_is_an_example():
     assert {"smoke", "custom", "accuracy/impact"} < set(examples())
 
 
-@pytest.mark.parametrize("name", ["smoke", "accuracy/impact", "custom", "extreme"])
+@pytest.mark.parametrize("name", ["smoke", "accuracy/impact", "custom"])
 def test_example_is_found_away_from_its_folder(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     assert load_config(name).path == FOLDER / f"{name}.toml"
