@@ -53,7 +53,7 @@ from sweep.report.page.thinning import (
 from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import meanings
-from sweep.report.tables.marks import other_bow, unprintable
+from sweep.report.tables.marks import other_bow
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
@@ -252,7 +252,7 @@ def _cases(
             "crossed": part["crossed"].tolist(),
             "coarse": part["coarse"].tolist(),
             "stretched": part["beyond_curve"].tolist(),
-            "undrawn": unprintable(part),
+            "undrawn": part["does_not_print"],
             "open": part["ends_early"].tolist(),
             "struck": _exact(relative_energy(part)),
             "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),

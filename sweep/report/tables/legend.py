@@ -111,7 +111,7 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
     period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
-    shaped = [SHAPED] if _is_shaped(rows) else []
+    shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
     return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
 
 
@@ -127,11 +127,6 @@ def printed_note(rows: DataFrame) -> str:
     """Which mass a slicer extrudes: lines of a sheet do not cross."""
     crossed = ~rows["lattice_kind"].map(is_sheet) & rows["printed_mass_g"].notna()
     return PRINTED.format(", crossings twice" if crossed.any() else "")
-
-
-def _is_shaped(rows: DataFrame) -> bool:
-    """Whether one of the strikers is not flat."""
-    return bool((~rows["striker"].isin(("flat", "none"))).any())
 
 
 def _meanings(rows: DataFrame, mode: Mode) -> list[str]:

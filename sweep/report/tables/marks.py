@@ -60,7 +60,7 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
         "x": rows["crossed"],
         "i": rows["coarse"],
         "^": rows["beyond_curve"],
-        "p": unprintable(rows) != "",
+        "p": rows["does_not_print"] != "",
         "u": unloaded(rows),
         "b": other_bow(rows),
     }
@@ -69,11 +69,6 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
 def other_bow(rows: DataFrame) -> Series:
     """True for results of a retry with another imperfection."""
     return rows["retry"].str.contains("imperfection")
-
-
-def unprintable(rows: DataFrame) -> Series:
-    """Why each design cannot be printed as drawn, in words; "" if it can."""
-    return rows["does_not_print"]
 
 
 def is_unsure(rows: DataFrame) -> Series:
