@@ -12,6 +12,9 @@ STAMP = .venv/.ready
 # An environment whose interpreter has gone is made anew.
 $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 
+# Python keeps compiled modules, whatever the environment says: tests and their processes start sooner.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: help setup sweep rank test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
         bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces gyroid_mesh bench published experiment along figures site lint clean
 .DELETE_ON_ERROR:

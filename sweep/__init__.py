@@ -131,7 +131,7 @@ def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"Crumple has no {name!r}; it has {', '.join(__all__)}")
     member = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    from sweep.arguments import explained
+    from sweep.argument_types import explained
 
     return explained(member) if isinstance(member, FunctionType) else member
 

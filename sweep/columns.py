@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sweep.columns import COLUMNS, TIED_SIDES, absorbed_energy_column, cycle_columns
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -81,10 +81,10 @@ class Result:
 
 def design_columns(case: Case) -> dict[str, float | int | str]:
     """The summary columns that are known before the case runs."""
-    from sweep.config.defaults.slicer_settings import slicer_settings
     from sweep.config.kinds.printable import what_does_not_print
     from sweep.config.kinds.sliced import Sliced
     from sweep.config.kinds.sliced_sheet import SlicedSheet
+    from sweep.config.slicer_settings import slicer_settings
 
     lattice, loading = case.lattice, case.loading
     return {

@@ -11,7 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sweep.arguments import explained
+from sweep.argument_types import explained
 from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Quantity, Question, check_units

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from sweep.cli.place import place_of
 from sweep.cli.terminal import print_sheets, say, say_all
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 from sweep.numbers import text_in
 from sweep.ranking.question import Question, in_si
 

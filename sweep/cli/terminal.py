@@ -135,7 +135,7 @@ def _counted(count: int, noun: str) -> str:
 def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
-    from sweep.modes import MODES, has
+    from sweep.loading_modes import MODES, has
     from sweep.ranking.merit import is_period
     from sweep.report.tables.requirement_notes import of_which
 

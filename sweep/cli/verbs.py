@@ -112,7 +112,7 @@ def merge(arguments: Namespace) -> int:
 
 def rank(arguments: Namespace) -> int:
     """Print the ranking as tables or as text for other programs, or write it into a folder."""
-    from sweep.modes import has
+    from sweep.loading_modes import has
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, TypeAdapter
 
-from sweep.config.defaults import drop_tests
+from sweep.config import drop_tests
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.direction import Direction

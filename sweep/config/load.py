@@ -1,22 +1,19 @@
-"""Reads the TOML file of a sweep, or a dict, and expands it into its cases, once."""
+"""Loads the config of a sweep, a TOML file or a dict, and expands it into its cases, once."""
 
-import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import Any, TypeAlias, Unpack
 
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError, Fault, MisfitError
+from sweep.config.faults import ConfigError, Fault
 from sweep.config.grid import Config, expanded
 from sweep.config.kinds.table import TABLES, Tables
-from sweep.config.reading.examples import examples, find_config
+from sweep.config.reading.examples import find_config
 from sweep.config.reading.mapping import document_of
-from sweep.config.reading.reader import Reader, in_words, one_line
-from sweep.config.reading.text import text_of
+from sweep.config.reading.reader import Reader, in_words
+from sweep.config.reading.toml_file import document_in
 from sweep.config.units import in_si
 
 Source: TypeAlias = str | PathLike[str] | Mapping[str, Any]
@@ -41,7 +38,7 @@ def load_config(path: Source) -> Config:
         needed = "the path of a TOML file, the name of an example, or a dict"
         raise ConfigError([Fault("path", f"{in_words(path)} is no path; needed: {needed}")])
     path = find_config(path)
-    return _config(_document(path), path)
+    return _config(document_in(path), path)
 
 
 def case(**tables: Unpack[Tables]) -> Case:
@@ -84,38 +81,3 @@ def _config(document: dict[str, Any], path: Path | None) -> Config:
     if reader.faults:
         raise ConfigError(reader.faults, notes)
     return config
-
-
-def _document(path: Path) -> dict[str, Any]:
-    """The TOML of a file."""
-    try:
-        text = text_of(path, f"a TOML file, or an example, such as {_nearest_examples(path)}")
-        document = tomllib.loads(text)
-        if document:
-            return document
-        wrong = "an empty config; `crumple new` writes a first one"
-    except MisfitError as error:
-        wrong = str(error)
-    except tomllib.TOMLDecodeError as error:
-        wrong = f"not TOML ({error}){_quoted_line(str(error), text)}"
-    except (ValueError, RecursionError):
-        wrong = "not TOML (a number too long, or nested too deeply)"
-    raise ConfigError([Fault("path", f"{path}: {wrong}")])
-
-
-def _nearest_examples(path: Path) -> str:
-    """The examples with the most similar names, or the usual ones."""
-    return ", ".join(get_close_matches(path.stem, examples(), 3) or ("armor", "infills", "smoke"))
-
-
-def _quoted_line(message: str, text: str) -> str:
-    """The line of a text at which its parser failed, shortened; empty if the message names no
-    line.
-    """
-    place = re.search(r"\(at (?:line (\d+)|end of document)", message)
-    lines = text.rstrip().split("\n")
-    if place is None:
-        return ""
-    number = min(int(place[1] or len(lines)), len(lines))
-    line = one_line(lines[number - 1].strip())
-    return f"; line {number}: {line if len(line) <= 60 else f'{line[:57]}...'}"

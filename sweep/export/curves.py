@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -17,8 +17,8 @@ from sweep.export.errors import ExportError
 from sweep.export.three_mf import OBJECT, xml_bytes
 
 if TYPE_CHECKING:
-    from sweep.config.defaults.slicer_settings import SlicerSettings
     from sweep.config.kinds.lattice import Lattice
+    from sweep.config.slicer_settings import SlicerSettings
 
 PRUSA = "Metadata/Slic3r_PE_model.config"
 BAMBU = "Metadata/model_settings.config"
@@ -44,7 +44,7 @@ def settings_of(lattice: Lattice) -> SlicerSettings:
     """The settings with which a slicer draws this lattice; raises `ExportError` with the reason if
     there are none.
     """
-    from sweep.config.defaults.slicer_settings import slicer_settings, unlike
+    from sweep.config.slicer_settings import slicer_settings, unlike
 
     settings = slicer_settings(lattice)
     if settings is None:

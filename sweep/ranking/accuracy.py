@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.modes import MODES, Mode
+from sweep.loading_modes import MODES, Mode
 from sweep.ranking.richardson import Floats, limit, rms
 from sweep.result import Status
 from sweep.store.read import read_history

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.modes import has
+from sweep.loading_modes import has
 from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED, panel_in
 from sweep.ranking.question import in_si
-from sweep.simulation.until import absorbed_until, stroke_until
+from sweep.simulation.up_to_force import absorbed_until, stroke_until
 
 if TYPE_CHECKING:
     from pandas import DataFrame

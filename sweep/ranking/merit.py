@@ -22,7 +22,7 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
-from sweep.modes import has, is_coarse
+from sweep.loading_modes import has, is_coarse
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import RankError, in_si
 from sweep.result import sides_of

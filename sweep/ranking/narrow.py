@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from sweep.modes import has
+from sweep.loading_modes import has
 
 if TYPE_CHECKING:
     from pandas import DataFrame

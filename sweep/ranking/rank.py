@@ -18,13 +18,13 @@ import pandas as pd
 from pandas import DataFrame
 
 from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
-from sweep.modes import compared
+from sweep.loading_modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed import needed_columns, widened
+from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.pareto import pareto
 from sweep.ranking.places import passed_over, places_by, reach
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si

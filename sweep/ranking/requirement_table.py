@@ -6,7 +6,7 @@ Rankings, sentences, options of the command line and the page take them from her
 
 from typing import Any, NamedTuple
 
-from sweep.modes import asked_of
+from sweep.loading_modes import asked_of
 
 
 class Measure(NamedTuple):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from pandas import DataFrame
 
-from sweep.modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
 from sweep.ranking.merit import Compared, doubtful

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pandas import DataFrame, Series, to_numeric
 
 from sweep.columns import describe_column
-from sweep.modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import NOTHING, short, text_in, with_unit
 
 SCENE = [

@@ -24,7 +24,7 @@ import numpy as np
 from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
-from sweep.modes import has
+from sweep.loading_modes import has
 from sweep.ranking.budget import within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import in_si

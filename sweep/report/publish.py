@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pandas import concat
 
-from sweep.modes import MODES, has
+from sweep.loading_modes import MODES, has
 from sweep.numbers import budget_text, in_unit
 from sweep.plain_text import csv_text
 from sweep.ranking.accuracy import studies

@@ -9,7 +9,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from sweep.running.alone import one_line
+from sweep.running.child_process import one_line
 from sweep.running.progress import announce
 
 if TYPE_CHECKING:

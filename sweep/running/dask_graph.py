@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from sweep.config.case import Case
 from sweep.numbers import with_unit
 from sweep.result import Result, Status, failed_result
-from sweep.running.alone import Simulate, one_line, run_alone
 from sweep.running.batches import Plan
+from sweep.running.child_process import Simulate, one_line, run_alone
 from sweep.running.cluster import Cluster, ClusterError
 from sweep.running.fingerprint import fingerprint
 from sweep.running.on_worker import Kernels, OtherSourceError, checked, inspect_kernels

@@ -31,10 +31,10 @@ from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.steps import count_of
 from sweep.numbers import counted, text_in
 from sweep.result import Result, Status
-from sweep.running.alone import Simulate
 from sweep.running.batches import Kind, Plan, cost, kind
 from sweep.running.beside.error_bars import companions_beside
 from sweep.running.beside.run_beside import file_beside
+from sweep.running.child_process import Simulate
 from sweep.running.sweep import Interrupted, interruptible
 from sweep.running.threads import Stop, run_on_threads
 from sweep.running.warming import real_simulate

@@ -10,9 +10,9 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result
-from sweep.running.alone import Simulate
+from sweep.running.child_process import Simulate
+from sweep.store.damage import ID
 from sweep.store.lock import HOW
-from sweep.store.read import ID
 
 BEGUN, ENDED = "+", "-"
 LARGEST = 1 << 28  # most bytes that are read

@@ -7,7 +7,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status, failed_result
-from sweep.running.alone import Child, Simulate
+from sweep.running.child_process import Child, Simulate
 
 PROCESSES = "processes"  # in place of a scheduler
 

@@ -14,8 +14,8 @@ from sweep.config.cases import compact
 from sweep.config.grid import Config, cases_of, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
-from sweep.running.alone import DIED, NO_MEMORY, Simulate, run_alone
 from sweep.running.batches import Plan, cost, kind
+from sweep.running.child_process import DIED, NO_MEMORY, Simulate, run_alone
 from sweep.running.cluster import Cluster, Scheduler
 from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal

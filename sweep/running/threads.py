@@ -10,8 +10,8 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.result import Result, Status
-from sweep.running.alone import MOMENT, Simulate, attempt
 from sweep.running.batches import Plan
+from sweep.running.child_process import MOMENT, Simulate, attempt
 
 MOST_THREADS = 8  # a short case holds Python's lock for 2 ms
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from sweep.config.case import Case
-from sweep.running.alone import Simulate
+from sweep.running.child_process import Simulate
 from sweep.running.progress import announce
 
 OF = {

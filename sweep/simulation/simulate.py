@@ -35,7 +35,7 @@ from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.profiles import outlines
 from sweep.scene.scene import Scene, striker_of
 from sweep.scene.sides import build_tied
-from sweep.simulation.base import patch_width
+from sweep.simulation.base_load import patch_width
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (
     Failure,

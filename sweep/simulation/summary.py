@@ -18,7 +18,7 @@ from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
-from sweep.simulation.base import base_columns, patch_width
+from sweep.simulation.base_load import base_columns, patch_width
 from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.densification import (
@@ -48,7 +48,7 @@ from sweep.simulation.striker import (
     work_on_lattice,
 )
 from sweep.simulation.time_resolution import integrator_share, known_peak, path_error
-from sweep.simulation.until import absorbed_until
+from sweep.simulation.up_to_force import absorbed_until
 
 BOOK = {
     "work_in_J": "work",

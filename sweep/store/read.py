@@ -19,58 +19,36 @@ with the same case id it takes the newer one.
 
 import json
 import os
-import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import h5py
 import numpy as np
 
-from sweep.columns import COLUMNS, HISTORY_COLUMNS
-from sweep.result import LOADED, MODEL_VERSION, Status
+from sweep.columns import HISTORY_COLUMNS
+from sweep.result import MODEL_VERSION, Status
 from sweep.store.batch import (
-    FORMAT,
     FRAME_GROUPS,
     GROUPS,
     TEXT,
     Block,
-    Ragged,
-    is_as_written,
     newest,
     newest_rows,
 )
-from sweep.store.checksum import CHECKSUM, attribute_checksum, checked_columns, row_checksums
+from sweep.store.damage import RENEWED, damaged_cases, refuse_damaged
 from sweep.store.errors import StoreError as StoreError
 from sweep.store.parts import list_parts
-from sweep.store.tables import Axes, Table, arrange, beyond, relabel, rows_in_order, take
+from sweep.store.sealed_file import open_sealed
+from sweep.store.tables import Axes, arrange, beyond, relabel, rows_in_order, take
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from sweep.config.case import Case
 
-SHOWN = 3  # most damaged cases that are named
 ATTEMPTS = 100  # attempts to open all files of a set before the writer changes the set
-RUN_AGAIN = "`crumple run` computes them again"
-AGAIN = "move it away, and `crumple run` computes its cases again"
-RENEWED = "`crumple verify` names its cases, and `crumple run CONFIG --renew` computes these again"
-ID = re.compile(r"[0-9a-f]{1,16}")
-NOT_SO = "has values of another kind, or rows of another length"
-ELSEWHERE = (
-    "is open for writing in another program: close it there, or run `h5clear -s` on it if that "
-    "program has crashed"
-)
-HERE = "is open in this process by another reader, such as xarray, with other locks: close it there"
-DAMAGE = (OSError, RuntimeError, LookupError, ValueError, TypeError, MemoryError)
-
-CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
-FEW = 4096  # rows of a column that is kept in memory while its file is open
-FILES_REMEMBERED = 4096
-_DAMAGED: dict[tuple[int, ...], frozenset[int]] = {}
-"""Damaged rows of files that this process has checked: a sealed file never changes."""
 
 
 class Rerun(NamedTuple):
@@ -106,7 +84,7 @@ def read_summary(
     from pandas import DataFrame
 
     with _union(Path(path)) as blocks:
-        _refuse_damaged(Path(path), blocks)
+        refuse_damaged(Path(path), blocks)
         table = arrange(newest(blocks))
         names = [name for name in table if needed is None or needed(name)]
         return DataFrame({name: table[name] for name in names})
@@ -377,89 +355,8 @@ def open_whole(path: Path, stack: ExitStack) -> list[Block]:
     `open_sealed`.
     """
     blocks = _open_all(path, stack)
-    _refuse_damaged(path, blocks)
+    refuse_damaged(path, blocks)
     return blocks
-
-
-def open_sealed(path: Path, stack: ExitStack) -> Block:
-    """A sealed file as a block, open until `stack` closes."""
-    with _undamaged(path):
-        if not (path.is_file() or path.is_dir()) and path.exists():
-            raise StoreError(f"{path} cannot be read: it is no regular file.")
-        # A sealed file never changes, so it needs no lock, which would block other readers.
-        file = stack.enter_context(h5py.File(path, "r", locking=False, rdcc_nbytes=CACHE))
-        if (written := _attribute(file, "format")) != FORMAT:
-            needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
-            raise StoreError(f"{path} is a results file of format {written}; {needed}.")
-        attributes = {name: _attribute(file, name) for name in file.attrs}
-        if attribute_checksum(attributes) != attributes[CHECKSUM]:
-            raise ValueError("attributes other than those written")
-        ragged = {name: _open_ragged(path, _inside(file, name, h5py.Group)) for name in GROUPS}
-        columns = _Members(path, _inside(file, "summary", h5py.Group), _column)
-        if (content := _identity(file)) not in _DAMAGED:
-            while len(_DAMAGED) >= FILES_REMEMBERED:
-                _DAMAGED.pop(next(iter(_DAMAGED)), None)
-            _DAMAGED[content] = _changed_rows(path, columns, ragged, _numbers(file, "checksums"))
-        return Block(columns, ragged, attributes, _DAMAGED[content])
-
-
-def _attribute(file: h5py.File, name: str) -> Any:
-    """A text, or a whole number."""
-    if file.attrs.get_id(name).dtype.kind == "O":
-        raise ValueError("a text in a heap, as in `_inside`")
-    value = file.attrs[name]
-    return value.decode() if isinstance(value, bytes) else int(value)
-
-
-def _inside(group: h5py.Group, name: str, kind: type) -> Any:
-    """The group or dataset (``kind``) of this name, as Crumple writes it.
-
-    A results file is complete, so no link to another file is followed. Nothing of variable length
-    is read: HDF5 can loop forever in a damaged heap.
-    """
-    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-        raise ValueError("a link")
-    inner = group[name]
-    if not isinstance(inner, kind):
-        raise TypeError("a group for a dataset, or a dataset for a group")
-    if isinstance(inner, h5py.Dataset) and (inner.dtype.kind == "O" or inner.is_virtual):
-        raise ValueError("values of variable length, or of another file")
-    return inner
-
-
-def _numbers(group: h5py.Group, name: str) -> np.ndarray:
-    return _inside(group, name, h5py.Dataset)[:]
-
-
-def _identity(file: h5py.File) -> tuple[int, ...]:
-    """A value that changes with the content of a file."""
-    about = os.fstat(file.id.get_vfd_handle())
-    return about.st_dev, about.st_ino, about.st_size, about.st_mtime_ns, about.st_ctime_ns
-
-
-def _changed_rows(
-    path: Path, columns: Mapping[str, np.ndarray], ragged: Mapping[str, Ragged], written: np.ndarray
-) -> frozenset[int]:
-    """Numbers of the rows whose checksums differ from those written, or whose id is no id of
-    Crumple: ids become names of files.
-    """
-    ranges = {name: (group.start, group.rows) for name, group in ragged.items()}
-    checked = checked_columns(columns, ranges)
-
-    def sound(name: str) -> np.ndarray:
-        column, described = checked[name], COLUMNS.get(name)
-        is_text = column.dtype == object
-        if described and is_text != (described.units == "") and (is_text or name not in LOADED):
-            raise StoreError(f"{path} is damaged: /summary/{name} {NOT_SO}: {AGAIN}.")
-        if column.shape != written.shape:
-            raise ValueError("columns of other lengths")
-        return column
-
-    same = row_checksums(Table(checked, sound)) == written
-    same &= [bool(ID.fullmatch(case_id)) for case_id in columns["case_id"]]
-    if not all(group.is_whole(same) for group in ragged.values()):
-        raise ValueError("ranges beyond the end of their arrays")
-    return frozenset(np.flatnonzero(~same).tolist())
 
 
 def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
@@ -467,98 +364,7 @@ def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
     if not exists(path):
         return []
     with _union(Path(path)) as blocks:
-        return _damaged(blocks)
-
-
-def _damaged(blocks: list[Block]) -> list[str]:
-    usable = {*newest(blocks)["case_id"]}
-    ids = [block.summary["case_id"][row] for block in blocks for row in sorted(block.damaged)]
-    return [case_id for case_id in ids if case_id not in usable]
-
-
-def _refuse_damaged(path: Path, blocks: list[Block]) -> None:
-    if ids := _damaged(blocks):
-        named = ", ".join(ascii(case_id)[1:-1] for case_id in ids[:SHOWN])
-        more = f" and {len(ids) - SHOWN} more" if len(ids) > SHOWN else ""
-        raise StoreError(f"{path}: damaged rows of cases {named}{more}; {RUN_AGAIN}.")
-
-
-@contextmanager
-def _undamaged(path: Path, damaged: str = "") -> Iterator[None]:
-    """Turn every error of HDF5 in reading a sealed file into a `StoreError` of one line. damaged:
-    the name of what is read, if other parts of the file may be whole.
-    """
-    try:
-        yield
-    except FileNotFoundError:
-        raise
-    except DAMAGE as error:
-        if isinstance(error, OSError) and error.errno:
-            raise StoreError(f"{path} cannot be read: {os.strerror(error.errno)}.") from error
-        if "open for write" in str(error):  # a mark of HDF5 in the file
-            raise StoreError(f"{path} {ELSEWHERE}.") from error
-        if "locking flag" in str(error):
-            raise StoreError(f"{path} {HERE}.") from error
-        if damaged:
-            raise StoreError(f"{path}: {damaged} is damaged: {RENEWED}.") from error
-        line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
-        raise StoreError(line) from error
-
-
-def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
-    values = _inside(group, "values", h5py.Group)
-    arrays = _Members(path, values, partial(_Array, path, group.name.strip("/")))
-    return Ragged(_numbers(group, "start"), _numbers(group, "rows"), arrays)
-
-
-class _Array:
-    """An array of a sealed file, which is read when it is indexed."""
-
-    def __init__(self, path: Path, group: str, data: h5py.Dataset) -> None:
-        self._path, self._data = path, data
-        self.dtype, self.shape = data.dtype, data.shape
-        name = data.name.rsplit("/", 1)[-1]
-        if not is_as_written(group, name, data.dtype, data.shape):
-            raise StoreError(f"{path} is damaged: {data.name} {NOT_SO}: {AGAIN}.")
-
-    def __getitem__(self, rows: slice) -> np.ndarray:
-        with _undamaged(self._path, self._data.name):
-            return self._data[rows]
-
-
-class _Members(Mapping[str, Any]):
-    """The datasets of a group of a sealed file, each opened or read when it is indexed.
-
-    Texts are kept, as they take long to read, and so are small datasets, since there may be many
-    files.
-    """
-
-    def __init__(self, path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> None:
-        self._path, self._group, self._take = path, group, take
-        self._taken: dict[str, Any] = {}
-
-    def __getitem__(self, name: str) -> Any:
-        if name in self._taken:
-            return self._taken[name]
-        with _undamaged(self._path):
-            taken = self._take(_inside(self._group, name, h5py.Dataset))
-        if not isinstance(taken, np.ndarray) or taken.dtype == object or len(taken) <= FEW:
-            self._taken[name] = taken
-        return taken
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._group)
-
-    def __len__(self) -> int:
-        return len(self._group)
-
-
-def _column(data: h5py.Dataset) -> np.ndarray:
-    if not h5py.check_string_dtype(data.dtype):
-        return data[:]
-    encoded = data[:].tolist()
-    texts = {text: text.decode() for text in {*encoded}}  # most are equal, and share one object
-    return np.array([texts[text] for text in encoded], dtype=object)
+        return damaged_cases(blocks)
 
 
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:

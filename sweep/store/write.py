@@ -26,14 +26,8 @@ from sweep.store.parts import (
     target,
     too_many,
 )
-from sweep.store.read import (
-    StoreError,
-    exists,
-    folded_batches,
-    is_labelled,
-    open_sealed,
-    open_whole,
-)
+from sweep.store.read import StoreError, exists, folded_batches, is_labelled, open_whole
+from sweep.store.sealed_file import open_sealed
 from sweep.store.tables import Axes
 
 ASIDE = "move it away; `crumple merge` brings its rows into any results file"

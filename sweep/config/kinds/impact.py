@@ -3,7 +3,7 @@
 from math import isclose, nan, pi, sqrt
 from typing import Any, ClassVar, Final, Literal, Self
 
-from sweep.config.defaults.drop_tests import Drop, drop_of
+from sweep.config.drop_tests import Drop, drop_of
 from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import PLATENS
 from sweep.config.kinds.directed import Ramp

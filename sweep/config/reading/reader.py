@@ -11,8 +11,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.defaults import drop_tests
 from sweep.config.faults import Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys

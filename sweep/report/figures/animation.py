@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 from sweep.numbers import in_unit
 from sweep.report.figures import case_plots
 from sweep.report.figures.panel_piece import piece

@@ -23,7 +23,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
 
 from sweep.design.silhouette import silhouette
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 from sweep.numbers import energy_text, in_unit, scaled, tenths, three_digits, to_si
 from sweep.report.figures import shaded
 from sweep.report.figures.storyboard import (

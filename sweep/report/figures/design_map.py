@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sweep.modes import mode_of
+from sweep.loading_modes import mode_of
 from sweep.numbers import budget_text, in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful

@@ -17,7 +17,7 @@ from pandas import concat
 
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
-from sweep.modes import mode_of
+from sweep.loading_modes import mode_of
 from sweep.numbers import budget_text, energy_text, in_unit, tenths, text_in, three_digits
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful

@@ -11,7 +11,7 @@ from pandas import DataFrame
 
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 from sweep.numbers import in_unit, text_in
 from sweep.ranking.scenes import scene_label
 

@@ -17,13 +17,13 @@ import numpy as np
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
 from sweep.design.slicer.patterns import is_sheet
-from sweep.modes import MODES, compared, mode_of
+from sweep.loading_modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, is_period, merits, through_solid
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed import needed_columns, widened
+from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
@@ -52,7 +52,8 @@ from sweep.report.page.thinning import (
 )
 from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import meanings, other_bow, unprintable
+from sweep.report.tables.legend import meanings
+from sweep.report.tables.marks import other_bow
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
@@ -251,7 +252,7 @@ def _cases(
             "crossed": part["crossed"].tolist(),
             "coarse": part["coarse"].tolist(),
             "stretched": part["beyond_curve"].tolist(),
-            "undrawn": unprintable(part),
+            "undrawn": part["does_not_print"],
             "open": part["ends_early"].tolist(),
             "struck": _exact(relative_energy(part)),
             "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),

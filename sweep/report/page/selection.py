@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from sweep.modes import MODES, compared
+from sweep.loading_modes import MODES, compared
 from sweep.ranking.merit import doubtful, gap_behind, through_solid
 
 if TYPE_CHECKING:

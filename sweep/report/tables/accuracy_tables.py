@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from sweep.columns import describe_column
-from sweep.modes import mode_of
+from sweep.loading_modes import mode_of
 from sweep.numbers import (
     NOTHING,
     counted,

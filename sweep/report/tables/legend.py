@@ -1,29 +1,22 @@
-"""The marks in tables of a ranking, and the meaning of marks and heads of columns."""
+"""The meaning of the marks and the heads of columns in the tables of a ranking."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pandas import Series
-
-from sweep.columns import ALONG, end_columns
+from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
-from sweep.modes import MODES, Mode, has
+from sweep.loading_modes import MODES, Mode, has
 from sweep.numbers import tenths
 from sweep.ranking.merit import is_period, unequal_periods
-from sweep.ranking.unfinished import unloaded
-from sweep.report.tables.requirement_notes import (
-    column_notes,
-    of_one,
-    panel_note,
-)
+from sweep.report.tables.marks import densifies_twice, is_unsure, mark_notes
+from sweep.report.tables.requirement_notes import column_notes, of_one, panel_note
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
     from sweep.ranking.ranking import Ranking
 
-LONG_SPAN = 0.1  # span of strain
 MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
 CRUSHED = """\
 {noun}: energy absorbed {until}; J/g is of it.
@@ -54,16 +47,9 @@ ERRORS = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound."""
 TIED = "=: a tie: the errors may reverse the order. Errors common to all designs do not count."
 UNKNOWN = "?: the error is unknown; the design is placed by its value alone."
-BEYOND = """\
-!: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
-length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
-that are shells fill the whole area (solid_strain). Placed behind all others."""
 PRINTED = """\
 print g: mass as the slicer extrudes it{}. Budgets, panels and J/g count this mass;
 for designs without a slicer they count mass g."""
-UNPRINTABLE = """\
-p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
-gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these."""
 UNSURE = """\
 ~: densification is gradual: the efficiency is within 2 % of the greatest
 over more than 10 % of strain."""
@@ -73,32 +59,12 @@ is a range too (columns lowest_..., highest_...)."""
 TIED_RANGES = "=: a tie: the ranges of designs meet."
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
-OPEN = """\
-The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
-PASSED_OVER = "{}By value alone, {} marked ! or x would stand before the first."
-STRETCHED = """\
-^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
-stretch_over_curve: how far)."""
-UNLOADED = """\
-u: stopped after its loading (message: why), which determines energy, peak and densification; what
-only unloading tells is not known (–)."""
-OTHER_BOW = """\
-b: simulated with another imperfection, as it stopped with the one asked for (retry: which)."""
 ONE_PERIOD = """\
 Sides are tied: mass, force and energy are of one period of a wide panel; the
 Pareto front compares mass and energy per pressed area."""
 STRUCK_PERIODS = """\
 Periods differ in area, and a striker brings more energy per area to a smaller one: only forces of
 equal areas can be compared."""
-CROSSED = """\
-x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
-all others."""
-
-COARSE = """\
-i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact
-(integrator_share), or erred by more than 0.5 % of the path of a dead load in one step (path_error).
-Forces and strains may err by several percent. Shorter steps err less (solver.step_error, or
-time_step)."""
 
 
 def legend(ranking: Ranking) -> str:
@@ -141,22 +107,11 @@ def _notes(ranking: Ranking) -> list[str]:
     return [note for note, is_needed in notes.items() if is_needed]
 
 
-def is_unsure(rows: DataFrame) -> Series:
-    """True for lattices that have nearly the greatest efficiency over a long span of strain."""
-    return rows["packing_span"] > LONG_SPAN
-
-
-def densifies_twice(rows: DataFrame) -> Series:
-    """True for lattices with nearly the greatest efficiency at two strains, in whole percent."""
-    low, high = (rows[name].map(tenths) for name in end_columns("densification_strain"))
-    return low != high
-
-
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
     period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
-    shaped = [SHAPED] if _is_shaped(rows) else []
+    shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
     return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
 
 
@@ -172,11 +127,6 @@ def printed_note(rows: DataFrame) -> str:
     """Which mass a slicer extrudes: lines of a sheet do not cross."""
     crossed = ~rows["lattice_kind"].map(is_sheet) & rows["printed_mass_g"].notna()
     return PRINTED.format(", crossings twice" if crossed.any() else "")
-
-
-def _is_shaped(rows: DataFrame) -> bool:
-    """Whether one of the strikers is not flat."""
-    return bool((~rows["striker"].isin(("flat", "none"))).any())
 
 
 def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
@@ -201,39 +151,3 @@ def _losses(rows: DataFrame) -> str:
     if elastic.any():
         return MIXED
     return LOSSY if rows["material_memory"].str.contains("relaxes").any() else PLASTIC
-
-
-def marks(rows: DataFrame) -> Series:
-    """The marks of doubtful results, and of designs that do not print as drawn."""
-    beyond = rows["beyond_model"].map({True: "!", False: ""})
-    crossed = rows["crossed"].map({True: "x", False: ""})
-    coarse = rows["coarse"].map({True: "i", False: ""})
-    beyond_curve = rows["beyond_curve"].map({True: "^", False: ""})
-    undrawn = unprintable(rows).map(lambda why: "p" * bool(why))
-    stopped = unloaded(rows).map({True: "u", False: ""})
-    bowed = other_bow(rows).map({True: "b", False: ""})
-    return beyond + crossed + coarse + beyond_curve + undrawn + stopped + bowed
-
-
-def mark_notes(rows: DataFrame) -> tuple[str, ...]:
-    """The meaning of the marks that these rows have."""
-    notes = {
-        BEYOND: rows["beyond_model"],
-        CROSSED: rows["crossed"],
-        COARSE: rows["coarse"],
-        UNPRINTABLE: unprintable(rows) != "",
-        STRETCHED: rows["beyond_curve"],
-        UNLOADED: unloaded(rows),
-        OTHER_BOW: other_bow(rows),
-    }
-    return tuple(note for note, has in notes.items() if has.any())
-
-
-def other_bow(rows: DataFrame) -> Series:
-    """True for results of a retry with another imperfection."""
-    return rows["retry"].str.contains("imperfection")
-
-
-def unprintable(rows: DataFrame) -> Series:
-    """Why each design cannot be printed as drawn, in words; "" if it can."""
-    return rows["does_not_print"]

@@ -8,7 +8,7 @@ from itertools import groupby
 from textwrap import fill
 from typing import TYPE_CHECKING
 
-from sweep.modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import budget_text, energy_text, in_unit, numerals, percent, tenths, three_digits
 from sweep.ranking.merit import doubtful, is_period
 from sweep.ranking.requirement_table import MEASURES

@@ -11,7 +11,7 @@ from sweep.numbers import NOTHING, in_unit, numerals, percent, three_digits
 from sweep.ranking.assessment import ALIKE
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
 from sweep.report.tables.design_text import design_text
-from sweep.report.tables.legend import mark_notes, marks
+from sweep.report.tables.marks import mark_notes, marks
 from sweep.report.tables.requirement_notes import panel_column
 from sweep.report.tables.sheet import Sheet
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from pandas import Series
 
 from sweep.columns import end_columns
-from sweep.modes import compared, mode_of
+from sweep.loading_modes import compared, mode_of
 from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
-from sweep.report.tables.legend import OPEN, PASSED_OVER, densifies_twice, is_unsure, marks
+from sweep.report.tables.marks import densifies_twice, is_unsure, marks
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
@@ -36,8 +36,9 @@ if TYPE_CHECKING:
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
 LOST = "No design is ranked here: all cases failed ({})."
-
-
+OPEN = """\
+The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
+PASSED_OVER = "{}By value alone, {} marked ! or x would stand before the first."
 SPARE = {
     "panel mm": "panel_specimens",
     "cycle 2 %": "second_cycle_share",

@@ -29,9 +29,9 @@ from sweep.config.case import Case
 from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.ranking.unfinished import loaded
-from sweep.running.alone import Simulate
 from sweep.running.beside.refinement import refined
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.child_process import Simulate
 from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run

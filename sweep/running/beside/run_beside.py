@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from sweep.config.case import Case
-from sweep.running.alone import Simulate
+from sweep.running.child_process import Simulate
 from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.sweep import run_sweep

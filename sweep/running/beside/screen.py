@@ -29,8 +29,8 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.unfinished import loaded
 from sweep.result import design_columns
-from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.child_process import Simulate
 from sweep.running.cluster import Scheduler
 from sweep.store.read import ONLY_MISSING, Rerun, read_summary
 

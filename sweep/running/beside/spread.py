@@ -18,8 +18,8 @@ from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.coupon.curve import with_tension
-from sweep.running.alone import Simulate
 from sweep.running.beside.run_beside import How, file_beside, run_beside
+from sweep.running.child_process import Simulate
 from sweep.running.cluster import Scheduler
 from sweep.scene.material import with_compression
 from sweep.store.read import ONLY_MISSING, Rerun, read_case

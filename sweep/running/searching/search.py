@@ -33,7 +33,7 @@ from sweep.numbers import text_in, three_digits
 from sweep.ranking.assessment import Assessment, assess
 from sweep.ranking.curves import Cache, with_allowed
 from sweep.ranking.question import Question
-from sweep.running.alone import Simulate
+from sweep.running.child_process import Simulate
 from sweep.running.cluster import Scheduler
 from sweep.running.progress import announce
 from sweep.running.searching.design_space import DesignSpace

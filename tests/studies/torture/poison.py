@@ -19,7 +19,7 @@ from distributed.utils import silence_logging_cmgr
 from sweep.config.case import Case
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Result, Status, failed_result
-from sweep.running.alone import NO_MEMORY
+from sweep.running.child_process import NO_MEMORY
 from sweep.running.cluster import open_cluster
 from sweep.running.processes import PROCESSES
 from sweep.running.sweep import run_sweep

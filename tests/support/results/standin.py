@@ -15,7 +15,7 @@ from sweep.columns import COLUMNS, HISTORY_COLUMNS, absorbed_energy_column
 from sweep.config.case import Case
 from sweep.result import Result, Status, design_columns
 from sweep.store.checksum import checked_columns, row_checksums
-from sweep.store.read import open_sealed
+from sweep.store.sealed_file import open_sealed
 from sweep.store.write import Writer
 
 NODES = 5

@@ -433,6 +433,7 @@ def test_show_draws_the_case_whose_id_begins_so(capsys, tmp_path):
     assert "nothing to draw" in crumple(capsys, "show", file, "cd")[1]
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_show_tells_the_settings_of_the_slicer_and_what_does_not_print(capsys, tmp_path):
     table = summary(
         {"slicer_settings": "PrusaSlicer: stars, 20 %"},
@@ -481,6 +482,7 @@ def test_export_refuses_its_arguments_before_anything_is_told(capsys, tmp_path, 
     assert [path.name for path in tmp_path.iterdir()] == ["trial.h5"]
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_show_takes_a_number_of_the_ranking_and_says_which_case_that_is(capsys, tmp_path):
     rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
     file = write(tmp_path / "trial.h5", summary(*rows))
@@ -505,6 +507,7 @@ QUESTIONS = [
 ]
 
 
+@pytest.mark.usefixtures("unpainted")
 @pytest.mark.parametrize(
     ("question", "number"), [*((question, 2) for question in QUESTIONS), (QUESTIONS[2], 1)]
 )

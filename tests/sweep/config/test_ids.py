@@ -8,6 +8,7 @@ import pytest
 
 from sweep.config.grid import expanded
 from sweep.config.load import load_config
+from sweep.config.reading.examples import examples
 from sweep.config.reading.reader import Reader
 from sweep.config.units import in_si
 
@@ -33,6 +34,14 @@ def test_the_ids_of_configs_are_frozen():
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_ids_of_an_example_are_frozen(name):
-    own = [case.case_id for case in load_config(name).cases]
+    config = load_config(name)
+    own = [case.case_id for case in config.cases]
+    assert (config.name, len({*own})) == (Path(name).name, len(own))
     digest = blake2b(" ".join(own).encode(), digest_size=8).hexdigest()
     assert [len(own), digest] == EXAMPLES[name]
+
+
+def test_the_ids_of_all_examples_are_frozen():
+    """But of searches, which have none, and of those that are stored with their predictions."""
+    others = {name for name in examples() if name == "search" or name.startswith("published/")}
+    assert EXAMPLES.keys() == {*examples()} - others

@@ -8,7 +8,7 @@ import pytest
 
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.modes import MODES
+from sweep.loading_modes import MODES
 from sweep.ranking.accuracy import AccuracyError, energy, path, peak, studies
 from sweep.report.tables.accuracy_tables import accuracy_sheets, setting
 from sweep.running.sweep import run_sweep

@@ -1,12 +1,14 @@
 """Cases that stopped: ranked by a completed loading, else named with a place."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
 from sweep.columns import absorbed_energy_column
 from sweep.ranking.rank import ranked
 from sweep.simulation.densification import efficiency, packed_row, weights
-from sweep.simulation.until import absorbed_until
+from sweep.simulation.up_to_force import absorbed_until
 from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
@@ -162,6 +164,17 @@ def question(rng):
     }
 
 
+@cache
+def rankings(seed):
+    """Of a random grid and question: the whole grid and the broken one, all places; the broken one
+    as the question shows it.
+    """
+    rng = np.random.default_rng([38, seed])
+    (whole, broken), asked = grids(rng), question(rng)
+    right, rest = (ranked(table, **asked | {"top": None}) for table in (whole, broken))
+    return right, rest, ranked(broken, **asked)
+
+
 def first(ranking):
     """Ids of the first place."""
     return {*ranking.table["case_id"][ranking.table["place"] == 1]}
@@ -172,10 +185,7 @@ def test_no_first_place_changes_without_a_word(seed):
     """The first design of a grid with stopped cases is also first in the whole grid, or the case
     that is first there is named; no case is promised a place that it does not have.
     """
-    rng = np.random.default_rng([38, seed])
-    (whole, broken), asked = grids(rng), question(rng)
-    right, rest = (ranked(table, **asked | {"top": None}) for table in (whole, broken))
-    some = ranked(broken, **asked)
+    right, rest, some = rankings(seed)
     if some.failed == some.cases:
         return  # nothing is ranked
     unfinished = some.unfinished.set_index("case_id")
@@ -190,9 +200,5 @@ def test_no_first_place_changes_without_a_word(seed):
 
 def test_the_grids_have_first_places_that_change():
     """Else the property above would say nothing."""
-    changed = 0
-    for seed in SEEDS:
-        rng = np.random.default_rng([38, seed])
-        (whole, broken), asked = grids(rng), question(rng)
-        changed += first(ranked(whole, **asked)) != first(ranked(broken, **asked))
-    assert changed > len(SEEDS) / 8
+    changed = [first(right) != first(rest) for right, rest, _ in map(rankings, SEEDS)]
+    assert sum(changed) > len(SEEDS) / 8

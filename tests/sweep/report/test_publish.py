@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from sweep.modes import LOADED
+from sweep.loading_modes import LOADED
 from sweep.ranking.question import Question, RankError
 from sweep.report.publish import publish_case, publish_ranking
 from sweep.report.tables.legend import MARKS

@@ -10,8 +10,8 @@ import pytest
 from distributed import KilledWorker
 
 from sweep.result import Status
-from sweep.running.alone import run_alone
 from sweep.running.batches import Plan
+from sweep.running.child_process import run_alone
 from sweep.running.cluster import ClusterError, open_cluster
 from sweep.running.dask_graph import LOSSES, Suspects, Work, _Run, run_on_cluster
 from sweep.running.fingerprint import source_hash

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sweep.store import read
+from sweep.store import sealed_file
 from sweep.store.batch import newest
-from sweep.store.read import finished_ids, read_statuses, read_summary
+from sweep.store.read import _union, finished_ids, read_statuses, read_summary
 from sweep.store.tables import arrange, relabel, slim, stack, tabulate, take
 from tests.support.results.standin import cases, write
 
@@ -85,14 +85,14 @@ def path(tmp_path):
 @pytest.fixture
 def made(monkeypatch):
     """The names of the columns that are read."""
-    names, usual = [], read._column
+    names, usual = [], sealed_file._column
 
     def column(data):
         names.append(data.name.rsplit("/", 1)[-1])
         return usual(data)
 
-    monkeypatch.setattr(read, "_column", column)
-    monkeypatch.setattr(read, "FEW", 0)
+    monkeypatch.setattr(sealed_file, "_column", column)
+    monkeypatch.setattr(sealed_file, "FEW", 0)
     return names
 
 
@@ -105,7 +105,7 @@ def test_no_column_is_read_that_nobody_asks_for(path, made):
 
 
 def test_columns_are_read_one_at_a_time(path, made):
-    with read._union(path) as blocks:
+    with _union(path) as blocks:
         table = newest(blocks)
         assert made == ["case_id"]
         table["mass_g"], table["mass_g"], table["case_id"]

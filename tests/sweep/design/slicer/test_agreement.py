@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.defaults.slicer_settings import slicer_settings, unlike
 from sweep.config.reading.other_names import present_choice
+from sweep.config.slicer_settings import slicer_settings, unlike
 from sweep.design.drawing import clipped, extent
 from sweep.design.infill import families, trait
 from sweep.design.lattice import build_network

@@ -11,7 +11,7 @@ import pytest
 
 from sweep.ranking.question import Question
 from sweep.report.page.write import write_page
-from sweep.report.tables.legend import marks
+from sweep.report.tables.marks import marks
 from tests.support.browser import CHROMIUM, browser
 from tests.support.command import crumple
 from tests.support.results.page_data import expected, sweep

@@ -50,12 +50,13 @@ def written(path, table, **question):
     )
 
 
-@pytest.fixture
-def evil(tmp_path):
+@pytest.fixture(scope="module")
+def evil(tmp_path_factory):
     """A page in which every name, and the sentence of a failure, is a script."""
     failed = {"status": "stopped", "message": f"stopped: {EVIL}"}
     rows = designs([1.0, 2.0], [0.1, 0.3], material=EVIL)
-    return written(tmp_path, summary(*rows, {"lattice_kind": EVIL} | failed))
+    table = summary(*rows, {"lattice_kind": EVIL} | failed)
+    return written(tmp_path_factory.mktemp("evil"), table)
 
 
 def test_elements_are_closed_in_their_order(evil):

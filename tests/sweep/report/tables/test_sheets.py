@@ -1,64 +1,15 @@
-"""Rankings as tables of text: marks, notes, legends, and budgets that share a section."""
+"""Rankings as tables of text: notes, and budgets that share a section."""
 
 import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import (
-    BEYOND,
-    COARSE,
-    CROSSED,
-    EARLY,
-    OPEN,
-    PASSED_OVER,
-    SECOND,
-    STRETCHED,
-    UNSURE,
-    legend,
-)
 from sweep.report.tables.markdown import markdown
-from sweep.report.tables.sheets import ranking_sheets
-from tests.support.results.specimens import CRUSHED_SOLID, IMPACTS, SPARSE, designs, summary
+from sweep.report.tables.sheets import OPEN, ranking_sheets
+from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
 NAN = float("nan")
 UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7, "peak_strain": 0.6}
-
-
-def test_energy_of_the_whole_crush_is_marked_where_the_model_does_not_hold_it():
-    table = summary(CRUSHED_SOLID, SPARSE)
-    ranking = ranked(table, by="absorbed_energy_J")
-    assert [int(case_id) for case_id in ranking.table["case_id"]] == [1, 0]
-    assert list(ranking.table["passed_on_N"]) == [25.0, 900.0]
-    assert list(ranking.table["beyond_model"]) == [False, True]
-    (sheet,) = ranking_sheets(ranking, table)
-    assert [row[0] for row in sheet.rows] == ["1*", "2 !"]
-    assert sheet.notes == (PASSED_OVER.format("", "1 design"),)
-    assert BEYOND in legend(ranking)
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert sheet.notes == ()
-    assert BEYOND not in legend(ranked(table))
-
-
-def test_what_marks_mean_is_said_once_for_all_scenes():
-    platens = [{"platen": platen} for platen in ("glued", "contact", "sliding")]
-    table = summary(*(CRUSHED_SOLID | platen for platen in platens))
-    ranking = ranked(table, by="absorbed_energy_J")
-    sheets = list(ranking_sheets(ranking, table))
-    assert [sheet.rows[0][0] for sheet in sheets] == ["1 !"] * 3
-    assert not any(BEYOND in sheet.notes for sheet in sheets)
-    assert legend(ranking).count(BEYOND) == 1
-
-
-def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
-    given = {"absorbed_energy_at_50N_J": 0.2, "loading.allowed_forces": 50.0}
-    table = summary(CRUSHED_SOLID | given, SPARSE | given)
-    (sheet,) = ranking_sheets(ranked(table, allowed_force=50.0), table)
-    energy = sheet.heads.index("usable mJ")
-    assert sorted(row[energy] for row in sheet.rows) == ["200", "> 200"]
-    assert EARLY in legend(ranked(table, allowed_force=50.0))
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert EARLY not in legend(ranked(table))
-    assert not any(text.startswith(">") for row in sheet.rows for text in row[:energy])
 
 
 @pytest.mark.parametrize(("energy", "is_open"), [(0.1, True), (0.3, False)])
@@ -77,32 +28,6 @@ def test_a_scene_in_which_all_cases_failed_is_named():
     assert (len(first.rows), lost.rows) == (1, [])
     assert "contact platens" in lost.title
     assert lost.notes == ("No design is ranked here: all cases failed (2).",)
-
-
-def test_walls_that_pass_through_one_another_are_marked():
-    table = summary(CRUSHED_SOLID, SPARSE | {"contact_model": "none", "max_crossings": 3})
-    ranking = ranked(table, by="absorbed_energy_J")
-    assert list(ranking.table["crossed"]) == [False, True]
-    (sheet,) = ranking_sheets(ranking, table)
-    assert [row[0] for row in sheet.rows] == ["1 !", "2 x"]
-    assert BEYOND in legend(ranking)
-    assert CROSSED in legend(ranking)
-
-
-def test_coarse_steps_are_marked():
-    table = IMPACTS.assign(integrator_share=[0.01, 0.1])
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert [row[0] for row in sheet.rows] == ["1*", "2 i"]
-    assert COARSE in legend(ranked(table))
-
-
-def test_walls_that_are_stretched_beyond_the_measured_curve_are_marked():
-    table = summary({"stretch_over_curve": 1.2}, {"stretch_over_curve": 0.9, "mass_g": 2.0})
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert [row[0] for row in sheet.rows] == ["1*^", "2 "]
-    assert STRETCHED in legend(ranked(table))
-    table = summary({"stretch_over_curve": NAN}, {"stretch_over_curve": 1.0})
-    assert STRETCHED not in legend(ranked(table))
 
 
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
@@ -139,16 +64,6 @@ def test_what_comes_back_and_what_has_not_packed_is_told():
     assert [row[-2:] for row in sheet.rows] == [["> 50", "95"], ["–", "95"], ["54", "90"]]
 
 
-def test_a_lattice_that_packs_at_two_strains_is_marked():
-    rising = {"packing_span": 0.21, "densification_strain": NAN, "peak_strain": 0.5}
-    table = summary({"packing_span": 0.21}, rising, {})
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert [row[-2] for row in sheet.rows] == ["54~", "> 50", "54"]
-    assert UNSURE in legend(ranked(table))
-    for others in (table.iloc[2:], table.iloc[1:]):
-        assert UNSURE not in legend(ranked(others))
-
-
 def test_behaviour_of_walls_is_shown_where_it_differs():
     table = summary({}, {"material_memory": "softens"})
     (sheet,) = ranking_sheets(ranked(table), table)
@@ -169,18 +84,6 @@ def test_the_sorted_column_is_never_spare():
         assert others <= set(sheet.spare) < set(sheet.heads)
 
 
-def test_second_cycle_is_told_where_there_is_one():
-    table = summary({"second_cycle_share": 0.7}, {})
-    ranking = ranked(table)
-    (sheet,) = ranking_sheets(ranking, table)
-    assert sorted(row[sheet.heads.index("cycle 2 %")] for row in sheet.rows) == ["70", "–"]
-    assert SECOND in legend(ranking)
-    table = summary({})
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert "cycle 2 %" not in sheet.heads
-    assert SECOND not in legend(ranked(table))
-
-
 @pytest.mark.parametrize("by", ["lost_energy_J", "lost_share", "lost_energy_J_per_g"])
 def test_what_is_lost_ranks_designs(by):
     table = summary({by: 0.1}, {by: 0.3}, {by: NAN})
@@ -195,18 +98,6 @@ def test_budgets_with_the_same_places_share_a_section():
     ranking = ranked(table, budget=["1 g", "3 g", "5 g", "9 g"], top=1)
     sheet = next(ranking_sheets(ranking, table))
     assert [row[:2] for row in sheet.rows] == [["1-5", "1*"], ["9", "1*"]]
-
-
-def test_what_does_not_print_is_marked():
-    table = summary(*designs([1.0, 2.0], [0.3, 0.1]))
-    table["does_not_print"] = ["", "walls of 1.5 lines of 0.4 mm"]
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert [row[0] for row in sheet.rows] == ["1*", "2 p"]
-    assert "p: does not print as drawn" in legend(ranked(table))
-    table["does_not_print"] = ""
-    (sheet,) = ranking_sheets(ranked(table), table)
-    assert [row[0] for row in sheet.rows] == ["1*", "2 "]
-    assert "does not print" not in legend(ranked(table))
 
 
 def test_both_directions_stand_side_by_side_in_one_ranking():

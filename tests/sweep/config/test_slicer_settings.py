@@ -4,7 +4,7 @@ from math import degrees, pi, radians
 
 import pytest
 
-from sweep.config.defaults.slicer_settings import slicer_settings
+from sweep.config.slicer_settings import slicer_settings
 from sweep.design.slicer.patterns import line_of
 from tests.support.designs.tables import lattice_with
 

@@ -10,18 +10,18 @@ import pytest
 
 import sweep
 from sweep.columns import COLUMNS
-from sweep.ranking.needed import NEEDED, needed_columns, widened
+from sweep.ranking.needed_columns import NEEDED, needed_columns, widened
 from sweep.ranking.question import RankError
 from tests.support.results.specimens import summary
 
 FOLDER = Path(sweep.__file__).parent
-BESIDE = ("accuracy.py", "cushion.py", "needed.py", "rank.py", "spread.py")
+BESIDE = ("accuracy.py", "cushion.py", "needed_columns.py", "rank.py", "spread.py")
 """Modules of rankings that read other tables, or name all columns by which one may sort."""
 
 
 def test_every_column_that_rankings_name_is_needed():
     files = [f for f in (FOLDER / "ranking").glob("*.py") if f.name not in BESIDE]
-    files += [FOLDER / "modes.py", FOLDER / "design" / "panel.py"]
+    files += [FOLDER / "loading_modes.py", FOLDER / "design" / "panel.py"]
     trees = [ast.parse(file.read_text("utf-8")) for file in files]
     texts = {n.value for tree in trees for n in ast.walk(tree) if isinstance(n, ast.Constant)}
     assert texts & COLUMNS.keys() <= NEEDED <= COLUMNS.keys()

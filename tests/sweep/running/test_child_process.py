@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sweep.result import Status
-from sweep.running.alone import run_alone
+from sweep.running.child_process import run_alone
 from tests.support.results.standin import cases, number_of, simulate
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import crumple
-from sweep.arguments import explained
+from sweep.argument_types import explained
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from pandas import DataFrame
 from sweep.columns import COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case
 from sweep.config.kinds.loading import KINDS as LOADINGS
-from sweep.modes import MODES, asked_of, compared, has, is_coarse, mode_of
+from sweep.loading_modes import MODES, asked_of, compared, has, is_coarse, mode_of
 from sweep.numbers import FACTORS
 from sweep.ranking.requirement_table import MEASURES
 from sweep.result import LOADED

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sweep.simulation.until import absorbed_until, stroke_until
+from sweep.simulation.up_to_force import absorbed_until, stroke_until
 
 STRAIN = np.linspace(0.0, 0.6, 601)
 FORCE = np.interp(STRAIN, [0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])

@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.defaults.drop_tests import drop_of, drops, in_si, limits
+from sweep.config.drop_tests import drop_of, drops, in_si, limits
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.config.units import quantity

@@ -1,0 +1,82 @@
+"""The marks of doubtful results in the tables of a ranking, and what each mark means."""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import add
+from typing import TYPE_CHECKING
+
+from sweep.columns import end_columns
+from sweep.numbers import tenths
+from sweep.ranking.unfinished import unloaded
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Series
+
+LONG_SPAN = 0.1  # span of strain
+MEANINGS = {
+    "!": """\
+!: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
+length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
+that are shells fill the whole area (solid_strain). Placed behind all others.""",
+    "x": """\
+x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
+all others.""",
+    "i": """\
+i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact
+(integrator_share), or erred by more than 0.5 % of the path of a dead load in one step (path_error).
+Forces and strains may err by several percent. Shorter steps err less (solver.step_error, or
+time_step).""",
+    "p": """\
+p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
+gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these.""",
+    "^": """\
+^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
+stretch_over_curve: how far).""",
+    "u": """\
+u: stopped after its loading (message: why), which determines energy, peak and densification; what
+only unloading tells is not known (–).""",
+    "b": """\
+b: simulated with another imperfection, as it stopped with the one asked for (retry: which).""",
+}
+
+
+def marks(rows: DataFrame) -> Series:
+    """The marks of each row, such as "!x"; "" of a result without doubt that prints as drawn."""
+    marked = _marked(rows).items()
+    return reduce(add, (flags.map({True: mark, False: ""}) for mark, flags in marked))
+
+
+def mark_notes(rows: DataFrame) -> tuple[str, ...]:
+    """The meaning of the marks that these rows have."""
+    marked = _marked(rows)
+    return tuple(meaning for mark, meaning in MEANINGS.items() if marked[mark].any())
+
+
+def _marked(rows: DataFrame) -> dict[str, Series]:
+    """The rows that have each mark, in the order in which a row shows its marks."""
+    return {
+        "!": rows["beyond_model"],
+        "x": rows["crossed"],
+        "i": rows["coarse"],
+        "^": rows["beyond_curve"],
+        "p": rows["does_not_print"] != "",
+        "u": unloaded(rows),
+        "b": other_bow(rows),
+    }
+
+
+def other_bow(rows: DataFrame) -> Series:
+    """True for results of a retry with another imperfection."""
+    return rows["retry"].str.contains("imperfection")
+
+
+def is_unsure(rows: DataFrame) -> Series:
+    """True for lattices that have nearly the greatest efficiency over a long span of strain."""
+    return rows["packing_span"] > LONG_SPAN
+
+
+def densifies_twice(rows: DataFrame) -> Series:
+    """True for lattices with nearly the greatest efficiency at two strains, in whole percent."""
+    low, high = (rows[name].map(tenths) for name in end_columns("densification_strain"))
+    return low != high
