@@ -43,7 +43,8 @@ MEMORIES = 150  # lattices whose material has a memory
 SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of second order
 WIDE = 64  # panels of up to 48 cells side by side
 RETRIED = "converged in a retry"
-CONVERGED = "converged", RETRIED
+TIPPED = "slipped"  # in a scene with flat platens: the lattice tipped over
+DONE = "converged", RETRIED, TIPPED
 UNANSWERED = "have no answer, of these"
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 ROUND_OFF = "exceed round-off"  # in the message of a load that is too small
@@ -85,7 +86,7 @@ def has_no_answer(case, found):
     """Whether a scene that failed has no equilibrium or motion that could be resolved."""
     if found.status == "stopped" and (ROUND_OFF in found.message or _folds_flat(case)):
         return True
-    return found.status != "converged" and faster_than_sound(case) != ""
+    return found.status not in DONE and faster_than_sound(case) != ""
 
 
 def _folds_flat(case):
@@ -113,15 +114,14 @@ def counted(cases, audits):
 
 
 def shares(counts):
-    """Rows of the table: the share of scenes that converge, in %, of all and of those with an
-    answer.
+    """Rows of the table: the share of scenes that converge or tip over, in %, of all and of those
+    with an answer.
     """
     ended = [name for name in counts if name not in (UNANSWERED, VIOLATED, BALANCED)]
-    rows = {"converged, % of all": [], "converged, % of those with an answer": []}
+    rows = {"done, % of all": [], "done, % of those with an answer": []}
     for kind in KINDS:
         total, done = (
-            sum(counts[name][kind] for name in names if name in counts)
-            for names in (ended, CONVERGED)
+            sum(counts[name][kind] for name in names if name in counts) for names in (ended, DONE)
         )
         for row, most in zip(rows.values(), (total, total - counts[UNANSWERED][kind]), strict=True):
             row.append(percent(done / most) if most else "-")
