@@ -4,10 +4,10 @@ The public functions raise `MisfitError`, whose kinds are `ConfigError` and `Cou
 `StoreError`, `RankError`, `ExportError`, `OptimizeError` and `ClusterError`, which are public too.
 Each name is loaded when it is first used, so that `import sweep` takes almost no time.
 
-Modules outside of the packages: `arguments` explains wrong arguments of a call, `columns` lists the
-columns of results, `modes` the modes of loading, `result` has the result of one case, `numbers`
-writes quantities as text, `plain_text` makes foreign texts safe, `constants` has factors between
-units, `version` the versions of installed packages.
+Modules outside of the packages: `argument_types` explains wrong arguments of a call, `columns`
+lists the columns of results, `loading_modes` the modes of loading, `result` has the result of one
+case, `numbers` writes quantities as text, `plain_text` makes foreign texts safe, `constants` has
+factors between units, `version` the versions of installed packages.
 """
 
 from importlib import import_module

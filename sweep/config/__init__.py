@@ -4,6 +4,6 @@
 lists the keys and `json_schema` writes them for editors. `axis` and `grid` expand a grid into
 `cases`; `case` is one case with its id, completed from the `kinds` of its tables, and `changes`
 replaces some of its values. `question` has the tables that rank results, `faults` the errors.
-`defaults` has values that follow from others; `materials`, `structures`, `drawings` and `profiles`
-read files of their own.
+`drop_tests` has the drops of standards, `slicer_settings` what a slicer prints a design with;
+`materials`, `structures`, `drawings` and `profiles` read files of their own.
 """

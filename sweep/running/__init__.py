@@ -2,7 +2,7 @@
 
 `sweep` runs the missing cases: `batches` groups them, `threads` runs them in this process,
 `processes` in others, `dask_graph` on the workers of a `cluster` (these two are the only home of
-dask), and `alone` runs suspect ones in a process of their own; `place` chooses between these.
+dask), and `child_process` runs suspect ones one at a time; `place` chooses between these.
 `warming` loads the kernels, `memory` limits the memory of a case, `on_worker` is the code of a
 worker, if it has the `fingerprint` of the run. `journal` records which cases run at the moment,
 `writer_thread` stores results, with the attributes of `provenance`. `progress` reports how far a

@@ -1,7 +1,8 @@
 """The status and the message of a case that does not finish: what happened, and what to try.
 
 A converged case whose material breaks has a message too. Cases that end without a simulation, as
-their memory or their worker is lost, get theirs from `running.alone` and `running.dask_graph`.
+their memory or their worker is lost, get theirs from `running.child_process`
+and `running.dask_graph`.
 """
 
 from collections.abc import Mapping
