@@ -64,8 +64,9 @@ def incomplete(count: int, about: Mapping[str, Any]) -> Iterator[str]:
             "change the order: the same crumple run computes them."
         )
     if part := about.get("part"):
+        several = "s" * ("," in part)
         yield (
-            f"This file has part {part} of a sweep: designs of the other parts may be better; "
+            f"This file has part{several} {part} of a sweep: designs of other parts may be better; "
             "crumple merge combines all parts."
         )
 
