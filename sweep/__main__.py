@@ -722,6 +722,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # has no place in our code
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
+    sys.stderr = sys.stderr or os.fdopen(_nowhere(), "w")
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
         status = verbs.VERBS[arguments.verb](arguments)

@@ -83,6 +83,12 @@ def test_output_that_is_closed_is_no_error(file):
     assert (done.returncode, done.stderr) == (1, "")
 
 
+@pytest.mark.parametrize(("words", "status"), [(["rank"], 1), (["status"], 1), (["show", "7"], 2)])
+def test_errors_that_are_closed_change_no_exit_status(file, words, status):
+    done = started(words[0], file, *words[1:], preexec_fn=lambda: os.close(2))
+    assert (done.returncode, done.stderr) == (status, "")
+
+
 def test_disk_that_is_full(file):
     with Path("/dev/full").open("w") as full:
         done = started("status", file, stdout=full)
