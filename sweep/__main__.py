@@ -714,7 +714,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         argument_parser.verbs[arguments.verb].refuse(unknown)
     from sweep.cli import verbs
     from sweep.cli.refusals import refusals
-    from sweep.cli.terminal import flush, silence
+    from sweep.cli.terminal import flush, silence, write
 
     if arguments.verb not in verbs.VERBS:
         argument_parser.verbs[arguments.verb].error(
@@ -722,15 +722,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # has no place in our code
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
+    sys.stderr = sys.stderr or os.fdopen(_nowhere(), "w")
     sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # ASCII has no dash
     try:
         status = verbs.VERBS[arguments.verb](arguments)
         flush()
     except KeyboardInterrupt as stop:
-        print(str(stop) or "interrupted", file=sys.stderr)
+        write(sys.stderr, f"{str(stop) or 'interrupted'}\n")
         return 1
     except OSError as error:
-        silence()
+        silence(sys.stdout)
         return _refuse(arguments.verb, error)
     except refusals() as refusal:
         return _refuse(arguments.verb, refusal)
@@ -738,7 +739,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _refuse(verb: str, why: Exception) -> int:
-    print(f"crumple {verb}: {plain(why)}", file=sys.stderr)
+    from sweep.cli.terminal import write
+
+    write(sys.stderr, f"crumple {verb}: {plain(why)}\n")
     return getattr(why, "exit_status", 2)
 
 

@@ -35,7 +35,8 @@ class Least(NamedTuple):
 
     column: the least value is the best. unit: in charts. axis, chart: label of an axis, title of a
     chart. quantity: on the axis of the page. merit: words for a value. order: the best value, in
-    words. head: of its column on the page.
+    words. front: what no lighter design does, if a design is on the Pareto front. head: of its
+    column on the page.
     """
 
     column: str
@@ -45,6 +46,7 @@ class Least(NamedTuple):
     quantity: str
     merit: str
     order: str
+    front: str
     head: str
 
 
@@ -146,6 +148,7 @@ MODES: Mapping[str, Mode] = {
             quantity="force on the support",
             merit="{} N on the support",
             order="least force on the support",
+            front="transmits as little force",
             head="force N",
         ),
         coarse=("integrator_share", 0.05),
@@ -167,6 +170,7 @@ MODES: Mapping[str, Mode] = {
             quantity="greatest strain",
             merit="compressed by {} %",
             order="smallest strain",
+            front="is strained as little",
             head="strain %",
         ),
         coarse=("path_error", 0.005),

@@ -34,8 +34,8 @@ HOW_TO_RENEW = "crumple run CONFIG --renew computes older ones again"
 class Status(StrEnum):
     """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it.
 
-    `slipped` is an answer too: the striker has lost the lattice, or it has tipped over, so that the
-    design has no place.
+    `slipped` is an answer too: the striker has lost the lattice, or the lattice has tipped
+    over, so that the design has no place.
     """
 
     CONVERGED = "converged"

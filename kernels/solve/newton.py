@@ -41,9 +41,9 @@ HALVINGS = 40  # greatest number in a line search
 DUAL_HALVINGS = 3  # after more halvings the duals of lagged forces are reset
 SLOW_REDUCTION = 0.1  # a reused factor is renewed if the ratio of two residuals is larger
 LEAST_SHARE = 1e-12  # share of a move: a shorter one is a stall
-FIRST_SHIFT = 2.0  # of the least shift that may do: of the negative curvature that was met
+FIRST_SHIFT = 2.0  # first shift, as a multiple of the negative curvature, which it must exceed
 RAISED = 4.0  # ratio of a shift to the previous one, which was too small
-RAISES = 32  # most in a row
+RAISES = 32  # greatest number of shifts that are tried
 RESOLVED = 1e-11  # relative energy changes below it are round-off
 DRIVEN_CAP = 5.0  # least cap of a move, as a multiple of the driven move in it: with a
 # smaller cap the driven coordinate would often not arrive

@@ -24,9 +24,9 @@ is nearer to the joint than this part: t_c is reduced by the ratio of the path t
 Parts of two arms at rest that are farther apart than D along the path are apart by more than t in
 the plane: by D sin(gamma/2) = t [cos(gamma/2) + gamma/2 sin(gamma/2)]. Contact of walls that are
 printed into each other starts at 0.9 x their rest distance, so that the rest state is free of
-stress. A pair of weight 0 is no contact. Below 0.2 x its rest distance, or below t_c if that is
-less, a barrier keeps it from crossing: collision detection alone would stop every move that presses
-it. The rules are evaluated once for a scene.
+stress. A pair of weight 0 is no contact, but a barrier keeps it from crossing. It acts below 0.2 x
+the rest distance, or below t_c if that is less; collision detection alone would stop every move
+that presses the pair. The rules are evaluated once for a scene.
 """
 
 import math
@@ -40,7 +40,7 @@ from kernels.geometry.distance import direction, squared_distance
 from kernels.geometry.near_pairs import near
 
 REST_SHARE = 0.9
-GUARDED_SHARE = 0.2  # of the rest distance: walls without contact are kept from crossing below it
+GUARDED_SHARE = 0.2  # of the rest distance: where a barrier keeps pairs of weight 0 from crossing
 FAR = 5.0  # s / t beyond which t_c = t: it would be less than 2 % smaller
 UNLISTED = -1.0  # weight of an edge without a rule
 

@@ -25,7 +25,7 @@ from kernels.compile.jit import jit
 from kernels.geometry.angle import between
 
 NEAR_ENOUGH = 0.5  # rad
-WHOLE = 2.0 * math.pi  # rad
+WHOLE = 2.0 * math.pi  # rad: a turn
 
 
 class Walls(NamedTuple):
@@ -94,8 +94,10 @@ def renew_frame(x, walls, frame):
 
 @jit
 def measure(x, walls, frame, shape):
-    """Fill directions, lengths and turns, whose mean is at most half round; return the shortest
-    length in m.
+    """Fill directions, lengths and turns; return the shortest length in m.
+
+    Whole turns of the chord are counted by the mean phi of its ends: (a_1 + a_2) / 2 is within
+    [-pi, pi], however far an element has turned from its frame.
     """
     shortest = np.inf
     for k in range(shape.length.size):
@@ -109,7 +111,7 @@ def measure(x, walls, frame, shape):
     for k in range(shape.length.size):
         one, two = x[walls.dofs[k, 2]], x[walls.dofs[k, 5]]
         turned = between(frame[k, 0], frame[k, 1], shape.t[0, k], shape.t[1, k])
-        turned += WHOLE * round((0.5 * (one + two) - frame[k, 2] - turned) / WHOLE)
+        turned += WHOLE * np.rint((0.5 * (one + two) - frame[k, 2] - turned) / WHOLE)
         shape.turn[0, k] = turned - (one - frame[k, 2])
         shape.turn[1, k] = turned - (two - frame[k, 2])
     return shortest

@@ -4,6 +4,7 @@ file.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from sweep.cli.refusals import ArgumentError
@@ -23,12 +24,27 @@ def merge(out: str, files: list[str]) -> None:
     about = read_attributes(files[0])
     if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
         hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
-    parts = {str(part) for file in files if (part := read_attributes(file).get("part"))}
-    if (count := max((int(part.split("/")[1]) for part in parts), default=0)) > len(parts):
-        hint([f"these files have {', '.join(sorted(parts))} of a sweep of {count} parts"])
+    merged = [*files, out] if exists(out) else files
+    parts, count = _parts(str(read_attributes(file).get("part", "")) for file in merged)
     about = {name: value for name, value in about.items() if name != "part"}
+    if len(parts) < count:
+        about["part"] = ", ".join(parts)
+        hint([f"these files have {about['part']} of a sweep of {count} parts"])
     with Writer(out, attributes=about) as writer:
         writer.fold(files=files)
     say(f"{out}: {counted(len(read_summary(out)), 'case')}")
     run = f"      crumple run CONFIG --out {out}: what is missing, if anything"
     hint([f"next: crumple rank {out}", run])
+
+
+def _parts(texts: Iterable[str]) -> tuple[list[str], int]:
+    """The parts of a sweep, such as "1/3", that files have, in their order, and the number of all
+    parts. texts: the attribute `part` of each file; a file without it may have the whole sweep.
+    """
+    parts: set[str] = set()
+    for text in texts:
+        if not text:
+            return [], 0
+        parts |= {*text.split(", ")}
+    numbers = {part: [int(number) for number in part.split("/")] for part in parts}
+    return sorted(parts, key=numbers.__getitem__), max(count for _, count in numbers.values())

@@ -9,7 +9,7 @@ from itertools import zip_longest
 from shlex import quote
 from subprocess import list2cmdline
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TextIO
 
 from sweep.numbers import NOTHING, budget_text, in_unit, text_in
 from sweep.plain_text import plain
@@ -64,8 +64,9 @@ def incomplete(count: int, about: Mapping[str, Any]) -> Iterator[str]:
             "change the order: the same crumple run computes them."
         )
     if part := about.get("part"):
+        several = "s" * ("," in part)
         yield (
-            f"This file has part {part} of a sweep: designs of the other parts may be better; "
+            f"This file has part{several} {part} of a sweep: designs of other parts may be better; "
             "crumple merge combines all parts."
         )
 
@@ -178,17 +179,18 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
     for sheet in sheets:
         say("")
         shown = fitted(_plain(sheet), limit or WIDE, limit or USUAL)
-        with console.capture() as text:
+        flush()  # where the reader has closed the pipe, a capture would exit
+        with console.capture() as title:
             if sheet.title:
                 console.print(plain(sheet.title), style="bold", markup=False, highlight=False)
-        sys.stdout.write(text.get())
+        lines = [title.get()]
         if sheet.heads:
             console.width = max(limit or 0, WIDE)  # rich would truncate numbers
-            with console.capture() as text:
+            with console.capture() as heads:
                 console.print(_headed(shown))
             console.width = limit or WIDE
-            sys.stdout.write(text.get())
-            sys.stdout.writelines(_lines(shown))
+            lines += [heads.get(), *_lines(shown)]
+        write(sys.stdout, "".join(lines))
         say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
     say("")
 
@@ -334,24 +336,31 @@ def quoted(name: str) -> str:
 
 
 def flush() -> None:
-    """Write buffered output, unless the reader has closed the pipe."""
+    """Write what stdout has buffered, to the same end as `write`."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:
-        silence()
+        silence(sys.stdout)
 
 
-def silence() -> None:
+def silence(stream: TextIO) -> None:
     """Discard buffered and later output, so that Python reports no second error at the exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def write(stream: TextIO, text: str) -> None:
+    """Write to stdout or stderr. A reader that has closed the pipe changes neither work nor exit
+    status.
+    """
+    try:
+        stream.write(text)
+    except BrokenPipeError:
+        silence(stream)
 
 
 def say(text: object, end: str = "\n") -> None:
-    """Print a line. A reader that has closed the pipe changes neither work nor exit status."""
-    try:
-        sys.stdout.write(f"{plain(text)}{end}")
-    except BrokenPipeError:
-        silence()
+    """Print a line."""
+    write(sys.stdout, f"{plain(text)}{end}")
 
 
 def say_all(lines: Iterable[object]) -> None:
@@ -363,4 +372,5 @@ def say_all(lines: Iterable[object]) -> None:
 def hint(lines: Iterable[str]) -> None:
     """Print lines on stderr, after the output on stdout."""
     flush()
-    sys.stderr.writelines(f"{plain(line)}\n" for line in lines)
+    for line in lines:
+        write(sys.stderr, f"{plain(line)}\n")

@@ -137,10 +137,9 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     """The cases, and which combinations are left out, as their values cannot be combined.
 
     The first axis of the grid varies slowest, and of equal cases the first is kept. Refused are a
-    value that no combination can use, unless it is merely not printable, or a kind of lattice that
-    does not fit values which other kinds can use; a grid without any possible case; a key that no
-    case uses; and a table of [[exclude]] that drops no case. A search is tried at a few points
-    (`_combinations`), and has no cases.
+    value that no combination can use (`_Combination.is_mistaken` has the exceptions), a grid
+    without any possible case, a key that no case uses, and a table of [[exclude]] that drops no
+    case. A search is tried at a few points (`_combinations`), and has no cases.
     """
     count = recipe.count
     if count > MAX_CASES:
@@ -196,8 +195,10 @@ class _Combination:
         return {(key, written.text) for key, written in self.chosen.items()}
 
     def is_mistaken(self, usable: set[tuple[str, str]]) -> bool:
-        """Whether it has a value that is not usable; but not if merely its walls do not print, or
-        if its kind of lattice does not fit values that other kinds can use.
+        """Whether it has a value that no combination can use, and is to be refused for that.
+
+        It is merely left out if its walls do not print, or if its kind of lattice does not fit
+        given values that other kinds can use.
         """
         unusable = {key for axis, text in self.texts - usable for key in _keys(axis)}
         if not unusable or [fault.key for fault in self.faults] == [PRINTABLE]:
@@ -347,8 +348,8 @@ def _in_unit_of(written: Written, key: str, sentence: str) -> str:
 
 
 def _reasons(refused: list[_Combination], count: int, recipe: Recipe) -> list[Fault]:
-    """One fault for each refused value and reason, whatever its numbers; count: number of all
-    combinations.
+    """One fault for each refused value and each reason; reasons that differ in numbers alone are
+    one. count: number of all combinations.
     """
     alike: dict[tuple[str, str], list[tuple[Fault, Values]]] = {}
     for draft in refused:

@@ -65,7 +65,7 @@ PREFIXES = {
 }
 SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
 """Other signs in a unit -> the signs that are understood."""
-SMALLEST, LARGEST = 1e-30, 1e30  # in SI: beyond, products of quantities would overflow
+SMALLEST, LARGEST = 1e-30, 1e30  # in SI, so that products neither overflow nor vanish
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
 _POWER = re.compile(r"(.+)\^(-?\d)", re.ASCII)
@@ -89,7 +89,7 @@ def in_si(text: object, unit: str) -> float:
     value = float(number) * size
     if abs(value) > LARGEST:
         raise MisfitError("too large")
-    if value and abs(value) < SMALLEST:
+    if abs(value) < SMALLEST and number.lower().partition("e")[0].strip("+-0."):
         raise MisfitError("too small")
     return float(f"{value:.15g}")
 

@@ -28,9 +28,20 @@ SOON = 1.0  # seconds: a shorter time left is not shown, as the running cases ma
 SENTENCES = 5  # most different failures that are reported while the sweep runs
 
 
+class Stderr(Console):
+    """A console on stderr. A reader that has closed the pipe does not end the run."""
+
+    def __init__(self) -> None:
+        super().__init__(stderr=True)
+
+    def on_broken_pipe(self) -> None:
+        """Print nothing more, where rich would exit."""
+        self.quiet = True
+
+
 def announce(line: str) -> None:
     """Print one line on stderr before the progress starts."""
-    Console(stderr=True).print(plain(line), markup=False, highlight=False, soft_wrap=True)
+    Stderr().print(plain(line), markup=False, highlight=False, soft_wrap=True)
 
 
 class NotebookLine:
@@ -80,7 +91,7 @@ class Progress:
         part: bool = False,
         weight: Callable[[Case], float] = cost,
     ) -> None:
-        self.console = console or Console(stderr=True)
+        self.console = console or Stderr()
         self.part = part
         self.weight = weight
         self.total = done + waiting

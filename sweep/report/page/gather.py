@@ -52,7 +52,7 @@ from sweep.report.page.thinning import (
 )
 from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import meanings
+from sweep.report.tables.legend import front, meanings
 from sweep.report.tables.marks import other_bow
 from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
@@ -313,6 +313,7 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
         "axes": [axis.label for axis in mode.curve],
         "shown": mode.least and mode.least._asdict(),
         "least": least,
+        "front": front(mode),
         "bar": least is not None and error_column(least) in rows,
         "heads": list(_measures(kept)),
         "meanings": meanings(rows, mode),

@@ -562,7 +562,7 @@ function near(id, on) {
 }
 
 function notes() {
-  const lines = [`*: on the Pareto front: no lighter design of the scene is as good. mass: of ${now.rows.every((row) => isPeriod(row.design)) ? "one period" : asked.panel ? "one specimen" : "the part"}.`];
+  const lines = [`*: on the Pareto front: no lighter design ${scene().front}. mass: of ${now.rows.every((row) => isPeriod(row.design)) ? "one period" : asked.panel ? "one specimen" : "the part"}.`];
   const rows = now.placed;
   lines.unshift(...partText());
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
     from sweep.ranking.ranking import Ranking
 
-MARKS = "*: on the Pareto front: no lighter design of the scene is as good. mass: of {}."
+ABSORBS = "absorbs as much"
+MARKS = "*: on the Pareto front: no lighter design {}. mass: of {}."
 CRUSHED = """\
 {noun}: energy absorbed {until}; J/g is of it.
 peak: greatest force of {of} until then."""
@@ -71,12 +72,24 @@ def legend(ranking: Ranking) -> str:
     """The meaning of the marks and column heads in the sheets of a ranking."""
     table, of = ranking.table, of_one(ranking.table)
     noun, lines = "panel" if "panel_mass_g" in table else "usable", []
-    for mode in (MODES[name] for name in sorted(table["loading_mode"].unique())):
+    modes = [MODES[name] for name in sorted(table["loading_mode"].unique())]
+    for mode in modes:
         counted = [CRUSHED.format(noun=noun, until=ranking.until, of=of)] if mode.driven else []
         whole = mode.notes and not (mode.driven and ranking.limited)
         lines += [*counted, *(meanings(table, mode) if whole else [])]
     lines += panel_note(table, ranking.panel) + column_notes(ranking) + _notes(ranking)
-    return "\n".join(dict.fromkeys([MARKS.format(of), *lines, *_error_notes(table)]))
+    return "\n".join(dict.fromkeys([_marks(modes, of), *lines, *_error_notes(table)]))
+
+
+def _marks(modes: list[Mode], of: str) -> str:
+    """The meaning of the star, for all modes of a ranking, and whose mass is shown."""
+    fronts = dict.fromkeys(map(front, modes)) or [ABSORBS]
+    return MARKS.format(" or ".join(fronts), of)
+
+
+def front(mode: Mode) -> str:
+    """What no lighter design does, if a design is on the Pareto front."""
+    return mode.least.front if mode.least else ABSORBS
 
 
 def _error_notes(table: DataFrame) -> list[str]:

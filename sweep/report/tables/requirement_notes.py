@@ -26,11 +26,11 @@ PANEL = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
 )
-OFF = 0.05  # relative difference of a side
-NOT_FILLED = (
-    "Whole specimens do not fill the panel of {} mm in the question: a side differs by up to {} %."
+TOLERATED = 0.05  # relative difference of a side
+OTHER_SIZE = (
+    "Whole specimens make a panel whose sides differ by up to {} % from the {} mm of the question."
     "\n"
-    "Mass, energy and force of the panel are of its true size."
+    "Mass, energy and force are of the panel that they make."
 )
 WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm; effects of its edges are neglected."
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
@@ -255,8 +255,8 @@ def panel_size(rows: DataFrame) -> dict[str, Series]:
 
 
 def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
-    """The number of specimens in a panel, what strikes them, and whether they fill the lengths (m)
-    of the question; none without a panel.
+    """The number of specimens in a panel, what strikes them, and whether the panel differs from
+    the lengths (m) of the question; none without a panel.
     """
     if "panel_specimens" not in rows or has(rows, "dead").all():
         return []
@@ -268,16 +268,16 @@ def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
     sizes = list(dict.fromkeys(panel_size(rows.sort_values("panel_width_m"))["panel mm"]))
     size = sizes[0] if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
     struck = [STRUCK_PANEL] if has(rows, "struck").any() else []
-    unlike = _not_filled(rows, panel)
+    other = _other_size(rows, panel)
     if most == 1:
-        return [ONE_SPECIMEN.format(size), *unlike]
+        return [ONE_SPECIMEN.format(size), *other]
     count = least if least == most else f"{least} to {most}"
-    return [PANEL.format(count, size), *unlike, *struck]
+    return [PANEL.format(count, size), *other, *struck]
 
 
-def _not_filled(rows: DataFrame, panel: Sequence[float]) -> Iterator[str]:
-    """A sentence if whole specimens do not nearly make the panel of the question."""
-    true = rows[["panel_width_m", "panel_depth_m"]]
-    if (off := float((true / list(panel) - 1.0).abs().max(axis=None))) > OFF:
-        sides = " x ".join(f"{in_unit(side, 'mm'):.4g}" for side in panel)
-        yield NOT_FILLED.format(sides, percent(off))
+def _other_size(rows: DataFrame, panel: Sequence[float]) -> Iterator[str]:
+    """A sentence if whole specimens make a panel of another size than the question has."""
+    sides = rows[["panel_width_m", "panel_depth_m"]]
+    if (difference := float((sides / list(panel) - 1.0).abs().max(axis=None))) > TOLERATED:
+        lengths = " x ".join(f"{in_unit(side, 'mm'):.4g}" for side in panel)
+        yield OTHER_SIZE.format(percent(difference), lengths)

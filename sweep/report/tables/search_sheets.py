@@ -99,8 +99,8 @@ def _rivals(spread: Spread) -> Iterator[str]:
     errors = abs(values.get(FINE, values[AS_GIVEN]) - values[AS_GIVEN])
     behind = values[AS_GIVEN].iloc[0] - values[AS_GIVEN]
     if near := [*map(str, places[behind <= errors + errors.iloc[0]].iloc[1:])]:
-        all_of = ", ".join([str(places.iloc[0]), *near])
-        yield f"The first place is not certain: the errors of the mesh of {all_of} overlap."
+        numbers = ", ".join([str(places.iloc[0]), *near])
+        yield f"The first place is not certain: the mesh errors of numbers {numbers} overlap."
     ahead: dict[int, list[str]] = {}
     for name in spread.swaps:
         if first := spread.first(name):

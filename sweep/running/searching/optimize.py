@@ -120,9 +120,9 @@ def search_of(config: Config, question: Question, out: str, how: Settings) -> Se
 def _like_ranges(config: Config) -> Iterator[str]:
     """A line for each list of two numbers in a [search], which may be meant as a range."""
     for key, axis in config.recipe.search.items():
-        numbers = axis.values if isinstance(axis, Choice) and len(axis.values) == 2 else ()
-        if all(isinstance(one.value, int | float) for one in numbers) and numbers:
-            low, high = (one.text for one in sorted(numbers, key=lambda one: one.value))
+        values = axis.values if isinstance(axis, Choice) else ()
+        if [type(written.value) in (int, float) for written in values] == [True, True]:
+            low, high = (written.text for written in sorted(values, key=lambda w: w.value))
             between = f"{{from = {low}, to = {high}}}"
             yield f"[search] {key}: only {low} and {high}; for all between them: {between}"
 

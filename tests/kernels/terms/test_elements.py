@@ -80,6 +80,17 @@ def test_a_rigid_motion_changes_no_deformation(turn):
         np.testing.assert_allclose(shape.turn, expected.turn, rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("place", [0, 2])
+def test_a_point_that_is_no_number_has_turns_that_are_none(place, monkeypatch):
+    """Newton tries such points and rejects them by their energy, in plain Python too."""
+    x = FRAME.rest.copy()
+    x[WALLS.dofs[0, place]] = np.nan
+    plain = getattr(elements.measure, "__wrapped__", elements.measure)
+    for measure in (elements.measure, plain):
+        monkeypatch.setattr(elements, "measure", measure)
+        assert np.isnan(measured(x, FRAME.rest)[1].turn[:, 0]).all()
+
+
 def test_the_rest_state_has_no_turns():
     _, shape = measured(FRAME.rest)
     np.testing.assert_allclose(shape.turn, 0.0, atol=1e-15)

@@ -76,6 +76,17 @@ def test_a_part_is_ranked_and_exported_with_a_warning(array, capsys):
             assert ("has part 1/2 of a sweep" in "".join(output)) == told
 
 
+def test_a_merged_file_knows_which_parts_it_has(array, capsys):
+    for number in ("1", "2", "3"):
+        part = f"{number}.h5"
+        crumple(capsys, "run", "array.toml", "--part", f"{number}/3", "--out", part)
+    some = "has parts 1/3, 3/3 of a sweep"
+    assert "have 1/3, 3/3 of a sweep of 3" in crumple(capsys, "merge", "few.h5", "3.h5", "1.h5")[2]
+    assert some in crumple(capsys, "rank", "few.h5")[1]
+    assert "of a sweep of 3" not in crumple(capsys, "merge", "few.h5", "2.h5")[2]
+    assert "of a sweep" not in crumple(capsys, "rank", "few.h5")[1]
+
+
 @pytest.mark.parametrize("part", ["0/2", "3/2", "1", "a/b", "1/0", "-1/2"])
 def test_a_part_that_is_none_is_refused(array, capsys, part):
     status, _, err = crumple(capsys, "run", "array.toml", f"--part={part}")

@@ -28,9 +28,8 @@ def started(*arguments, **options):
     usual = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "COLUMNS"))}
     options["env"] = usual | {"PYTHONPATH": str(ROOT)} | options.pop("env", {})
     command = [sys.executable, "-m", "sweep", *arguments]
-    return subprocess.run(
-        command, stderr=subprocess.PIPE, text=True, timeout=60, check=False, **options
-    )
+    options.setdefault("stderr", subprocess.PIPE)
+    return subprocess.run(command, text=True, timeout=60, check=False, **options)
 
 
 def test_scheduler_that_is_none_ends_the_command(tmp_path):
@@ -44,21 +43,50 @@ def test_scheduler_that_is_none_ends_the_command(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["trial.toml"]
 
 
-@pytest.mark.parametrize("words", [["status"], ["rank", "--json"]])
-def test_output_that_nobody_reads_changes_no_exit_status(tmp_path, words):
-    cases = [{"case_id": f"{k:016x}"} for k in range(1, 100)]
-    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, *cases))
+@pytest.fixture
+def nobody():
     read, pipe = os.pipe()
     os.close(read)
-    with os.fdopen(pipe, "w") as nobody:
-        done = started(words[0], file, *words[1:], stdout=nobody)
+    with os.fdopen(pipe, "w") as closed:
+        yield closed
+
+
+@pytest.mark.parametrize("words", [["status"], ["rank", "--json"]])
+def test_output_that_nobody_reads_changes_no_exit_status(tmp_path, nobody, words):
+    cases = [{"case_id": f"{k:016x}"} for k in range(1, 100)]
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, *cases))
+    done = started(words[0], file, *words[1:], stdout=nobody)
     assert done.returncode == 1
     assert "pipe" not in done.stderr
+    assert started(words[0], file, *words[1:], stdout=nobody, stderr=nobody).returncode == 1
+
+
+def test_a_long_table_that_nobody_reads_is_no_error(tmp_path, nobody):
+    cases = [{"case_id": f"{k:016x}"} for k in range(400)]
+    file = write(tmp_path / "trial.h5", summary(*cases))
+    done = started("rank", file, "--top", "400", stdout=nobody)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_progress_that_nobody_reads_does_not_end_a_run(nobody):
+    announced = "from sweep.running.progress import announce; announce('one'); announce('two')"
+    command = [sys.executable, "-c", announced]
+    assert subprocess.run(command, cwd=ROOT, stderr=nobody, check=False).returncode == 0
+
+
+def test_a_refusal_that_nobody_reads_changes_no_exit_status(nobody):
+    assert started("rank", "none.h5", stdout=nobody, stderr=nobody).returncode == 2
 
 
 def test_output_that_is_closed_is_no_error(file):
     done = started("status", file, preexec_fn=lambda: os.close(1))
     assert (done.returncode, done.stderr) == (1, "")
+
+
+@pytest.mark.parametrize(("words", "status"), [(["rank"], 1), (["status"], 1), (["show", "7"], 2)])
+def test_errors_that_are_closed_change_no_exit_status(file, words, status):
+    done = started(words[0], file, *words[1:], preexec_fn=lambda: os.close(2))
+    assert (done.returncode, done.stderr) == (status, "")
 
 
 def test_disk_that_is_full(file):

@@ -117,6 +117,7 @@ def test_percent_is_written_once(text):
         ("1e308 km", "too large"),
         ("-1e31 m", "too large"),
         ("1e-29 mm", "too small"),
+        ("-1e-999 m", "too small"),
         ("1 s", "of another kind"),
     ],
 )

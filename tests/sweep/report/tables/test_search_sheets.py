@@ -32,7 +32,7 @@ def test_row_has_the_fine_mesh_and_the_spread():
 
 
 def test_a_first_place_that_the_mesh_or_a_print_may_reverse_is_told():
-    near = "The first place is not certain: the errors of the mesh of 1, 2 overlap."
+    near = "The first place is not certain: the mesh errors of numbers 1, 2 overlap."
     ahead = "Number 2 is the best with walls +5 %."
     assert near in sheet((0.36, 0.36), (0.36, 0.29), (0.37, 0.31)).notes
     assert ahead not in sheet((0.36, 0.36), (0.36, 0.29), (0.37, 0.31)).notes

@@ -31,6 +31,7 @@ def test_the_designs_that_were_tried_and_the_best_are_returned(tables, tmp_path)
 
 
 def test_two_numbers_that_may_be_meant_as_a_range_are_told(tables, capsys):
+    tables["search"]["lattice.printable"] = [True, False]
     optimize(tables, by=ENERGY, evaluations=4)
     assert "only" not in capsys.readouterr().err
     key = "lattice.wall_thickness"
