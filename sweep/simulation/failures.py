@@ -129,7 +129,7 @@ def slipped_off() -> Failure:
 def tipped_over() -> Failure:
     """The walls of a crush between loose flat platens bear nothing at full stroke."""
     why = "the lattice tipped over between the loose platens, and bears nothing at full stroke"
-    advice = 'try a wider or lower lattice, or a loading.platen of "glued"'
+    advice = 'try more solver.load_steps, a wider lattice, or a loading.platen of "glued"'
     return Status.SLIPPED, f"{why}; {advice}"
 
 

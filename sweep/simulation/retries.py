@@ -31,7 +31,7 @@ SHORTER = 4  # ratio of the numbers of steps
 TIMES = 4  # retries of an impact, each with a quarter of the previous time step
 FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
-ENDED = Status.CONVERGED, Status.SLIPPED  # after which nothing is retried
+ENDED = Status.CONVERGED, Status.SLIPPED
 STEADY = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
@@ -50,7 +50,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
     spent, tried = float(best.summary["cpu_s"]), list[str]()
     for words, changed in _changes(best) if best.curable and case.solver.retry else ():
         left = due - time.monotonic()
-        if stop[0] or left <= 0.0 or best.status in ENDED:
+        if stop[0] or left <= 0.0 or _is_final(best):
             break
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
@@ -58,6 +58,11 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
     return _final_result(case, best, tried, spent)
+
+
+def _is_final(best: Result) -> bool:
+    """Whether nothing more is tried. A lattice that tips over may stand in shorter load steps."""
+    return best.status in ENDED and not (best.status is Status.SLIPPED and best.curable)
 
 
 def _is_coarse(case: Case) -> bool:

@@ -139,7 +139,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         "steps": int(run.state.totals["steps"][0]),
         "newton_iterations": int(run.state.totals["iterations"][0]),
     }
-    curable = run.curable or status == Status.UNRESOLVED
+    curable = run.curable or status == Status.UNRESOLVED or not stands
     return Result(case, status, message, summary, curves, frames, curable)
 
 

@@ -32,7 +32,7 @@ def answers(monkeypatch, *outcomes, curable=True, why=WHY):
         message = "" if status is Status.CONVERGED else why
         made = failed_result(case, status, message)
         summary = made.summary | {"case_id": case.case_id, "loaded": loaded, "cpu_s": 1.0}
-        return replace(made, summary=summary, curable=curable and status is not Status.CONVERGED)
+        return replace(made, summary=summary, curable=curable and status not in retries.ENDED)
 
     limits.clear()
     monkeypatch.setattr(retries, "simulate", simulate)
@@ -140,6 +140,14 @@ def test_all_together_keep_the_time_limit(monkeypatch):
 
 def test_the_switch_is_no_part_of_the_id():
     assert CRUSH.changed(solver={"retry": False}).case_id == CRUSH.case_id
+
+
+def test_a_lattice_that_tips_over_in_long_steps_is_retried_in_shorter_ones():
+    case = scene(404)[1].changed(solver={"time_limit": 300.0})
+    assert simulate(case).status == Status.SLIPPED
+    result = simulate_again(case)
+    assert (result.status, result.summary["retry"]) == (Status.CONVERGED, "solver.load_steps = 168")
+    assert result.summary["absorbed_energy_J"] > 1e3 * simulate(case).summary["absorbed_energy_J"]
 
 
 def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
