@@ -59,7 +59,7 @@ def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
 @pytest.mark.usefixtures("unpainted")
 def test_tables_come_with_their_legend(published):
     text = published()["ranking.md"].read_text("utf-8")
-    assert MARKS.format("the part") in text
+    assert MARKS.format("absorbs as much or is strained as little", "the part") in text
     assert text.endswith(f"{LOADED}\n")
 
 
