@@ -76,7 +76,7 @@ CURABLE = {  # other steps or another imperfection may help
 EXPIRED = 2  # value of `stop[0]` after the time limit
 LOST, REGAINED = 0.1, 0.25  # share of the greatest force: a lattice slips away from a striker
 UNTOUCHED = 1e-6  # share of the typical force: a striker touches nothing
-UNSTRAINED = 1e-15  # share of typical force times height: energy of walls that bear nothing
+UNSTRAINED = 1e-6  # share of the work done: energy of walls that bear nothing
 CREATED = 0.1  # energy that an integrator may create, as a share of the work done
 
 
@@ -117,7 +117,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles, peaks_of(case, rows))
     bears = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
-    stands = not (run.ended and _tips_over(case, curves, run.cycles, scene.force_scale))
+    stands = not (run.ended and _tips_over(case, curves, run.cycles))
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and not bears:
@@ -178,16 +178,16 @@ def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typi
     return bool(force.max() > UNTOUCHED * typical and not lost)
 
 
-def _tips_over(case: Case, curves: Curves, cycles: Sequence[CycleRows], typical: float) -> bool:
+def _tips_over(case: Case, curves: Curves, cycles: Sequence[CycleRows]) -> bool:
     """Whether walls between loose flat platens store nothing at full stroke.
 
-    A tall lattice tips over as a rigid body. typical: force, N.
+    A tall lattice tips over as a rigid body.
     """
     loading = case.loading
     if not isinstance(loading, Crush) or loading.is_shaped or loading.platen != "contact":
         return False
-    stored = curves["stretch_J"] + curves["bend_J"]
-    return bool(stored[cycles[0].loaded] < UNSTRAINED * typical * case.height)
+    full, stored = cycles[0].loaded, curves["stretch_J"] + curves["bend_J"]
+    return bool(stored[full] < UNSTRAINED * curves["work_in_J"][: full + 1].max())
 
 
 def _removes_energy(case: Case, summary: Mapping[str, Any], curves: Curves) -> bool:

@@ -290,6 +290,41 @@ def test_a_lattice_that_slips_away_from_a_striker_is_not_ranked():
     assert force[-1] < 0.1 * force.max()
 
 
+@pytest.mark.parametrize(
+    ("kind", "rows", "size", "thickness", "solver", "material"),
+    [
+        (
+            "square",
+            16,
+            (2e-3, 16e-3),
+            0.05e-3,
+            {"load_steps": 10},
+            {"stretch": "linear", "bend": "linear"},
+        ),
+        ("diamond", 20, (5e-3, 60e-3), 0.2e-3, {}, {"name": "ninjaflex"}),
+    ],
+    ids=["long steps", "measured curve"],
+)
+def test_a_tall_lattice_that_tips_over_between_loose_platens_has_no_place(
+    kind, rows, size, thickness, solver, material
+):
+    """It turns as a rigid body in one step, stores nothing but round-off, and lies at the end."""
+    tall = dict(kind=kind, cells_x=2, cells_y=rows, width=size[0], height=size[1])
+    loading = dict(mode="displacement", strain=0.4, unload=False)
+    loose, bonded = (
+        simulate(Case.of(
+            lattice=tall | dict(wall_thickness=thickness), loading=loading | dict(platen=platen),
+            contact=dict(friction=0.0), solver=solver, material=material,
+        ))
+        for platen in ("contact", "glued")
+    )  # fmt: skip
+    assert (bonded.status, bonded.summary["loaded"]) == ("converged", 1)
+    assert (loose.status, loose.summary["loaded"]) == ("slipped", 0)
+    assert "the lattice tipped over between the loose platens" in loose.message
+    final = loose.frames["position_m"][-1]
+    assert final[:, 0].max() - final[:, 0].min() > 4.0 * size[0]
+
+
 def test_a_rebound_that_is_cut_off_is_a_failure():
     """The striker stops after 5.3 ms and is pushed back for as long."""
     result = simulate(struck(duration=8e-3))
