@@ -181,10 +181,12 @@ def _keeps_lattice(case: Case, curves: Curves, cycles: Sequence[CycleRows], typi
 def _tips_over(case: Case, curves: Curves, cycles: Sequence[CycleRows]) -> bool:
     """Whether walls between loose flat platens store nothing at full stroke.
 
-    A tall lattice tips over as a rigid body.
+    A tall lattice tips over as a rigid body. In a motion, damping may take the work.
     """
     loading = case.loading
-    if not isinstance(loading, Crush) or loading.is_shaped or loading.platen != "contact":
+    if not isinstance(loading, Crush) or loading.is_shaped or not loading.quasi_static:
+        return False
+    if loading.platen != "contact":
         return False
     full, stored = cycles[0].loaded, curves["stretch_J"] + curves["bend_J"]
     return bool(stored[full] < UNSTRAINED * curves["work_in_J"][: full + 1].max())

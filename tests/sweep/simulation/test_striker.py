@@ -325,6 +325,20 @@ def test_a_tall_lattice_that_tips_over_between_loose_platens_has_no_place(
     assert final[:, 0].max() - final[:, 0].min() > 4.0 * size[0]
 
 
+def test_a_crush_whose_work_damping_takes_has_not_tipped_over():
+    lattice = dict(cells_x=1, cells_y=2, width=0.33e-3, height=1.8e-3, wall_thickness=0.08e-3)
+    loading = dict(mode="displacement", strain=0.08, speed=31.0, platen="contact")
+    damping = dict(model="kelvin_voigt", relaxation_time=9.0)
+    result = simulate(Case.of(
+        lattice=lattice, loading=loading, damping=damping,
+        solver=dict(integrator="backward_euler", time_step=1e-6),
+    ))  # fmt: skip
+    curves = result.history
+    stored = curves["stretch_J"] + curves["bend_J"]
+    assert stored.max() < 1e-6 * curves["work_in_J"].max()
+    assert result.status == "converged"
+
+
 def test_a_rebound_that_is_cut_off_is_a_failure():
     """The striker stops after 5.3 ms and is pushed back for as long."""
     result = simulate(struck(duration=8e-3))
