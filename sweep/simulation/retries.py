@@ -62,7 +62,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
 
 def _is_final(best: Result) -> bool:
     """Whether nothing more is tried. A lattice that tips over may stand in shorter load steps."""
-    return best.status in ENDED and not (best.status is Status.SLIPPED and best.curable)
+    return best.status in ENDED and not best.curable
 
 
 def _is_coarse(case: Case) -> bool:

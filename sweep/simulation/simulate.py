@@ -117,7 +117,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     )
     summary = summarise(case, scene, curves, frames, strains, run.cycles, peaks_of(case, rows))
     bears = _keeps_lattice(case, curves, run.cycles, scene.force_scale)
-    stands = not (run.ended and _tips_over(case, curves, run.cycles))
+    stands = not _tips_over(case, curves, run.cycles)
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and not bears:
@@ -189,6 +189,8 @@ def _tips_over(case: Case, curves: Curves, cycles: Sequence[CycleRows]) -> bool:
     if loading.platen != "contact":
         return False
     full, stored = cycles[0].loaded, curves["stretch_J"] + curves["bend_J"]
+    if len(stored) <= full:
+        return False
     return bool(stored[full] < UNSTRAINED * curves["work_in_J"][: full + 1].max())
 
 
@@ -291,7 +293,7 @@ class _Run:
         self.arc = None if isinstance(scene, PlateScene) else arc_of(scene, case)
         self.done = self.reached = 1  # rows that are kept, and their number before any were dropped
         self.planned = 1  # rows of the stages so far, including rows that steps leave out
-        self.noise, self.expired, self.curable, self.ended = 0.0, False, False, False
+        self.noise, self.expired, self.curable = 0.0, False, False
 
     def _begin(self) -> None:
         """Fill the first row: initial kinetic energy and the energy of springs count as work done.
@@ -320,7 +322,6 @@ class _Run:
                     return self._failed(outcome, phase.name)
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
-        self.ended = True
         if not self._balances(self.done):
             if self._left(self.done) <= self.done * self.noise:
                 return self._failed(outcomes.UNRESOLVED, phase.name)

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kernels.solve import outcomes
+from kernels.solve import march, outcomes
 from kernels.solve.energy_book import kinetic
 from sweep.config.case import Case
 from sweep.config.grid import expand
@@ -323,6 +323,26 @@ def test_a_tall_lattice_that_tips_over_between_loose_platens_has_no_place(
     assert "the lattice tipped over between the loose platens" in loose.message
     final = loose.frames["position_m"][-1]
     assert final[:, 0].max() - final[:, 0].min() > 4.0 * size[0]
+
+
+def test_a_lattice_that_tips_over_has_no_place_if_unloading_stops(monkeypatch):
+    """Its loading is complete, which would rank it."""
+    lattice = dict(kind="diamond", cells_x=2, cells_y=20, width=5e-3, height=60e-3)
+    lattice["wall_thickness"] = 0.2e-3
+    loading = dict(mode="displacement", strain=0.4, platen="contact")
+    run = march.march
+
+    def stops(terms, tolerance, stage, state, *others):
+        if stage.driven1 > stage.driven0:
+            return outcomes.STALLED, 0
+        return run(terms, tolerance, stage, state, *others)
+
+    monkeypatch.setattr(march, "march", stops)
+    result = simulate(Case.of(
+        lattice=lattice, loading=loading, contact=dict(friction=0.0),
+        material=dict(name="ninjaflex"),
+    ))  # fmt: skip
+    assert (result.status, result.summary["loaded"]) == ("slipped", 0)
 
 
 def test_a_crush_whose_work_damping_takes_has_not_tipped_over():
