@@ -10,13 +10,15 @@ import math
 
 from kernels.compile.jit import jit
 
+CLOSEST = 1e-10  # s below which distances are round-off: what is so close may have crossed
+
 
 @jit
 def barrier(s):
-    """Return b, b' and b'' at ``s`` (dimensionless); infinite where ``s`` is not positive."""
+    """Return b, b' and b'' at ``s`` (dimensionless); infinite up to `CLOSEST`."""
     if s >= 1.0:
         return 0.0, 0.0, 0.0
-    if not s > 0.0:
+    if not s > CLOSEST:
         return math.inf, -math.inf, math.inf
     log = math.log(s)
     r = s - 1.0

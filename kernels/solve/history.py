@@ -55,13 +55,15 @@ class Gradients(NamedTuple):
 
 
 class State(NamedTuple):
-    """State between steps. x, v (n,): positions and velocities. stored (k,): stored energies in J,
-    one for each kind that the problem distinguishes. memory (p, m): committed state of the laws at
-    p material points, empty for elastic laws. book, totals (1,): see `BOOK` and `TOTALS`.
+    """State between steps. x, v (n,): positions and velocities. lagged (n,): positions at which
+    friction was lagged last. stored (k,): stored energies in J, one for each kind that the problem
+    distinguishes. memory (p, m): committed state of the laws at p material points, empty for
+    elastic laws. book, totals (1,): see `BOOK` and `TOTALS`.
     """
 
     x: np.ndarray
     v: np.ndarray
+    lagged: np.ndarray
     rates: Rates
     gradients: Gradients
     stored: np.ndarray
@@ -77,6 +79,5 @@ def at_rest(x, stored, memory=(0, 0)):
     n = x.size
     rates, gradients = Rates(*np.zeros((3, n))), Gradients(*np.zeros((3, n)))
     book, totals = np.zeros(1, BOOK), np.zeros(1, TOTALS)
-    return State(
-        x.copy(), np.zeros(n), rates, gradients, np.zeros(stored), np.zeros(memory), book, totals
-    )
+    energies, points = np.zeros(stored), np.zeros(memory)
+    return State(x.copy(), np.zeros(n), x.copy(), rates, gradients, energies, points, book, totals)

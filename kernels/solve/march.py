@@ -184,6 +184,13 @@ def _foresee(problem, stage, x, work):
 
 
 @jit_exact
+def _lag(problem, y, state):
+    """Lag the forces at ``y`` (n,), and keep it; return whether there are or were any."""
+    copy(y, state.lagged)
+    return problem.lag(y)
+
+
+@jit_exact
 def _begin_share(problem, tolerance, stage, state, workspace, descent, progress):
     """Begin the next share of a step; return whether the neighbour lists cover its first guess."""
     work, driven, last = workspace.work, problem.scene.coordinates.driven, state.totals[0].last
@@ -212,7 +219,7 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
     descent.travel_bound = _foresee(problem, stage, state.x, work)
     if descent.travel_bound > 0.0:
         return False
-    if problem.lag(work.trial):  # the Hessian of friction changes
+    if _lag(problem, work.trial, state):  # the Hessian of friction changes
         descent.since_factor = np.inf
     progress.share_iterations, progress.minimum_iterations, descent.cut_moves = 0, 0, 0
     progress.corrections = 0
@@ -220,18 +227,22 @@ def _begin_share(problem, tolerance, stage, state, workspace, descent, progress)
 
 
 @jit_exact
-def _equilibrate(x, problem, step, corrections, tolerance, workspace, descent, control, progress):
+def _equilibrate(
+    state, problem, step, corrections, tolerance, workspace, descent, control, progress
+):
     """Minimise; lag the forces again at the minimum and minimise once more, ``corrections`` times.
 
     Return the outcome.
     """
-    descent.evaluated = False
+    x, descent.evaluated = state.x, False
     while True:
         outcome = minimise(x, problem, step, tolerance, workspace, descent, control)
         progress.row_iterations += descent.iterations
         progress.share_iterations += descent.iterations
         progress.minimum_iterations += max(descent.iterations, 1)
-        if outcome != CONVERGED or progress.corrections == corrections or not problem.lag(x):
+        if outcome != CONVERGED or progress.corrections == corrections:
+            break
+        if not _lag(problem, x, state):
             break
         problem.exchange(step, workspace.evaluation)
         zero(workspace.work.dx)
@@ -383,7 +394,7 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         if not step.dynamic or step.h > stage.fall:
             fitting = patient(fitting, min(progress.failed, MOST_DOUBLINGS))
         outcome = _equilibrate(
-            state.x, problem, step, integrators.corrections(stage.scheme), fitting, workspace,
+            state, problem, step, integrators.corrections(stage.scheme), fitting, workspace,
             descent, control, progress,
         )  # fmt: skip
         if outcome == OUTGROWN and progress.minimum_iterations <= fitting.iterations:

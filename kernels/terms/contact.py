@@ -31,7 +31,7 @@ from kernels.geometry.distance import (
 )
 from kernels.geometry.near_pairs import counted, is_guarded, within
 from kernels.geometry.profile import Profiles
-from kernels.laws.barrier import phi
+from kernels.laws.barrier import CLOSEST, phi
 from kernels.linear.condensed.block_matrix import add
 from kernels.terms import profile
 
@@ -108,7 +108,7 @@ def _add_contact(touching, k, tau, end, weight, distance):
 
 @jit
 def detect(x, contact, pairs, drift, touching):
-    """Fill ``touching`` with all active contacts at ``x``; return whether distances are positive.
+    """Fill ``touching`` with all active contacts at ``x``; return whether none is `CLOSEST`.
 
     drift: longest move of a node since the pairs were listed, m. A contribution of a vertex that is
     the closest point and is subtracted again is left out.
@@ -123,7 +123,7 @@ def detect(x, contact, pairs, drift, touching):
         _, _, d = normal(x, p, a, b, tau)
         if d >= dc:
             continue
-        if d == 0.0:  # at a vertex the subtracted contribution is infinite too
+        if d <= CLOSEST * dc:  # at a vertex the subtracted contribution is infinite too
             apart = False
             continue
         length, first, second = counted(pairs, k, contact)

@@ -75,20 +75,15 @@ def moment_of(values: Floats, limit: float, stored: Floats) -> float:
 def deformations(x: Floats, walls: Walls) -> Deformations:
     """Length (m) and turns of both ends (rad) of every element in every stored shape, (f, m).
 
-    The first shape is at rest; between two shapes an end turns by less than half a turn.
+    Whole turns are counted as in `terms.elements.measure`.
     """
     ends = x[:, walls.dofs]
     along = ends[..., 3:5] - ends[..., :2]
-    bearing = np.arctan2(along[..., 1], along[..., 0])
-    rest = np.arctan2(walls.rest[:, 1], walls.rest[:, 0])
-    one, two = (_unwrapped(bearing - rest - ends[..., phi]) for phi in (2, 5))
-    return np.hypot(*np.moveaxis(along, -1, 0)), one, two
-
-
-def _unwrapped(turns: Floats) -> Floats:
-    """Angles (f, m) without jumps by whole turns from shape to shape, the first near zero."""
-    first = np.remainder(turns[:1] + np.pi, 2.0 * np.pi) - np.pi
-    return np.unwrap(np.concatenate([first, turns[1:]]), axis=0)
+    one, two = ends[..., 2], ends[..., 5]
+    turned = np.arctan2(along[..., 1], along[..., 0])
+    turned -= np.arctan2(walls.rest[:, 1], walls.rest[:, 0])
+    turned += 2.0 * np.pi * np.rint((0.5 * (one + two) - turned) / (2.0 * np.pi))
+    return np.hypot(*np.moveaxis(along, -1, 0)), turned - one, turned - two
 
 
 def work_within_model(

@@ -12,7 +12,7 @@ from kernels.compile.jit import jit, jit_owning
 from kernels.geometry.space import parallel
 from kernels.geometry.space.closest import FACE, on_edge, on_edges, on_triangle
 from kernels.geometry.space.vectors import combined, inner, minus, point
-from kernels.laws.barrier import phi
+from kernels.laws.barrier import CLOSEST, phi
 from kernels.plates.contacts.pairs import EDGE_SHARE, edges_within
 
 NEGLIGIBLE = 1e-12  # a sum below this share of its terms, at a side or a corner, is zero
@@ -157,7 +157,7 @@ def _triangles(x, contact, pairs, p, drift, touching):
         d2 = inner(r, r)
         if d2 >= dc * dc:
             continue
-        if not d2 > 0.0:
+        if not d2 > (CLOSEST * dc) ** 2:
             return np.inf
         d = d2**0.5
         value, slope, curvature = phi(weight, contact.stiffness, dc, d)
@@ -255,7 +255,7 @@ def _edges(x, contact, pairs, drift, touching):
         d2 = inner(r, r)
         if d2 >= dc * dc:
             continue
-        if not d2 > 0.0:
+        if not d2 > (CLOSEST * dc) ** 2:
             return np.inf
         value, slope, curvature = phi(pairs.edge_area[i], contact.stiffness, dc, d2**0.5)
         m, _, _ = parallel.factor(points, pairs.edge_scale[i])

@@ -18,10 +18,11 @@ def test_derivatives(s):
     assert by_slope == pytest.approx(curvature, rel=1e-6)
 
 
-def test_it_is_smooth_where_it_starts_and_infinite_at_zero():
+def test_it_is_smooth_where_it_starts_and_infinite_where_it_ends():
     assert barrier(1.0) == (0.0, 0.0, 0.0)
     assert barrier(1.0 - 1e-7) == pytest.approx((0.0, 0.0, 6e-7), abs=1e-13)
     assert barrier(0.0) == (np.inf, -np.inf, np.inf)
+    assert barrier(1e-11) == (np.inf, -np.inf, np.inf)
     assert barrier(-1.0)[0] == np.inf
 
 

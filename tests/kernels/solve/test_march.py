@@ -89,8 +89,8 @@ def nodes(scene, of_all):
 
 
 def parts(state):
-    """All arrays of a state."""
-    return [*state[:2], *state.rates, *state.gradients, *state[4:]]
+    """All arrays of a state but ``lagged``, which an attempted step changes."""
+    return [*state[:2], *state.rates, *state.gradients, *state[5:]]
 
 
 def momentum(scene, state):

@@ -176,11 +176,14 @@ def test_contact_starts_at_the_mean_thickness():
         assert (term_of(of, x).energy(x) > 0) == touches
 
 
-@pytest.mark.parametrize("place", [(0.0, 0.0), (4 / 3, 0.0), (0.5, 0.0), (4.0, 0.0)])
-def test_touching_centre_lines_take_infinite_energy(place):
-    """The energy is infinite at a vertex too, where the subtracted energy is infinite as well."""
+@pytest.mark.parametrize("gap", [0.0, 1e-12])
+@pytest.mark.parametrize("along", [0.0, 4 / 3, 0.5, 4.0])
+def test_touching_centre_lines_take_infinite_energy(along, gap):
+    """The energy is infinite at a vertex too, where the subtracted energy is infinite as well, and
+    within the round-off of positions.
+    """
     of = two_walls(0.5, (3, 1))
-    x = node_at(node_at(of.rest, 4, (4 / 3, 0.0)), 2, place)
+    x = node_at(node_at(of.rest, 4, (4 / 3, 0.0)), 2, (along, gap))
     assert term_of(of, x).energy(x) == np.inf
 
 

@@ -1,10 +1,10 @@
 """Simulate a scene under observation, and name whatever it violates.
 
 The last step of every stage of loading is taken by itself, with what was before and after it kept:
-the balance there is computed anew, with contact listed afresh and friction lagged at the start of
-the step, and the stored energy of the walls is compared with `model`, unless the material has a
-memory: then its dissipation must not fall. A structure that nothing holds has to move: one that
-stays at rest has to bear its load there.
+the balance there is computed anew, with contact listed afresh and friction lagged where the march
+did, and the stored energy of the walls is compared with `model`, unless the material has a memory:
+then its dissipation must not fall. A structure that nothing holds has to move: one that stays at
+rest has to bear its load there.
 
 Time limits count processor time, so that other programs do not change which scenes end in time.
 """
@@ -16,12 +16,9 @@ from unittest.mock import patch
 
 import numpy as np
 
-from kernels.compile.reference import by_reference
-from kernels.shared.rows import STORED
-from kernels.solve import arc_length, integrators, march, newton, outcomes, residual
+from kernels.solve import arc_length, integrators, march, outcomes, residual
 from kernels.solve.energy_book import mean_speed
 from kernels.solve.problem import Step
-from kernels.solve.workspace import make_workspace
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.simulation.custom_history import WITHOUT_PLATENS
 from sweep.simulation.retries import simulate_again
@@ -36,7 +33,7 @@ CLOCK = SimpleNamespace(monotonic=time.process_time)  # of this process, which h
 GRACE = 10.0  # s beyond its limit that a case may take
 SAME = 1e-9  # of the largest force: two sums of the same forces
 EARNED = 1e-6  # allowed error of an energy, as a share of the work done
-REACH = 4.0  # times the reach of contact: pairs that may touch before friction is corrected
+REACH = 4.0  # times the reach of contact: pairs that may touch where friction is lagged
 MADE = 5e-3  # energy that backward Euler may generate, as a share of the work done
 STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
 # where walls part since then, it is less at the end of the step
@@ -50,7 +47,7 @@ SAID = (
 class Seen(NamedTuple):
     """One step: its scene, allowed residuals, itself, data of damping, and its end.
 
-    whole: not divided into shares. corrected: friction lags between start and end of the step.
+    lagged (n,): where friction was lagged last, m. whole: not divided into shares.
     """
 
     terms: object
@@ -58,9 +55,9 @@ class Seen(NamedTuple):
     step: Step
     ahead: integrators.Ahead
     x: np.ndarray
+    lagged: np.ndarray
     stored: np.ndarray
     whole: bool
-    corrected: bool
 
 
 class Watch:
@@ -84,14 +81,7 @@ class Watch:
             if outcome != outcomes.CONVERGED:
                 return outcome, written
             self.still += _unborne(terms, state, step)
-        undivided = state.totals[0].steps == steps + 1
-        corrected = integrators.corrections(stage.scheme) > 0
-        self.seen.append(
-            Seen(
-                terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), undivided,
-                corrected,
-            )
-        )  # fmt: skip
+        self._keep(terms, tolerance, step, ahead, state, state.totals[0].steps == steps + 1)
         return outcome, written
 
     def follow(self, terms, tolerance, stage, state, out, control, arc):
@@ -102,11 +92,12 @@ class Watch:
             at = stage._replace(dynamic=False, factor1=state.totals[0].factor)
             step, ahead = _next_step(terms, at, state)
             self.still += _unborne(terms, state, step._replace(x0=x0))
-            seen = Seen(
-                terms, tolerance, step, ahead, state.x.copy(), state.stored.copy(), True, False
-            )
-            self.seen.append(seen)
+            self._keep(terms, tolerance, step, ahead, state, True)
         return outcome, written
+
+    def _keep(self, terms, tolerance, step, ahead, state, undivided):
+        arrays = (array.copy() for array in (state.x, state.lagged, state.stored))
+        self.seen.append(Seen(terms, tolerance, step, ahead, *arrays, undivided))
 
 
 def _next_step(terms, stage, state):
@@ -261,62 +252,25 @@ def _energies(result, case, noise):
         yield f"{(held - paid).max() / size:.1e} of the energy out of nothing"
 
 
-def _first_ends(step, seen):
-    """Where a step may have ended before its friction was corrected, (n,), m.
-
-    It is a minimum with friction lagged at the start of the step. A violent impact has several:
-    they are sought from the end of the step, and by the whole expected move, half of it and none.
-    """
-    driven, expected = seen.terms.coordinates.driven, seen.ahead.move
-    for start, share in ((seen.x, 0.0), *((seen.step.x0, share) for share in (1.0, 0.5, 0.0))):
-        move = share * expected
-        if driven >= 0:
-            move[driven] = seen.x[driven] - start[driven]
-        step.problem.lag(seen.step.x0)
-        yield _minimum(step, seen, start, move)
-
-
-def _minimum(step, seen, start, move):
-    """The minimum that a ``move`` from ``start`` leads to, or if there is none the step's end."""
-    x, workspace = start.copy(), make_workspace(seen.x.size, STORED)
-    workspace.work.dx[:] = move
-    descent = np.zeros(1, newton.DESCENT)[0]
-    descent.target, descent.since_factor = seen.x[seen.terms.coordinates.driven], np.inf
-    given = x, step.problem, step.step, seen.tolerance, by_reference(workspace), descent
-    outcome = newton.minimise(*given, np.zeros(2, np.int64))
-    return x if outcome == outcomes.CONVERGED else seen.x
-
-
-def _imbalance(step, seen, lagged):
-    """The largest residual at the end of a step with friction lagged at ``lagged`` (n,), N."""
-    step.problem.lag(lagged)
-    step.factor(seen.x)
-    _, found = step.found(seen.x)
-    left = np.zeros_like(seen.x)
-    step.problem.reduce(found.g, left)
-    return residual.largest_residual(left, seen.terms.coordinates)
-
-
 def _balance(seen):
     """The residual of a step and its energies, computed anew."""
     scene = SimpleNamespace(terms=seen.terms)
     h, points = seen.step.h if seen.step.dynamic else np.inf, 2 * seen.terms.layout.n_nodes
-    moves = seen.x - seen.step.x0, seen.ahead.move
+    moves = seen.x - seen.step.x0, seen.x - seen.lagged
     moved = max(np.linalg.norm(u[:points].reshape(-1, 2), axis=1).max() for u in moves)
     reach = REACH * seen.terms.contact.reach + 4.0 * moved
     made = whole(scene, seen.x, seen.step.x0, h, reach=reach)
     step = Whole(made.problem, seen.step)
     step.problem.begin(seen.step, seen.ahead, np.zeros_like(seen.x))
-    lagged = _first_ends(step, seen) if seen.corrected else [seen.step.x0]
-    least = np.inf
-    for y in lagged:
-        least = min(least, _imbalance(step, seen, y))
-        allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
-        if least <= STALE * allowed:
-            break
-    else:
-        yield f"{least / allowed:.1e} of the allowed residual"
+    step.problem.lag(seen.lagged)
+    step.factor(seen.x)
     _, found = step.found(seen.x)
+    left = np.zeros_like(seen.x)
+    step.problem.reduce(found.g, left)
+    size = residual.largest_residual(left, seen.terms.coordinates)
+    allowed = residual.allowed(step.problem.stiffest(), seen.tolerance)
+    if not size <= STALE * allowed:
+        yield f"{size / allowed:.1e} of the allowed residual"
     second = stored(seen.x, seen.terms)
     error = np.abs(second.gradient - found.elastic).max()
     if not error <= SAME * second.scale + allowed:

@@ -16,6 +16,8 @@ from sweep.simulation.shape_checks import (
     shortening,
     work_within_model,
 )
+from tests.support.kernels.solving import whole
+from tests.support.kernels.states import loaded
 from tests.support.results.specimens import squeezed_cell
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
@@ -62,6 +64,20 @@ def test_strains_are_those_of_arcs(turn):
     """Both ends turned against the chord by 0.3: 0.3^2 (2 c_s + c_m) longer, however often."""
     strains = strains_of(frames(SQUARE), turn, (1 / 15, -1 / 30))
     assert strains == pytest.approx(np.full((1, 4), 0.009))
+
+
+@pytest.mark.parametrize("turn", [-3.3, 0.4, 7.0])
+def test_deformations_are_those_of_the_kernels(turn):
+    """Even where a node turns by more than half between two stored shapes."""
+    scene = loaded()
+    walls, x = scene.terms.walls, scene.x_rest.copy()
+    x[walls.dofs[len(walls.dofs) // 2, 2]] += turn
+    made = whole(scene, x)
+    made.found(x)
+    length, one, two = deformations(np.array([scene.x_rest, x]), walls)
+    shape = made.problem.buffers.shape
+    np.testing.assert_allclose(length[1], shape.length, rtol=1e-14)
+    np.testing.assert_allclose([one[1], two[1]], shape.turn, atol=1e-12)
 
 
 def within_model(shapes, time, work, broken=np.nan):

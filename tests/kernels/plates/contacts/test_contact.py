@@ -248,13 +248,14 @@ def test_units_change_nothing():
     )
 
 
+@pytest.mark.parametrize("gap", [0.0, 1e-12])
 @pytest.mark.parametrize("place", [(0.0, 0.0), (1.5, 1.5), (0.375, 0.75), (1.5, 0.75), (3.0, 0.75)])
-def test_touching_surfaces_take_infinite_energy(place):
+def test_touching_surfaces_take_infinite_energy(place, gap):
     """The energy is infinite at corners and sides too, where the subtracted energy is infinite as
-    well.
+    well, and within the round-off of positions.
     """
     x, touch = two_sheets(0.5, Sheet(2, 2, 3, 3), Sheet(1, 1))
-    x[9 * SIZE : 9 * SIZE + 3] = *place, 0.0
+    x[9 * SIZE : 9 * SIZE + 3] = *place, gap
     assert term_of(x, touch).energy(x) == np.inf
 
 

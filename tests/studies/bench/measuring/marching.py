@@ -66,6 +66,6 @@ def sustained(march):
 
 def copied(state):
     """A state to march on from, again and again."""
-    rates, gradients = (type(part)(*(array.copy() for array in part)) for part in state[2:4])
-    x, v, *rest = (array.copy() for array in (*state[:2], *state[4:]))
-    return history.State(x, v, rates, gradients, *rest)
+    rates, gradients = (type(part)(*(array.copy() for array in part)) for part in state[3:5])
+    x, v, lagged, *rest = (array.copy() for array in (*state[:3], *state[5:]))
+    return history.State(x, v, lagged, rates, gradients, *rest)
