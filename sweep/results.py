@@ -11,6 +11,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pandas import DataFrame, Series
+
 from sweep.argument_types import explained
 from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
@@ -28,7 +30,6 @@ from sweep.store.read import read_case, read_frames, read_history, read_runs, re
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
     from xarray import Dataset
 
     from sweep.config.case import Case

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,8 +10,6 @@ from sweep.cli.refusals import writing
 from sweep.cli.terminal import hint, print_sheets, say
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from sweep.config.grid import Config
     from sweep.effective.material import EffectiveMaterial
 

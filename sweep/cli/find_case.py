@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from sweep.numbers import budget_text
+from sweep.ranking.question import Question
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
 
-    from sweep.ranking.question import Question
     from sweep.ranking.ranking import Ranking
 
 DIGITS = 3  # most digits of a number in the ranking; a longer one begins an id

@@ -5,6 +5,8 @@ reliable they are.
 from __future__ import annotations
 
 import shlex
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -15,9 +17,6 @@ from sweep.numbers import text_in
 from sweep.ranking.question import Question, in_si
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-    from collections.abc import Iterator, Sequence
-
     from sweep.config.case import Case
     from sweep.config.grid import Config
     from sweep.running.searching.search import Search, Settings

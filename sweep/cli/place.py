@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from sweep.cli.refusals import ArgumentError
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-    from collections.abc import Iterator
-
     from sweep.running.cluster import Scheduler
     from sweep.running.place import Place
 

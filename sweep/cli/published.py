@@ -4,19 +4,17 @@ own.
 
 from __future__ import annotations
 
+from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import hint, print_sheets, say, say_all
+from sweep.published.table import Row
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from pandas import DataFrame
-
-    from sweep.published.table import Row
 
 OF_ADD = ("measure", "measured", "source")
 RESULTS = "results/published"

@@ -4,6 +4,7 @@ them.
 
 from __future__ import annotations
 
+from argparse import Namespace
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,14 +12,12 @@ from sweep.cli.place import place_asked, place_of
 from sweep.cli.question import question_of
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
+from sweep.ranking.question import Question
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from pandas import DataFrame
 
     from sweep.config.grid import Config
-    from sweep.ranking.question import Question
 
 SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
 NO_COLUMNS = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import webbrowser
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,8 +26,6 @@ from sweep.numbers import text_in
 from sweep.plain_text import csv_text
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from pandas import DataFrame, Series
 
     from sweep.config.grid import Config

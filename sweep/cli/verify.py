@@ -4,17 +4,15 @@ reproduced.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from sweep.cli.status import failed_cases
 from sweep.cli.terminal import say, say_all
+from sweep.result import Result
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
     from pandas import DataFrame
-
-    from sweep.result import Result
 
 SEED = 0  # seed for the choice of cases that run again
 SAME = 1e-6  # relative difference of numbers that count as equal

@@ -1,19 +1,14 @@
 """The printed design of a case."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from sweep.columns import ALONG
+from sweep.config.case import Case
+from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
+from sweep.design.network import Network
 from sweep.export.errors import ExportError
 from sweep.numbers import in_unit
-
-if TYPE_CHECKING:
-    from sweep.config.case import Case
-    from sweep.config.kinds.lattice import Lattice
-    from sweep.design.network import Network
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.constants import TO_MM, TO_MM3
 from sweep.export.errors import ExportError
+from sweep.export.outline import Layout
+from sweep.export.solid import Body
 from sweep.numbers import in_unit, text_in
 
 if TYPE_CHECKING:
@@ -24,8 +26,6 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
     from sweep.export.design import Design
-    from sweep.export.outline import Layout
-    from sweep.export.solid import Body
 
 Kind = Literal["lattice", "settings"]
 SHOWN = 0.05  # mm: least difference of lengths that is reported

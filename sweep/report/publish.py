@@ -8,7 +8,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pandas import concat
+from pandas import DataFrame, Series, concat
 
 from sweep.loading_modes import MODES, has
 from sweep.numbers import budget_text, in_unit
@@ -18,6 +18,7 @@ from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.merit import unequal_periods
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
+from sweep.ranking.ranking import Ranking
 from sweep.report.figures import case_plots, cushion_plots, design_map
 from sweep.report.figures.base_plots import base_pressure
 from sweep.report.figures.panel_piece import piece
@@ -37,9 +38,6 @@ from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 MAX_SCENES = 12  # most scenes in one figure
 MAX_WINNERS = 6

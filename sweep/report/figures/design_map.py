@@ -10,11 +10,13 @@ from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pandas import DataFrame, Series
 
 from sweep.loading_modes import mode_of
 from sweep.numbers import budget_text, in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
+from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.figures.design_style import (
     WORDS,
@@ -31,9 +33,6 @@ from sweep.report.tables.requirement_notes import titled
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 TITLE = 72  # most letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)

@@ -1,7 +1,5 @@
 """Draws plates as lines: their plan."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

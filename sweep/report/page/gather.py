@@ -2,17 +2,17 @@
 origin.
 """
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from pandas import DataFrame, Series
 
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
@@ -26,6 +26,7 @@ from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_labels
@@ -61,13 +62,7 @@ from sweep.result import Status
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""

@@ -1,12 +1,12 @@
 """Stores walls of a shape as few long polylines, or as faces, and shapes as short text."""
 
-from __future__ import annotations
-
 from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.numbers import in_unit
 from sweep.ranking.budget import ROUND_OFF
@@ -14,12 +14,7 @@ from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 STRAIGHT = 0.03  # share of the wall thickness: nodes nearer to a straight wall are not drawn
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it

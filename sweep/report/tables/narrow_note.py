@@ -1,7 +1,5 @@
 """A note on narrow lattices in rankings of patterns: for the terminal, the page and files."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from textwrap import fill
 

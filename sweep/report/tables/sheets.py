@@ -1,17 +1,15 @@
 """Rankings and lists of cases as tables of text that fit a terminal of 80 columns."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
-from pandas import Series
+from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
 from sweep.loading_modes import compared, mode_of
 from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.marks import densifies_twice, is_unsure, marks
@@ -27,11 +25,6 @@ from sweep.report.tables.requirement_notes import (
 from sweep.report.tables.sheet import Sheet
 from sweep.report.tables.size_note import size_note
 from sweep.report.tables.unfinished_notes import unfinished_notes
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.ranking import Ranking
 
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."

@@ -1,15 +1,11 @@
 """A note for rankings of parts of different size, as energies and forces refer to each part."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from textwrap import fill
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame
 
 from sweep.numbers import in_unit, significant
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 SIDES = ["width_m", "height_m", "depth_m"]
 SAME = 0.01  # relative difference of a side
