@@ -115,8 +115,8 @@ def rank(arguments: Namespace) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
-    from sweep.report.tables.narrow_note import narrow_note
     from sweep.report.tables.sheets import ranking_sheets
+    from sweep.report.tables.size_notes import narrow_note
     from sweep.store.read import read_summary
 
     question, heights = asked(arguments), drop_heights(arguments)

@@ -31,7 +31,6 @@ from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
-from sweep.report.figures.flattened import plan
 from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
@@ -51,13 +50,13 @@ from sweep.report.page.thinning import (
     thin_stairs,
     work_until,
 )
-from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
+from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, plan
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import front, meanings
 from sweep.report.tables.marks import other_bow
-from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
+from sweep.report.tables.size_notes import narrow_note
 from sweep.result import Status
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs

@@ -13,7 +13,6 @@ from sweep.ranking.ranking import Ranking
 from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.marks import densifies_twice, is_unsure, marks
-from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
     FELT,
@@ -23,7 +22,7 @@ from sweep.report.tables.requirement_notes import (
     requirement_notes,
 )
 from sweep.report.tables.sheet import Sheet
-from sweep.report.tables.size_note import size_note
+from sweep.report.tables.size_notes import narrow_note, size_note
 from sweep.report.tables.unfinished_notes import unfinished_notes
 
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
