@@ -105,7 +105,7 @@ def _show_best(search: Search) -> int:
     from sweep.report.tables.design_text import named_case
     from sweep.report.tables.search_sheets import finalist_sheet
     from sweep.report.tables.unfinished_notes import unfinished_notes
-    from sweep.running.beside.run_beside import file_beside
+    from sweep.running.beside.run_beside import How, file_beside
     from sweep.running.beside.spread import run_corners
     from sweep.running.searching.finalists import finalists, perturbed
     from sweep.running.searching.optimize import check_found
@@ -123,7 +123,7 @@ def _show_best(search: Search) -> int:
         return 0
     best = finalists(search.cases[case_id] for case_id in assessment.by_id)
     again = {case.case_id: perturbed(case) for case in best}
-    run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
+    run_corners(again, search.out, How(search.settings.workers, search.settings.scheduler))
     summary, beside = search.rows(), file_beside(search.out, "spread")
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = answer(summary, question._replace(top=None))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sweep.cli.place import place_asked, place_of
 from sweep.cli.question import question_of
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from sweep.config.grid import Config
+    from sweep.running.beside.run_beside import How
 
 SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
 NO_COLUMNS = (
@@ -34,6 +35,7 @@ def run(config: Config, arguments: Namespace) -> int:
 
     With --error-bars, a design without an error bar counts as a failure.
     """
+    from sweep.running.beside.run_beside import How
     from sweep.running.run import check_question
     from sweep.store.read import Rerun
 
@@ -53,10 +55,10 @@ def run(config: Config, arguments: Namespace) -> int:
         say_all([SCREENED] if arguments.screen else [])
         return 0
     with place_of(arguments) as place:
-        return _simulate(config, arguments, out, (*place, rerun))
+        return _simulate(config, arguments, out, How(*place, rerun))
 
 
-def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ...]) -> int:
+def _simulate(config: Config, arguments: Namespace, out: str, how: How) -> int:
     """Simulate the missing cases, then rank; return how many failed."""
     from sweep.running.beside.error_bars import add_error_bars
     from sweep.running.sweep import run_sweep
@@ -69,7 +71,7 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
     if arguments.screen:
         config, estimates, failed = _screen(config, out, how, question, arguments.screen)
     failed += run_sweep(config, out, *how)
-    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
+    failed += add_error_bars(config, out, how) if arguments.error_bars else 0
     ranking = print_ranking(out, read_summary(out), question, arguments.brief)
     if estimates is not None:
         from sweep.report.tables.screen_sheets import screen_sheets
@@ -99,7 +101,7 @@ def _part(config: Config, arguments: Namespace) -> Config:
 
 
 def _screen(
-    config: Config, out: str, how: tuple[Any, ...], question: Question, count: int
+    config: Config, out: str, how: How, question: Question, count: int
 ) -> tuple[Config, DataFrame, int]:
     """Run the unit columns of a sweep; return the config of the designs to simulate in full, the
     estimates, and how many designs have none.
@@ -111,7 +113,7 @@ def _screen(
     screened = [case for case in config.cases if has_column(case)]
     if not screened:
         raise ArgumentError(NO_COLUMNS)
-    estimates, why = run_columns(screened, out, *how), f"crumple status {beside} says why"
+    estimates, why = run_columns(screened, out, how), f"crumple status {beside} says why"
     missing = len(screened) - len(estimates)
     if missing:
         say(f"{missing} designs have no estimate: {why}")
@@ -123,18 +125,17 @@ def _screen(
     return replace(config, cases=kept), estimates, missing
 
 
-def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) -> int:
+def _spread(config: Config, out: str, how: How, question: Question) -> int:
     """Run the best designs with uncertain numbers and print their spread; return how many values
     are missing.
     """
     from sweep.report.tables.spread_sheets import spread_sheets
-    from sweep.running.beside.run_beside import How
     from sweep.running.beside.spread import BEST
     from sweep.running.run import spreads_of
     from sweep.store.read import read_summary
 
     summary = read_summary(out)
-    results = spreads_of(config.cases, summary, question._replace(top=BEST), out, How(*how))
+    results = spreads_of(config.cases, summary, question._replace(top=BEST), out, how)
     if not results:
         say("No number of the best designs is uncertain.")
         return 0

@@ -9,7 +9,6 @@ import pytest
 
 from kernels.geometry import near_pairs
 from kernels.geometry.distance import squared_distance
-from kernels.geometry.specimen_height import height
 from kernels.shared.rows import CONTACT
 from kernels.solve import outcomes
 from kernels.solve.energy_book import kinetic
@@ -191,13 +190,6 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
     gained = rows[0].friction - begun.friction
     assert 0.0 < least < gained < most
     assert abs(rows[0].residual - begun.residual) < 1e-6 * gained
-
-
-def test_height_is_between_rows_or_the_extent():
-    x = np.array([0.3, 0.5, 2.0, 3.0, -1.0])
-    top, base, none = np.array([2, 3]), np.array([0, 1]), np.empty(0, np.int64)
-    assert height(x, top, base) == pytest.approx(2.5 - 0.4)
-    assert height(x, none, np.array([0, 1, 3])) == pytest.approx(3.0 - 0.3)
 
 
 def crush(steps, speed=None, **solver):

@@ -156,14 +156,6 @@ def test_every_end_of_the_solver_has_its_advice():
     known = {value for name, value in vars(outcomes).items() if name.isupper()}
     goes_on = {outcomes.CONVERGED, outcomes.OUTGROWN, outcomes.UNFINISHED}
     assert {*ADVICE, outcomes.INTERRUPTED} == known - goes_on
-    for outcome in ADVICE:
-        status, message = stopped(LONG, outcome, "while loading, here", driven=True)
-        assert status == Status.STOPPED
-        what, _, advice = message.partition(" while loading, here; ")
-        assert what
-        assert advice
-        assert "stopped" not in message  # its status says so
-        assert "{" not in message
 
 
 def test_a_load_on_walls_without_contact_is_told_to_have_none():

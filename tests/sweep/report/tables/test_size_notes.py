@@ -18,10 +18,6 @@ def test_only_the_patterns_of_the_ranking_are_told_with_their_numbers():
     assert "hex" not in words
 
 
-def test_nothing_is_said_of_wide_lattices():
-    assert list(narrow_note(())) == []
-
-
 def test_the_numbers_are_those_of_the_table_of_make_sides():
     found = {}
     for kind, platen, change in ROW.findall(DOCS.read_text("utf-8")):
