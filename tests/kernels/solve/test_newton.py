@@ -9,8 +9,8 @@ from kernels.solve.residual import Tolerance, allowed, allowed_decrement
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
+from tests.support.converged import converged
 from tests.support.designs.scenes import grid, slopes
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
@@ -278,6 +278,5 @@ def test_a_residual_that_positions_do_not_resolve_is_round_off():
         loading=dict(mode="displacement", strain=0.0569, speed=3.06e-3),
         solver=dict(load_steps=25, retry=False, time_limit=60.0),
     )
-    result = simulate(case)
-    assert result.status == "converged", result.message
+    result = converged(case)
     assert result.summary["newton_iterations"] < 1000

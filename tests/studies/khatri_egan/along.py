@@ -12,7 +12,6 @@ import numpy as np
 
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
@@ -67,19 +66,15 @@ def sheet(cells, table, others):
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
         "friction": [f"{value:g}" for value in table["contact.friction"]],
-        "first peak, N": _digits(table["first_peak_N"]),
-        "to 50 %, J": _digits(table["to_half_J"]),
-        "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
-        "absorbed, J": _digits(table["absorbed_energy_J"]),
+        "first peak, N": across.digits(table["first_peak_N"]),
+        "to 50 %, J": across.digits(table["to_half_J"]),
+        "within the model, J": across.digits(table["absorbed_energy_within_model_J"]),
+        "absorbed, J": across.digits(table["absorbed_energy_J"]),
         "iterations": [f"{count:,}" for count in table["newton_iterations"]],
-        "CPU, s": _digits(table["cpu_s"]),
+        "CPU, s": across.digits(table["cpu_s"]),
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
     return Sheet(cells, list(columns), rows, notes=tuple(_notes(cells, table, others)))
-
-
-def _digits(values):
-    return [three_digits(value) for value in values]
 
 
 def _notes(cells, table, others):

@@ -76,7 +76,9 @@ def test_stop_that_is_asked_for_in_the_middle():
     assert not worker.is_alive()
     assert results[0].status == Status.STOPPED
     assert results[0].message.startswith("interrupted while loading")
-    assert 3 < check_kept(results[0]) < 2001
+    assert 3 < check_kept(results[0]) == control[1] + 1 < 2001
+    strains = 0.6 * np.arange(control[1] + 1) / 2000
+    np.testing.assert_allclose(results[0].history["strain"], strains, atol=1e-12)
 
 
 EXTREMES = {
