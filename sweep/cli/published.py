@@ -70,7 +70,7 @@ def _print(rows: list[Row], details: bool) -> None:
 def _write(rows: list[Row], folder: Path) -> None:
     """Write the table and the picture into a folder."""
     from sweep.report.figures.case_plots import blank, save
-    from sweep.report.figures.range_bars import range_bars, size
+    from sweep.report.figures.prediction_bars import prediction_bars, size
     from sweep.report.tables.comparison_sheet import comparison_sheet
     from sweep.report.tables.markdown import markdown
 
@@ -80,7 +80,7 @@ def _write(rows: list[Row], folder: Path) -> None:
         text = folder / "published.md"
         text.write_text(markdown([comparison_sheet(comparisons)]), encoding="utf-8")
         figure = blank(*size(comparisons))
-        range_bars(figure.subplots(), comparisons)
+        prediction_bars(figure.subplots(), comparisons)
         say_all([text, save(figure, folder / "published.png")])
 
 

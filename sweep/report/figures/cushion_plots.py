@@ -13,8 +13,8 @@ from sweep.ranking.cushion import Crush, absorbed_below, cushion_curve, dropped_
 from sweep.ranking.merit import doubtful
 from sweep.ranking.scenes import ASSUMPTIONS
 from sweep.report.figures.case_plots import legend, round_ticks
-from sweep.report.figures.design_map import SHAPED, scene_axes
 from sweep.report.figures.design_style import PLAIN, THIN, Looks, looks
+from sweep.report.figures.ranking_plots import SHAPED, scene_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -47,6 +47,7 @@ def narrow_note(patterns: Collection[str]) -> Iterator[str]:
 
 SIDES = ["width_m", "height_m", "depth_m"]
 SAME = 0.01  # relative difference of a side
+TERMINAL = 80  # most letters in a line that any terminal shows whole
 UNLIKE = "The parts differ in size, from {} to {} mm: energy, force and mass are of each as it is."
 
 
@@ -63,4 +64,4 @@ def size_note(rows: DataFrame) -> Iterator[str]:
         place = sizes.prod(axis=1)
         ends = (sizes.loc[place.idxmin()], sizes.loc[place.idxmax()])
         words = (" x ".join(significant(in_unit(side, "mm"), 3) for side in end) for end in ends)
-        yield fill(UNLIKE.format(*words), WIDTH)
+        yield fill(UNLIKE.format(*words), TERMINAL)

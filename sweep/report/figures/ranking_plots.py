@@ -61,7 +61,7 @@ NARROW, MARGIN = 1.2, 0.1  # axis of mass: least ratio of its ends; margin at ei
 ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis has no zero
 
 
-def design_map(fig: Figure, ranking: Ranking) -> None:
+def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
     """Merit over mass, one panel per scene, with the winner of each budget named.
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
