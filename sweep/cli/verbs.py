@@ -36,16 +36,18 @@ DONE, SOME_FAILED = 0, 1
 
 def run(arguments: Namespace) -> int:
     """Simulate the missing cases, then rank; with --dry-run, only estimate."""
+    config = _config(arguments.config)  # a wrong one is refused before the others are imported
     from sweep.cli.run import run as simulate
 
-    return SOME_FAILED if simulate(_config(arguments.config), arguments) else DONE
+    return SOME_FAILED if simulate(config, arguments) else DONE
 
 
 def optimize(arguments: Namespace) -> int:
     """Search for the best design, then simulate the best ones again."""
+    config = _config(arguments.config)
     from sweep.cli.optimize import optimize as search
 
-    return SOME_FAILED if search(_config(arguments.config), arguments) else DONE
+    return SOME_FAILED if search(config, arguments) else DONE
 
 
 def accuracy(arguments: Namespace) -> int:
@@ -228,9 +230,10 @@ def materials(arguments: Namespace) -> int:
 
 def card(arguments: Namespace) -> int:
     """Print the effective materials of infills, and write them as cards."""
+    config = _config(arguments.config)
     from sweep.cli.card import card as answer
 
-    answer(_config(arguments.config), arguments)
+    answer(config, arguments)
     return DONE
 
 

@@ -680,7 +680,7 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
     def interrupt(*_):
         raise stop
 
-    monkeypatch.setattr("sweep.running.sweep.run_sweep", interrupt)
+    monkeypatch.setattr("sweep.cli.run.run_sweep", interrupt)
     assert crumple(capsys, "run", config) == (1, "", told)
 
 
