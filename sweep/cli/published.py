@@ -38,7 +38,8 @@ def published(arguments: Namespace) -> int:
     others = [mine] if mine.exists() and mine.resolve() != OURS else []
     tables = [OURS, *others]
     rows = [(table, row) for table in tables for row in read_table(table)]
-    meant = [(table, row) for table, row in rows if _is_meant(row, arguments.rows)]
+    words = arguments.rows
+    meant = [(table, row) for table, row in rows if not words or any(map(row.is_meant, words))]
     if not meant:
         names = ", ".join(row.name for _, row in rows)
         raise ArgumentError(f"no row of {' '.join(arguments.rows)}; allowed: words of {names}")
@@ -49,10 +50,6 @@ def published(arguments: Namespace) -> int:
     if arguments.out:
         _write(shown, Path(arguments.out))
     return wrong
-
-
-def _is_meant(row: Row, words: list[str]) -> bool:
-    return not words or any(row.is_meant(word) for word in words)
 
 
 def _print(rows: list[Row], details: bool) -> None:

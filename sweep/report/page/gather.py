@@ -120,7 +120,8 @@ def page_data(
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
     leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(counted, scenes)]))
-    stored, rows_by_id = _Stored(len(cases)), _by_id([*kept, *shown])
+    rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
+    stored = _Stored(len(cases))
     for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = rows_by_id[case.case_id]
         design = cases.get(case.case_id) or unfinished[case.case_id]
@@ -168,11 +169,6 @@ def page_data(
         "about": _about(about, summary),
         "config": _config(about),
     }
-
-
-def _by_id(parts: Iterable[DataFrame]) -> dict[str, Series]:
-    """The rows of several parts of a summary by their ids."""
-    return {row["case_id"]: row for part in parts for _, row in part.iterrows()}
 
 
 def _prints(ids: Sequence[str], files_of: FilesOf) -> dict[str, str]:

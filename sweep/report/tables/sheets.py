@@ -202,7 +202,8 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     shown = {"printed_mass_g", "counted_mass_g"}
     if least := compared(rows):
-        columns |= impact_text(rows) if mode_of(rows).struck else _under_load(rows)
+        strain = {"strain %": numerals(in_unit(rows["peak_strain"], "%"))}
+        columns |= impact_text(rows) if mode_of(rows).struck else strain
         shown |= {least}
     else:
         columns |= _crushed(rows, ranking) | panel_column(rows)
@@ -218,10 +219,6 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
             share = rows["ranked_error"] / rows[by].abs()
             columns["± %"] = share.map(tenths).where(share.notna(), "?")
     return columns
-
-
-def _under_load(rows: DataFrame) -> dict[str, Series]:
-    return {"strain %": numerals(in_unit(rows["peak_strain"], "%"))}
 
 
 def impact_text(rows: DataFrame) -> dict[str, Series]:

@@ -39,11 +39,6 @@ SHOWN = 2.5  # greatest load that is drawn / greatest load up to half
 COMPARED = 0.5  # friction of the cases that are compared with those across the cells
 
 
-def energy_at(history, strain):
-    """Energy in J absorbed up to ``strain``."""
-    return float(np.interp(strain, history["strain"], history["work_in_J"]))
-
-
 def first_peak(force):
     """The first load in N, of rows (r,), that is followed by a drop; NaN if it never drops."""
     falls = np.flatnonzero(np.diff(force) < 0.0)
@@ -56,7 +51,7 @@ def predictions(path):
     demand(table.to_dict("records"))
     histories = [read_history(path, case_id) for case_id in table["case_id"]]
     return table.assign(
-        to_half_J=[energy_at(history, HALF) for history in histories],
+        to_half_J=[np.interp(HALF, past["strain"], past["work_in_J"]) for past in histories],
         first_peak_N=[first_peak(history["reaction_top_N"].to_numpy()) for history in histories],
     )
 
