@@ -24,11 +24,6 @@ from tests.support.command import crumple
 from tests.support.results.standin import NODES, cases, forge, parts_of, write
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "results" / "armor.h5"
-
-
 @pytest.mark.parametrize("content", [b"", b"not HDF5", None])
 def test_file_of_something_else_is_refused_in_one_line(path, content):
     path.parent.mkdir()

@@ -24,11 +24,6 @@ from tests.support.results.specimens import write as write_made_up
 from tests.support.results.standin import cases, forge, parts_of, write
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "armor.h5"
-
-
 def every_kind():
     """Cases of very different texts, some of which failed before they had curves."""
     return [
