@@ -21,7 +21,7 @@ from sweep.store.read import (
     unreadable,
 )
 from tests.support.command import crumple
-from tests.support.results.standin import NODES, cases, forge, parts_of, write
+from tests.support.results.standin import NODES, blank, cases, forge, parts_of, write
 
 
 @pytest.mark.parametrize("content", [b"", b"not HDF5", None])
@@ -74,11 +74,7 @@ def test_truncated_file_is_named_with_advice(path, fold, left):
 def test_damage_that_shows_only_on_reading_is_named_too(path, damaged, reads):
     write(path, cases(5))
     part = parts_of(path)[0]
-    with h5py.File(part) as file:
-        piece = file[damaged].id.get_chunk_info(0)
-    content = bytearray(part.read_bytes())
-    content[piece.byte_offset : piece.byte_offset + piece.size] = bytes(piece.size)
-    part.write_bytes(content)
+    blank(part, damaged)
     assert len(read_summary(path)) == 5
     for read in reads:
         with pytest.raises(StoreError, match=f"{part.name}.* is damaged"):
