@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
+from functools import partial
 from pathlib import Path
 from textwrap import fill
 from typing import Any, NoReturn
@@ -209,14 +210,14 @@ STORED = "results file; of a sweep also NAME or NAME.toml"
 AREA = "area to fill with specimens"
 THREADS = "threads (default: one per core, up to 8)"
 PROCESSES = "processes in place of threads (default, beyond 8 cores: one per core)"
-AS_WRITTEN = argparse.RawDescriptionHelpFormatter
 
 
 class Parser(argparse.ArgumentParser):
     """A parser that prints errors in two lines and accepts no abbreviations."""
 
     def __init__(self, **options: Any):
-        super().__init__(**options, allow_abbrev=False)
+        as_written = argparse.RawDescriptionHelpFormatter
+        super().__init__(**options, allow_abbrev=False, formatter_class=as_written)
         self.verbs: Mapping[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
@@ -257,16 +258,14 @@ class Version(argparse.Action):
 
 def parser() -> Parser:
     """All verbs and their options."""
-    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES, formatter_class=AS_WRITTEN)
+    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES)
     main.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
     main.verbs = verbs.choices
     _add_run(verbs)
     _add_optimize(verbs)
     _add_accuracy(verbs)
-    verbs.add_parser(
-        "warm", help="compile the kernels", description=WARM, formatter_class=AS_WRITTEN
-    )
+    verbs.add_parser("warm", help="compile the kernels", description=WARM)
     _add_status(verbs)
     _add_verify(verbs)
     _add_merge(verbs)
@@ -284,9 +283,7 @@ def parser() -> Parser:
 def _add_run(verbs: Any) -> None:
     """Add the verb that simulates."""
     epilog = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
-    run = verbs.add_parser(
-        "run", help="simulate a sweep", description=RUN, epilog=epilog, formatter_class=AS_WRITTEN
-    )
+    run = verbs.add_parser("run", help="simulate a sweep", description=RUN, epilog=epilog)
     offer(run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     run.add_argument(
         "--out", type=_results, metavar="F.h5", help="results file (default: results/NAME.h5)"
@@ -294,9 +291,7 @@ def _add_run(verbs: Any) -> None:
     _add_place(run)
     run.add_argument("--dry-run", action="store_true", help="estimate time and disk, write nothing")
     run.add_argument(
-        "--error-bars",
-        action="store_true",
-        help="estimate the error of mesh and steps",
+        "--error-bars", action="store_true", help="estimate the error of mesh and steps"
     )
     run.add_argument(
         "--spread", action="store_true", help="run the best designs with uncertain numbers"
@@ -322,12 +317,7 @@ def _add_run(verbs: Any) -> None:
 
 def _add_optimize(verbs: Any) -> None:
     """Add the verb that searches."""
-    optimize = verbs.add_parser(
-        "optimize",
-        help="search for the best design",
-        description=OPTIMIZE,
-        formatter_class=AS_WRITTEN,
-    )
+    optimize = verbs.add_parser("optimize", help="search for the best design", description=OPTIMIZE)
     optimize.add_argument("config", type=_path, metavar="CONFIG", help="TOML file with a [search]")
     optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
     optimize.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{AREA}: "100 mm" "50 mm"')
@@ -367,9 +357,7 @@ def _add_place(verb: Any) -> None:
 
 def _add_accuracy(verbs: Any) -> None:
     """Add the verb that compares numerical settings."""
-    accuracy = verbs.add_parser(
-        "accuracy", help="error against run time", description=ACCURACY, formatter_class=AS_WRITTEN
-    )
+    accuracy = verbs.add_parser("accuracy", help="error against run time", description=ACCURACY)
     offer(accuracy.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     accuracy.add_argument(
         "--out",
@@ -414,13 +402,7 @@ def _add_merge(verbs: Any) -> None:
 
 def _add_rank(verbs: Any) -> None:
     """Add the verb that lists the best designs."""
-    rank = verbs.add_parser(
-        "rank",
-        help="the best designs",
-        description=RANK,
-        epilog=RANK_EXAMPLES,
-        formatter_class=AS_WRITTEN,
-    )
+    rank = verbs.add_parser("rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES)
     offer(rank.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_question(rank)
     rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
@@ -442,13 +424,7 @@ def _add_rank(verbs: Any) -> None:
 
 def _add_show(verbs: Any) -> None:
     """Add the verb that draws a case."""
-    show = verbs.add_parser(
-        "show",
-        help="draw a case",
-        description=SHOW,
-        epilog=SHOW_EXAMPLES,
-        formatter_class=AS_WRITTEN,
-    )
+    show = verbs.add_parser("show", help="draw a case", description=SHOW, epilog=SHOW_EXAMPLES)
     offer(show.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_case(show, nargs="?")
     show.add_argument(
@@ -459,11 +435,7 @@ def _add_show(verbs: Any) -> None:
 def _add_export(verbs: Any) -> None:
     """Add the verb that writes files for other programs."""
     export = verbs.add_parser(
-        "export",
-        help="a part to print, curves, shapes",
-        description=EXPORT,
-        epilog=EXPORT_EXAMPLES,
-        formatter_class=AS_WRITTEN,
+        "export", help="a part to print, curves, shapes", description=EXPORT, epilog=EXPORT_EXAMPLES
     )
     offer(export.add_argument("file", type=_stored, metavar="F.h5", help=STORED), results)
     _add_case(export, "area to fill with specimens, ranked by and written")
@@ -481,9 +453,7 @@ def _add_export(verbs: Any) -> None:
 
 def _add_report(verbs: Any) -> None:
     """Add the verb that writes a page."""
-    report = verbs.add_parser(
-        "report", help="one HTML page", description=REPORT, formatter_class=AS_WRITTEN
-    )
+    report = verbs.add_parser("report", help="one HTML page", description=REPORT)
     report.add_argument("file", type=_stored, metavar="F.h5", help=STORED)
     report.add_argument(
         "--out", type=_page, metavar="F.html", help="the page (default: beside F.h5)"
@@ -498,7 +468,6 @@ def _add_materials(verbs: Any) -> None:
         help="list, plot and fit materials",
         description=MATERIALS,
         epilog=MATERIALS_EXAMPLES,
-        formatter_class=AS_WRITTEN,
     )
     words = materials.add_argument(
         "words", type=_path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
@@ -531,10 +500,7 @@ def _add_materials(verbs: Any) -> None:
 def _add_card(verbs: Any) -> None:
     """Add the verb that prints the effective materials of infills."""
     card = verbs.add_parser(
-        "card",
-        help="infills as materials for finite elements",
-        description=CARD,
-        formatter_class=AS_WRITTEN,
+        "card", help="infills as materials for finite elements", description=CARD
     )
     config = card.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG)
     offer(config, configs)
@@ -548,7 +514,6 @@ def _add_published(verbs: Any) -> None:
         help="predictions beside what was measured",
         description=PUBLISHED,
         epilog=PUBLISHED_EXAMPLES,
-        formatter_class=AS_WRITTEN,
     )
     published.add_argument(
         "rows", metavar="ROW", nargs="*", help="words of the rows that are meant"
@@ -576,10 +541,7 @@ def _add_helpers(verbs: Any) -> None:
     new.add_argument("--out", type=_path, metavar="FILE", help="file to write (default: NAME.toml)")
     verbs.add_parser("schema", help="the keys of a config, for editors", description=SCHEMA)
     completion = verbs.add_parser(
-        "completion",
-        help="complete words in a shell",
-        description=COMPLETION,
-        formatter_class=AS_WRITTEN,
+        "completion", help="complete words in a shell", description=COMPLETION
     )
     completion.add_argument("shell", choices=SHELLS)
 
@@ -678,26 +640,15 @@ def _stored(text: str) -> str:
     return results_file(_path(text))
 
 
-def _results(text: str) -> str:
-    """A path that is suitable for a results file."""
-    return _named(text, ".h5")
-
-
-def _table(text: str) -> str:
-    """A path that is suitable for a table."""
-    return _named(text, ".csv")
-
-
-def _page(text: str) -> str:
-    """A path that is suitable for a page."""
-    return _named(text, ".html")
-
-
 def _named(text: str, end: str) -> str:
+    """The path of a file, there or not, whose name has this ending."""
     is_no_file = os.path.exists(text) and not os.path.isfile(text)  # these functions never raise
     if Path(_path(text)).suffix == end and not is_no_file:
         return text
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a file whose name ends in {end}")
+
+
+_results, _table, _page = (partial(_named, end=end) for end in (".h5", ".csv", ".html"))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -4,8 +4,6 @@
 energies up to a force, of cycles, errors and the like have derived names.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import Literal

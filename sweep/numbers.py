@@ -7,13 +7,12 @@ messages (`in_unit`), except for files whose format has a unit, such as the mill
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sweep.constants import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from pandas import Series
 
 Values = TypeVar("Values")

@@ -11,6 +11,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pandas import DataFrame, Series
+
 from sweep.argument_types import explained
 from sweep.numbers import counted
 from sweep.ranking.curves import with_allowed
@@ -28,7 +30,6 @@ from sweep.store.read import read_case, read_frames, read_history, read_runs, re
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
     from xarray import Dataset
 
     from sweep.config.case import Case
@@ -86,7 +87,7 @@ class Results:
             raise StoreError(f"{path!r} is no path; needed: that of a results file")
         self.path = Path(path)
         self._ids = ids
-        self._question = Question(**(question or {}))
+        self.question = Question(**(question or {}))
 
     def __fspath__(self) -> str:
         return str(self.path)
@@ -105,11 +106,6 @@ class Results:
     def failed(self) -> DataFrame:
         """The rows that are not converged; their `message` says why."""
         return self.table[self.table["status"] != Status.CONVERGED]
-
-    @property
-    def question(self) -> Question:
-        """The question of the config, which `rank` and `plot` answer."""
-        return self._question
 
     @explained
     def rank(  # noqa: PLR0913  every argument is a part of one question
@@ -131,7 +127,7 @@ class Results:
         given = {name: v for name, v in every._asdict().items() if v is not AS_ASKED}
         quantities = {name: given.get(name) for name in ("budget", "panel", "allowed_force")}
         check_units(quantities | dict(given.get("require") or {}))
-        question = self._question._replace(**given)
+        question = self.question._replace(**given)
         return answer(with_allowed(self.path, self.table, question), question).table
 
     @explained
@@ -159,7 +155,7 @@ class Results:
         Without a case: of all designs, such as "absorption" over mass.
         """
         if case is None:
-            figures = dict(ranking_figures(str(self.path), self.table, self._question))
+            figures = dict(ranking_figures(str(self.path), self.table, self.question))
         else:
             figures = dict(case_figures(str(self.path), self._row(case)))
         if not figures:
@@ -190,7 +186,7 @@ class Results:
         from sweep.export.page import export_page
 
         page = Path(out or self.path.with_suffix(".html"))
-        return export_page(str(self.path), read_summary(self.path), self._question, page).file
+        return export_page(str(self.path), read_summary(self.path), self.question, page).file
 
     @explained
     def to_xarray(self, curves: Sequence[str] | str | bool = ()) -> Dataset:
@@ -217,9 +213,8 @@ class Results:
         head = f"<p>{escape(repr(self)[1:-1])}</p>"
         if len(self.failed) == len(self.table):
             return head
-        question = self._question
-        source = with_allowed(self.path, self.table, question)
-        ranking = answer(source, question)
+        source = with_allowed(self.path, self.table, self.question)
+        ranking = answer(source, self.question)
         sheets = list(ranking_sheets(ranking, source))
         drawn = dict.fromkeys(case_id for sheet in sheets for case_id in sheet.cases)
         runs = read_runs(self.path, drawn)

@@ -1,18 +1,16 @@
 """The verb `card`: the effective materials of the infills of a config."""
 
-from __future__ import annotations
-
+from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from sweep.cli.refusals import writing
 from sweep.cli.terminal import hint, print_sheets, say
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-
-    from sweep.config.grid import Config
-    from sweep.effective.material import EffectiveMaterial
+from sweep.config.faults import MisfitError
+from sweep.config.grid import Config, expand
+from sweep.effective.cell import infill_of
+from sweep.effective.material import EffectiveMaterial
+from sweep.effective.material import card as effective
+from sweep.report.tables.card_sheet import card_sheet
 
 
 class CardError(ValueError):
@@ -21,12 +19,6 @@ class CardError(ValueError):
 
 def card(config: Config, arguments: Namespace) -> None:
     """Print the effective materials of the infills of a config, and write them with --to."""
-    from sweep.config.faults import MisfitError
-    from sweep.config.grid import expand
-    from sweep.effective.cell import infill_of
-    from sweep.effective.material import card as effective
-    from sweep.report.tables.card_sheet import card_sheet
-
     materials: dict[tuple[str, float, float], EffectiveMaterial] = {}
     refused: dict[str, None] = {}
     for case in expand(config):

@@ -1,16 +1,13 @@
 """Finds the case that a user names: by its number in the ranking, or by the beginning of its id."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pandas import DataFrame, Series
 
 from sweep.numbers import budget_text
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.question import Question
-    from sweep.ranking.ranking import Ranking
+from sweep.ranking.merit import doubtful
+from sweep.ranking.question import Question
+from sweep.ranking.rank import answer
+from sweep.ranking.ranking import Ranking
+from sweep.report.tables.design_text import named_case
 
 DIGITS = 3  # most digits of a number in the ranking; a longer one begins an id
 
@@ -42,9 +39,6 @@ def by_number(
 
     scene : see `_scene`.
     """
-    from sweep.ranking.merit import doubtful
-    from sweep.ranking.rank import answer
-
     ranking = answer(summary, question._replace(top=number))
     table = ranking.table
     placed = list(dict.fromkeys(table["scene"]))
@@ -67,8 +61,6 @@ def by_number(
 
 def _no_place(ranking: Ranking, label: str, summary: DataFrame) -> str:
     """Why a scene has no numbered places, and the id to use instead."""
-    from sweep.report.tables.design_text import named_case
-
     limit = f" up to {budget_text(max(ranking.budgets_g))}" if ranking.budgets_g else ""
     why = f"no design{limit} is ranked{f' in {label}' if label else ''}"
     if (instead := ranking.instead(label)) is None:

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.cli.refusals import writing
 from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.coupon.answers import Answers
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
-    from numpy.typing import NDArray
-
     from sweep.config.materials.material_file import Record
-    from sweep.coupon.answers import Answers
 
 PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
 UNBROKEN = 0.1  # strain to which a plastic is drawn if its file states no break

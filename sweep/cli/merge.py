@@ -2,21 +2,18 @@
 file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, say
 from sweep.numbers import counted
+from sweep.store.read import exists, read_attributes, read_summary
+from sweep.store.write import Writer
 
 
 def merge(out: str, files: list[str]) -> None:
     """Copy the rows of ``files`` into the results file ``out``, which may exist."""
-    from sweep.store.read import exists, read_attributes, read_summary
-    from sweep.store.write import Writer
-
     if missing := [file for file in files if not exists(file)]:
         raise ArgumentError(f"{missing[0]} does not exist")
     if any(Path(file).resolve() == Path(out).resolve() for file in files):

@@ -2,34 +2,47 @@
 reliable they are.
 """
 
-from __future__ import annotations
-
 import shlex
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from sweep.cli.place import place_of
 from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.config.case import Case
+from sweep.config.grid import Config
 from sweep.loading_modes import MODES
 from sweep.numbers import text_in
+from sweep.ranking.assessment import check_column, front, thinned
+from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question, in_si
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-    from collections.abc import Iterator, Sequence
-
-    from sweep.config.case import Case
-    from sweep.config.grid import Config
-    from sweep.running.searching.search import Search, Settings
+from sweep.ranking.rank import answer
+from sweep.ranking.requirement_table import MEASURES
+from sweep.ranking.requirements import check_modes
+from sweep.ranking.spread import spreads
+from sweep.report.tables.design_text import named_case
+from sweep.report.tables.search_sheets import finalist_sheet, front_sheet, nearest_sheet
+from sweep.report.tables.sheets import ranking_sheets
+from sweep.report.tables.unfinished_notes import unfinished_notes
+from sweep.running.beside.run_beside import How, file_beside
+from sweep.running.beside.spread import run_corners
+from sweep.running.searching.finalists import finalists, perturbed
+from sweep.running.searching.optimize import (
+    OptimizeError,
+    check_found,
+    check_searchable,
+    question_of,
+    search_of,
+    start_of,
+)
+from sweep.running.searching.search import Search, Settings
+from sweep.store.read import read_summary
 
 SHORT = 8  # characters of an id in a command
 
 
 def optimize(config: Config, arguments: Namespace) -> int:
     """Search for the best design of a config; return how many of the finalists' cases failed."""
-    from sweep.running.searching.optimize import check_searchable
-    from sweep.running.searching.search import Settings
-
     check_searchable(config)
     with place_of(arguments) as place:
         how = Settings(arguments.evaluations, arguments.seed, *place)
@@ -38,8 +51,6 @@ def optimize(config: Config, arguments: Namespace) -> int:
 
 def _search(config: Config, arguments: Namespace, how: Settings) -> int:
     """Search, and print the best designs; return how many of the finalists' cases failed."""
-    from sweep.running.searching.optimize import search_of, start_of
-
     question = _question(config, arguments)
     out = arguments.out or f"results/{config.name}.h5"
     question = _with_max_force(question, arguments, start_of(config, question, out, how))
@@ -57,10 +68,6 @@ def _question(config: Config, arguments: Namespace) -> Question:
     """The question of the options, completed by the config; without --max-force, except for
     "none".
     """
-    from sweep.ranking.assessment import check_column
-    from sweep.ranking.requirement_table import MEASURES
-    from sweep.running.searching.optimize import question_of
-
     if arguments.pareto:
         check_column(arguments.pareto)
     options = {name: getattr(arguments, name) for name in MEASURES}
@@ -82,9 +89,6 @@ def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Ca
     """The question with --max-force: the force up to which the energy of a crush counts, else a
     requirement. start : designs of the search, all of one loading; empty if none exists.
     """
-    from sweep.ranking.requirements import check_modes
-    from sweep.running.searching.optimize import OptimizeError
-
     mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):
         return question
@@ -100,18 +104,6 @@ def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Ca
 
 def _show_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
-    from sweep.ranking.curves import with_allowed
-    from sweep.ranking.rank import answer
-    from sweep.ranking.spread import spreads
-    from sweep.report.tables.design_text import named_case
-    from sweep.report.tables.search_sheets import finalist_sheet
-    from sweep.report.tables.unfinished_notes import unfinished_notes
-    from sweep.running.beside.run_beside import file_beside
-    from sweep.running.beside.spread import run_corners
-    from sweep.running.searching.finalists import finalists, perturbed
-    from sweep.running.searching.optimize import check_found
-    from sweep.store.read import read_summary
-
     assessment, question = search.assessment, search.question
     check_found(search)
     if assessment is None or not (assessment.by_id or assessment.missed):
@@ -124,7 +116,7 @@ def _show_best(search: Search) -> int:
         return 0
     best = finalists(search.cases[case_id] for case_id in assessment.by_id)
     again = {case.case_id: perturbed(case) for case in best}
-    run_corners(again, search.out, search.settings.workers, search.settings.scheduler)
+    run_corners(again, search.out, How(search.settings.workers, search.settings.scheduler))
     summary, beside = search.rows(), file_beside(search.out, "spread")
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = answer(summary, question._replace(top=None))
@@ -137,11 +129,6 @@ def _show_best(search: Search) -> int:
 
 def _show_nearest(search: Search) -> None:
     """Print that no design fulfils all requirements, why, and which design comes nearest."""
-    from sweep.ranking.rank import answer
-    from sweep.report.tables.search_sheets import nearest_sheet
-    from sweep.report.tables.sheets import ranking_sheets
-    from sweep.running.searching.finalists import finalists
-
     assert search.assessment is not None
     summary, question = search.rows(), search.question._replace(top=None)
     say(f"None of {len(search.cases)} designs fulfils all requirements.")
@@ -152,9 +139,6 @@ def _show_nearest(search: Search) -> None:
 
 
 def _show_front(search: Search, other: str) -> None:
-    from sweep.ranking.assessment import front, thinned
-    from sweep.report.tables.search_sheets import front_sheet
-
     assert search.assessment is not None
     summary = search.rows()
     rows = thinned(front(summary, search.question, other), (other, search.assessment.column))

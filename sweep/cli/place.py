@@ -1,25 +1,17 @@
 """Chooses where the cases of a command run, by --workers, --processes, --scheduler and --wait."""
 
-from __future__ import annotations
-
+from argparse import Namespace
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from sweep.cli.refusals import ArgumentError
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-    from collections.abc import Iterator
-
-    from sweep.running.cluster import Scheduler
-    from sweep.running.place import Place
+from sweep.running.cluster import WAIT, Scheduler
+from sweep.running.place import Place, chosen_place, open_place
+from sweep.running.processes import PROCESSES
 
 
 def place_asked(arguments: Namespace) -> tuple[int, Scheduler]:
     """How many cases run at a time on this machine, and where."""
-    from sweep.running.place import chosen_place
-    from sweep.running.processes import PROCESSES
-
     where = PROCESSES if arguments.processes else arguments.scheduler
     return chosen_place(arguments.processes or arguments.workers, where)
 
@@ -27,10 +19,6 @@ def place_asked(arguments: Namespace) -> tuple[int, Scheduler]:
 @contextmanager
 def place_of(arguments: Namespace) -> Iterator[tuple[int, Place]]:
     """How many cases run at a time on this machine, and where, for the whole of a command."""
-    from sweep.running.cluster import WAIT
-    from sweep.running.place import open_place
-    from sweep.running.processes import PROCESSES
-
     workers, where = place_asked(arguments)
     if arguments.wait is not None and where in (None, PROCESSES):
         raise ArgumentError("--wait is of a cluster; needed: --scheduler or DASK_SCHEDULER_ADDRESS")

@@ -4,19 +4,17 @@ own.
 
 from __future__ import annotations
 
+from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import hint, print_sheets, say, say_all
+from sweep.published.table import Row
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from pandas import DataFrame
-
-    from sweep.published.table import Row
 
 OF_ADD = ("measure", "measured", "source")
 RESULTS = "results/published"
@@ -40,7 +38,8 @@ def published(arguments: Namespace) -> int:
     others = [mine] if mine.exists() and mine.resolve() != OURS else []
     tables = [OURS, *others]
     rows = [(table, row) for table in tables for row in read_table(table)]
-    meant = [(table, row) for table, row in rows if _is_meant(row, arguments.rows)]
+    words = arguments.rows
+    meant = [(table, row) for table, row in rows if not words or any(map(row.is_meant, words))]
     if not meant:
         names = ", ".join(row.name for _, row in rows)
         raise ArgumentError(f"no row of {' '.join(arguments.rows)}; allowed: words of {names}")
@@ -51,10 +50,6 @@ def published(arguments: Namespace) -> int:
     if arguments.out:
         _write(shown, Path(arguments.out))
     return wrong
-
-
-def _is_meant(row: Row, words: list[str]) -> bool:
-    return not words or any(row.is_meant(word) for word in words)
 
 
 def _print(rows: list[Row], details: bool) -> None:
@@ -72,7 +67,7 @@ def _print(rows: list[Row], details: bool) -> None:
 def _write(rows: list[Row], folder: Path) -> None:
     """Write the table and the picture into a folder."""
     from sweep.report.figures.case_plots import blank, save
-    from sweep.report.figures.range_bars import range_bars, size
+    from sweep.report.figures.prediction_bars import prediction_bars, size
     from sweep.report.tables.comparison_sheet import comparison_sheet
     from sweep.report.tables.markdown import markdown
 
@@ -82,7 +77,7 @@ def _write(rows: list[Row], folder: Path) -> None:
         text = folder / "published.md"
         text.write_text(markdown([comparison_sheet(comparisons)]), encoding="utf-8")
         figure = blank(*size(comparisons))
-        range_bars(figure.subplots(), comparisons)
+        prediction_bars(figure.subplots(), comparisons)
         say_all([text, save(figure, folder / "published.png")])
 
 

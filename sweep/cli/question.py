@@ -1,16 +1,12 @@
 """The question of a ranking, from the options of a command, else from the config of the results."""
 
-from __future__ import annotations
-
 import json
-from typing import TYPE_CHECKING, Any
+from argparse import Namespace
+from collections.abc import Iterable
+from typing import Any
 
 from sweep.cli.refusals import ArgumentError
 from sweep.ranking.question import Question, in_si
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-    from collections.abc import Iterable
 
 TOP, TOP_OF_A_BUDGET = 10, 3
 

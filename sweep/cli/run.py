@@ -2,23 +2,27 @@
 them.
 """
 
-from __future__ import annotations
-
+from argparse import Namespace
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+
+from pandas import DataFrame
 
 from sweep.cli.place import place_asked, place_of
 from sweep.cli.question import question_of
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
-
-if TYPE_CHECKING:
-    from argparse import Namespace
-
-    from pandas import DataFrame
-
-    from sweep.config.grid import Config
-    from sweep.ranking.question import Question
+from sweep.config.grid import Config, cases_of
+from sweep.ranking.question import Question
+from sweep.report.tables.screen_sheets import screen_sheets
+from sweep.report.tables.spread_sheets import spread_sheets
+from sweep.running.beside.error_bars import add_error_bars
+from sweep.running.beside.run_beside import How, file_beside
+from sweep.running.beside.screen import best_of, has_column, run_columns
+from sweep.running.beside.spread import BEST
+from sweep.running.estimate import dry_run
+from sweep.running.run import check_question, spreads_of
+from sweep.running.sweep import run_sweep
+from sweep.store.read import Rerun, read_summary
 
 SCREENED = "--screen runs one cell of each design first, and only the best of each infill in full"
 NO_COLUMNS = (
@@ -35,9 +39,6 @@ def run(config: Config, arguments: Namespace) -> int:
 
     With --error-bars, a design without an error bar counts as a failure.
     """
-    from sweep.running.run import check_question
-    from sweep.store.read import Rerun
-
     check_question(config)
     name, part = config.name, arguments.part
     if part:
@@ -46,23 +47,17 @@ def run(config: Config, arguments: Namespace) -> int:
     renew = arguments.renew
     rerun = Rerun(failed=arguments.retry_failed, older=renew, damaged=renew)
     if arguments.dry_run:
-        from sweep.running.estimate import dry_run
-
         workers, _ = place_asked(arguments)
         say(dry_run(config, out, workers, rerun, arguments.error_bars))
         say_all([UNKNOWN_BEST] if arguments.spread else [])
         say_all([SCREENED] if arguments.screen else [])
         return 0
     with place_of(arguments) as place:
-        return _simulate(config, arguments, out, (*place, rerun))
+        return _simulate(config, arguments, out, How(*place, rerun))
 
 
-def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ...]) -> int:
+def _simulate(config: Config, arguments: Namespace, out: str, how: How) -> int:
     """Simulate the missing cases, then rank; return how many failed."""
-    from sweep.running.beside.error_bars import add_error_bars
-    from sweep.running.sweep import run_sweep
-    from sweep.store.read import read_summary
-
     part = arguments.part
     question = question_of(config.rank.budgets, config.rank.panel)
     question = question._replace(require=config.require.model_dump(), per=config.rank.per)
@@ -70,11 +65,9 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
     if arguments.screen:
         config, estimates, failed = _screen(config, out, how, question, arguments.screen)
     failed += run_sweep(config, out, *how)
-    failed += add_error_bars(config, out, *how) if arguments.error_bars else 0
+    failed += add_error_bars(config, out, how) if arguments.error_bars else 0
     ranking = print_ranking(out, read_summary(out), question, arguments.brief)
     if estimates is not None:
-        from sweep.report.tables.screen_sheets import screen_sheets
-
         print_sheets(screen_sheets(estimates, read_summary(out), question))
     failed += _spread(config, out, how, question) if arguments.spread else 0
     hint([MERGED.format(part[1])] if part else next_commands(out, ranking))
@@ -83,8 +76,6 @@ def _simulate(config: Config, arguments: Namespace, out: str, how: tuple[Any, ..
 
 def _part(config: Config, arguments: Namespace) -> Config:
     """Every Nth case of a sweep, starting with the Kth, so that the parts take about as long."""
-    from sweep.config.grid import cases_of
-
     number, count = arguments.part
     if beside := [name for name in BESIDE if getattr(arguments, name)]:
         option = beside[0].replace("_", "-")
@@ -100,19 +91,16 @@ def _part(config: Config, arguments: Namespace) -> Config:
 
 
 def _screen(
-    config: Config, out: str, how: tuple[Any, ...], question: Question, count: int
+    config: Config, out: str, how: How, question: Question, count: int
 ) -> tuple[Config, DataFrame, int]:
     """Run the unit columns of a sweep; return the config of the designs to simulate in full, the
     estimates, and how many designs have none.
     """
-    from sweep.running.beside.run_beside import file_beside
-    from sweep.running.beside.screen import best_of, has_column, run_columns
-
     beside = file_beside(out, "screen")
     screened = [case for case in config.cases if has_column(case)]
     if not screened:
         raise ArgumentError(NO_COLUMNS)
-    estimates, why = run_columns(screened, out, *how), f"crumple status {beside} says why"
+    estimates, why = run_columns(screened, out, how), f"crumple status {beside} says why"
     missing = len(screened) - len(estimates)
     if missing:
         say(f"{missing} designs have no estimate: {why}")
@@ -124,18 +112,12 @@ def _screen(
     return replace(config, cases=kept), estimates, missing
 
 
-def _spread(config: Config, out: str, how: tuple[Any, ...], question: Question) -> int:
+def _spread(config: Config, out: str, how: How, question: Question) -> int:
     """Run the best designs with uncertain numbers and print their spread; return how many values
     are missing.
     """
-    from sweep.report.tables.spread_sheets import spread_sheets
-    from sweep.running.beside.run_beside import How
-    from sweep.running.beside.spread import BEST
-    from sweep.running.run import spreads_of
-    from sweep.store.read import read_summary
-
     summary = read_summary(out)
-    results = spreads_of(config.cases, summary, question._replace(top=BEST), out, How(*how))
+    results = spreads_of(config.cases, summary, question._replace(top=BEST), out, how)
     if not results:
         say("No number of the best designs is uncertain.")
         return 0

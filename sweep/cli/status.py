@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sweep.cli.terminal import say, say_all, version_counts
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from pandas import DataFrame
 
 NEEDED = ("case_id", "status", "message", "model_version", "git_revision", "cpu_s")

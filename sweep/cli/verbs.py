@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 import webbrowser
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,8 +26,6 @@ from sweep.numbers import text_in
 from sweep.plain_text import csv_text
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from pandas import DataFrame, Series
 
     from sweep.config.grid import Config
@@ -37,16 +36,18 @@ DONE, SOME_FAILED = 0, 1
 
 def run(arguments: Namespace) -> int:
     """Simulate the missing cases, then rank; with --dry-run, only estimate."""
+    config = _config(arguments.config)  # a wrong one is refused before the others are imported
     from sweep.cli.run import run as simulate
 
-    return SOME_FAILED if simulate(_config(arguments.config), arguments) else DONE
+    return SOME_FAILED if simulate(config, arguments) else DONE
 
 
 def optimize(arguments: Namespace) -> int:
     """Search for the best design, then simulate the best ones again."""
+    config = _config(arguments.config)
     from sweep.cli.optimize import optimize as search
 
-    return SOME_FAILED if search(_config(arguments.config), arguments) else DONE
+    return SOME_FAILED if search(config, arguments) else DONE
 
 
 def accuracy(arguments: Namespace) -> int:
@@ -116,8 +117,8 @@ def rank(arguments: Namespace) -> int:
     from sweep.ranking.curves import with_allowed
     from sweep.ranking.rank import answer
     from sweep.report.tables.markdown import markdown
-    from sweep.report.tables.narrow_note import narrow_note
     from sweep.report.tables.sheets import ranking_sheets
+    from sweep.report.tables.size_notes import narrow_note
     from sweep.store.read import read_summary
 
     question, heights = asked(arguments), drop_heights(arguments)
@@ -229,9 +230,10 @@ def materials(arguments: Namespace) -> int:
 
 def card(arguments: Namespace) -> int:
     """Print the effective materials of infills, and write them as cards."""
+    config = _config(arguments.config)
     from sweep.cli.card import card as answer
 
-    answer(_config(arguments.config), arguments)
+    answer(config, arguments)
     return DONE
 
 

@@ -2,19 +2,18 @@
 reproduced.
 """
 
-from __future__ import annotations
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+import numpy as np
+from pandas import DataFrame
 
 from sweep.cli.status import failed_cases
 from sweep.cli.terminal import say, say_all
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from pandas import DataFrame
-
-    from sweep.result import Result
+from sweep.numbers import counted
+from sweep.result import Result
+from sweep.running.warming import real_simulate
+from sweep.store.read import read_cases, read_frames, read_history, read_summary, unreadable
 
 SEED = 0  # seed for the choice of cases that run again
 SAME = 1e-6  # relative difference of numbers that count as equal
@@ -29,9 +28,6 @@ def verify(file: str, again: int) -> bool:
     Checksums, curves, shapes and stored cases of all rows are read, the ids are computed anew, and
     ``again`` cases that converged, drawn at random, are simulated again.
     """
-    from sweep.numbers import counted
-    from sweep.store.read import read_summary, unreadable
-
     summary = read_summary(file)
     ids = list(summary["case_id"])
     errors = unreadable(file)
@@ -51,19 +47,12 @@ def verify(file: str, again: int) -> bool:
 
 
 def _drawn(ids: Sequence[str], count: int) -> list[str]:
-    import numpy as np
-
     rng = np.random.default_rng(SEED)
     return sorted(rng.choice(ids, min(count, len(ids)), replace=False).tolist())
 
 
 def _different(file: str, rows: DataFrame) -> Iterator[str]:
     """A sentence for each case whose numbers, or whose end, now differ."""
-    import numpy as np
-
-    from sweep.running.warming import real_simulate
-    from sweep.store.read import read_cases
-
     cases = [*read_cases(file, rows.index)]
     simulate = real_simulate(cases)
     for case in cases:
@@ -86,10 +75,6 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
 
 def _other_array(file: str, result: Result) -> str:
     """The first curve or array of shapes that differs from the stored one; empty if none does."""
-    import numpy as np
-
-    from sweep.store.read import read_frames, read_history
-
     curves, shapes = read_history(file, result.case_id), read_frames(file, result.case_id)
     pairs = [(name, new, curves.get(name, np.nan)) for name, new in result.history.items()]
     pairs += [(name, new, shapes.get(name, np.nan)) for name, new in result.frames.items()]

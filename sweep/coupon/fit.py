@@ -187,13 +187,11 @@ def _apart(coupon: Coupon, model: Floats) -> Floats:
     return np.where(taut, model - coupon.stress, 0.0) / most
 
 
-def _ends_loaded(coupon: Coupon, row: int) -> bool:
-    return float(coupon.sign * coupon.stress[row]) > UNLOADED * _most(coupon)
-
-
 def _lost(coupon: Coupon, rows: list[int], first: int) -> float | None:
     """Lost share of the work of the cycle that begins with a leg, if it ends unloaded."""
-    if len(rows) < first + 3 or _ends_loaded(coupon, rows[first + 2]):
+    if len(rows) < first + 3:
+        return None
+    if coupon.sign * coupon.stress[rows[first + 2]] > UNLOADED * _most(coupon):
         return None
     done = legs.work(coupon, *rows[first : first + 2])
     return 1.0 + legs.work(coupon, *rows[first + 1 : first + 3]) / done

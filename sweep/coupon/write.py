@@ -1,15 +1,19 @@
-"""Writes the material of a coupon as a csv file for `material.name`, and reports how well it
-fits.
+"""Writes the material of a coupon as a csv file for `material.name`, with comments on a derived
+tension, and reports how well it fits.
 """
 
 from collections.abc import Iterator
 from math import inf
 from textwrap import wrap
 
+import numpy as np
+
 from sweep.config.materials.material_file import LIMITS, Record, secant_modulus
-from sweep.coupon.derived_tension import tension_lines
+from sweep.coupon.curve import cauchy_odd
 from sweep.coupon.fit import Fit
+from sweep.coupon.hyperelastic import rubber
 from sweep.coupon.legs import leg_name
+from sweep.coupon.record import Floats
 from sweep.numbers import in_unit, significant, text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
@@ -183,3 +187,24 @@ def _plus_minus(value: float, error: float, unit: str, digits: int) -> str:
     if error > SURE * abs(value):
         shown += f" \N{PLUS-MINUS SIGN} {significant(error, 2)}"
     return f"{shown} {unit}".strip()
+
+
+COMPARED = 0.2  # strain, or the end of a shorter record
+
+
+def tension_lines(strain: Floats, stress: Floats) -> Iterator[str]:
+    """Comment lines on the rule, and on how far the other rules deviate; strain, stress: of the
+    curve.
+    """
+    pressed = strain < 0.0
+    shortening, pressure = -strain[pressed][::-1], -stress[pressed][::-1]
+    at = min(COMPARED, float(shortening[-1]))
+    rules = [pressure, cauchy_odd(shortening, pressure)]
+    low, high = sorted(float(np.interp(at, shortening, rule)) for rule in rules)
+    if rubber(shortening, pressure) is None:
+        yield "# Tension [A]: derived from compression; no rubber (Mooney and Rivlin) follows that."
+    else:
+        yield "# Tension [A]: of the rubber (Mooney and Rivlin) that follows the compression."
+    stated = text_in(float(np.interp(at, strain, stress)), "MPa", 3)
+    ends = f"{text_in(low, 'MPa', 3)} (Cauchy stress odd) to {text_in(high, 'MPa', 3)} (nominal)"
+    yield f"#   At {text_in(at, '%', 3)} strain {stated}; other rules give {ends}."

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sweep.loading_modes import MODES
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from pandas import DataFrame
 
 AFTER = "reaction_bottom_N"

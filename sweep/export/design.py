@@ -1,19 +1,15 @@
 """The printed design of a case."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from sweep.columns import ALONG
+from sweep.config.case import Case
+from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
+from sweep.design.lattice import counted_area
+from sweep.design.network import Network, mass
 from sweep.export.errors import ExportError
 from sweep.numbers import in_unit
-
-if TYPE_CHECKING:
-    from sweep.config.case import Case
-    from sweep.config.kinds.lattice import Lattice
-    from sweep.design.network import Network
 
 
 @dataclass(frozen=True)
@@ -46,8 +42,6 @@ class Design:
         """
         if not isinstance(self.lattice, Sliced):
             return None
-        from sweep.design.lattice import counted_area
-
         return self.grams * counted_area(self.lattice.geometry) / self.network.printed_area
 
     @property
@@ -58,8 +52,6 @@ class Design:
 
 def design_of(case: Case) -> Design:
     """The design of a case; a period is no part, and is refused."""
-    from sweep.design.network import mass
-
     if case.lattice.endless:
         raise ExportError(
             f"case {case.case_id} is one period of an endless lattice (lattice.boundary), which is "

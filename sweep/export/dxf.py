@@ -1,16 +1,9 @@
 """DXF (R2000) in mm: a closed polyline for every ring, openings on a layer of their own."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from sweep.export.errors import ExportError
-from sweep.export.outline import rings
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from sweep.export.outline import Layout
+from sweep.export.outline import Layout, rings
 
 OUTER, OPENING = "OUTLINE", "OPENINGS"
 

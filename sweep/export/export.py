@@ -16,7 +16,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.constants import TO_MM, TO_MM3
 from sweep.export.errors import ExportError
+from sweep.export.outline import Layout
+from sweep.export.solid import Body
 from sweep.numbers import in_unit, text_in
+from sweep.store.read import read_case, read_cases, read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,8 +27,6 @@ if TYPE_CHECKING:
 
     from sweep.config.case import Case
     from sweep.export.design import Design
-    from sweep.export.outline import Layout
-    from sweep.export.solid import Body
 
 Kind = Literal["lattice", "settings"]
 SHOWN = 0.05  # mm: least difference of lengths that is reported
@@ -48,8 +49,6 @@ class Source:
     @cached_property
     def case(self) -> Case:
         """The case."""
-        from sweep.store.read import read_case
-
         return read_case(self.file, self.row["case_id"])
 
     @cached_property
@@ -62,8 +61,6 @@ class Source:
     @property
     def history(self) -> DataFrame:
         """The curves."""
-        from sweep.store.read import read_history
-
         history = read_history(self.file, self.row["case_id"])
         if history.empty:
             raise ExportError(f"case {self.row['case_id']} has no curves: {self._why}")
@@ -72,8 +69,6 @@ class Source:
     @property
     def frames(self) -> dict[str, NDArray[Any]]:
         """The shapes."""
-        from sweep.store.read import read_frames
-
         frames = read_frames(self.file, self.row["case_id"])
         if not frames:
             raise ExportError(f"case {self.row['case_id']} has no shapes: {self._why}")
@@ -153,8 +148,6 @@ def export_case(
 
 def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[bytes | None]:
     """What `export_case` writes as .3mf for cases of a results file; None where it refuses."""
-    from sweep.store.read import read_cases
-
     with TemporaryDirectory() as folder:
         path = Path(folder) / "print.3mf"
         for case in read_cases(file, case_ids):
@@ -203,8 +196,6 @@ def _sides(panel: Sequence[float | str] | None) -> list[float] | None:
 def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Planned:
     if not isinstance(source, str | os.PathLike):
         return Planned(source)
-    from sweep.store.read import read_summary
-
     summary = read_summary(source)
     if not case_id:
         ids = ", ".join(summary["case_id"].head(3))

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sweep.constants import TO_MM
+from sweep.design.network import Network
 from sweep.design.panel import BEHIND, BESIDE, Panel, panel_of, too_small
 from sweep.export.errors import ExportError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from sweep.config.kinds.specimen import Specimen
-    from sweep.design.network import Network
     from sweep.export.design import Design
 
 GRID = 1e-5  # mm: vertices lie on a grid, so that single precision keeps them apart

@@ -1,18 +1,13 @@
 """The page of a sweep, which hands out the first designs as files to print."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame
 
 from sweep.export.export import Exported, printed
+from sweep.ranking.question import Question
 from sweep.report.page.write import write_page
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.question import Question
 
 
 def export_page(file: str, summary: DataFrame, question: Question, out: Path) -> Exported:

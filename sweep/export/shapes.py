@@ -6,20 +6,15 @@ their area. Steps have the time and the strain of the lattice. Constant data are
 https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/index.html
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.constants import TO_MM
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
 
 LINE, QUAD = 3, 9  # VTK_LINE, VTK_QUAD
 VERSION = (2, 3)  # version of the format, with field data in steps

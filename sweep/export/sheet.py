@@ -5,32 +5,25 @@ is repeated over the panel and beyond, and cut to size. The sheet meets the pres
 and is moved along them there.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
+from sweep.config.case import Case
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.constants import TO_MM
+from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of, printed_thickness
 from sweep.export.errors import ExportError
 from sweep.export.outline import Layout, block
 from sweep.export.solid import Body, within_box
 from sweep.numbers import in_unit
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from sweep.config.case import Case
-    from sweep.design.surfaces.nets import Net
-
-    Floats = NDArray[np.float64]
-    Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 QUADS = 16  # cells of the net in a period
 MOST_PERIODS = 2_000  # a file of 150 MB

@@ -1,20 +1,14 @@
 """The body of a layout: its outline extruded along the depth, with a check of its volume."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sweep.export.errors import ExportError
-from sweep.export.outline import rings
+from sweep.export.outline import Layout, rings
 from sweep.numbers import text_in
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from sweep.export.outline import Layout
 
 SHORTEST = 2e-3  # mm
 CLOSE = 0.005  # greatest relative difference of the volume from the mass / density
@@ -33,7 +27,7 @@ class Body(NamedTuple):
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
     @property
-    def stood_up(self) -> Body:
+    def stood_up(self) -> "Body":
         """The same body with its y upwards, where its z was."""
         x, y, z = self.points.T
         return self._replace(points=np.column_stack([x, z.max() - z, y]))

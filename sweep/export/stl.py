@@ -1,15 +1,10 @@
 """STL, binary: triangles in mm, without a unit in the file."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from sweep.export.solid import Body
+from sweep.export.solid import Body
 
 HEADER = b"binary STL in mm, by Crumple".ljust(80)
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

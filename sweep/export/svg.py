@@ -1,17 +1,11 @@
 """SVG in mm: one path of closed rings, filled by the even-odd rule."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as Xml
 
-from sweep.export.outline import rings
+from sweep.export.outline import Layout, rings
 from sweep.export.three_mf import xml_bytes
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from sweep.export.outline import Layout
 
 FILL = "#2b4c6f"
 

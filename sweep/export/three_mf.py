@@ -3,19 +3,13 @@
 Source of the format: 3MF Core Specification 1.3 (3mf.io).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from pathlib import Path
 from xml.etree import ElementTree as Xml
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from sweep.export.solid import Body
 from sweep.version import __version__
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from sweep.export.solid import Body
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"

@@ -5,8 +5,6 @@ refined in time step, load steps or error of a step, and in elements per wall. C
 anything other than numerical settings belong to different scenes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import NamedTuple

@@ -4,12 +4,7 @@ Designs are often made for a budget, from a wall thickness that gives just this 
 not exclude them.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
+from pandas import DataFrame, Series
 
 ROUND_OFF = 1e-9  # relative; `merit` and `requirements` allow it for other limits too
 

@@ -2,8 +2,6 @@
 overlap.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,7 +12,7 @@ class Range(NamedTuple):
     low: float
     high: float
 
-    def misses(self, other: Range) -> float:
+    def misses(self, other: "Range") -> float:
         """Distance to the nearest value of another range; 0 if they meet, positive if above."""
         if self.low > other.high:
             return self.low - other.high

@@ -4,23 +4,17 @@ The number of specimens of a panel depends on the design, and so does the force 
 which the panel bears the allowed force. The stored curves give the answer for each design.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from pandas import DataFrame
 
 from sweep.loading_modes import has
 from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED, panel_in
-from sweep.ranking.question import in_si
+from sweep.ranking.question import Question, in_si
 from sweep.simulation.up_to_force import absorbed_until, stroke_until
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.question import Question
 
 ROUND_OFF = 1e-9
 READ = ("top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")

@@ -14,21 +14,17 @@ stops at the strain e at which the cushion has taken all of its energy,
 A falling striker of the sweep has its weight too, and G is the force on it / (m g).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+from pandas import DataFrame, Series
 
 from sweep.constants import STANDARD_GRAVITY
 from sweep.numbers import to_si
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from pandas import DataFrame, Series
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 SLACK = 1e-6  # histories are stored with single precision
 SAME_HEIGHT = 0.02  # drops from heights that differ by less are drawn as one

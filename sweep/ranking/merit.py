@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from pandas import DataFrame, Series
+
 from sweep.columns import (
     ABSORBED_AT,
     TIED_SIDES,
@@ -24,14 +26,11 @@ from sweep.columns import (
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
 from sweep.loading_modes import has, is_coarse
 from sweep.ranking.budget import ROUND_OFF, counted_mass
-from sweep.ranking.question import RankError, in_si
+from sweep.ranking.question import Quantity, Question, RankError, in_si
 from sweep.result import sides_of
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
     from sweep.config.case import Case
-    from sweep.ranking.question import Quantity, Question
 
 WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
 AT_DENSIFICATION = (

@@ -1,13 +1,8 @@
 """Finds rankings that mix patterns in narrow lattices, which favour some patterns over others."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pandas import DataFrame
 
 from sweep.loading_modes import has
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 WIDE = 8
 """Cells across from which free sides count for little."""

@@ -4,21 +4,14 @@ A summary has some 130 columns. A ranking of 100,000 cases that copied all of th
 sorts, groups or selects rows would spend most of its time and memory on them.
 """
 
-from __future__ import annotations
+from collections.abc import Collection, Iterable
 
-from typing import TYPE_CHECKING
-
-from pandas import concat
+from pandas import DataFrame, concat
 
 from sweep.columns import ABSORBED_AT, COLUMNS, CORRECTION, ENDS, ERROR
 from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED
 from sweep.ranking.question import RankError
 from sweep.ranking.scenes import scene_keys
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
-
-    from pandas import DataFrame
 
 NEEDED = frozenset(
     {

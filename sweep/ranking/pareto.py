@@ -1,7 +1,5 @@
 """The Pareto front: designs such that no lighter one absorbs as much."""
 
-from __future__ import annotations
-
 import numpy as np
 from pandas import Series
 

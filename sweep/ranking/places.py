@@ -1,7 +1,5 @@
 """The places of sorted designs, which designs may share because of errors."""
 
-from __future__ import annotations
-
 import numpy as np
 from pandas import DataFrame, Series, concat
 

@@ -1,7 +1,5 @@
 """The question of a ranking: its arguments, as text with a unit or as numbers in SI."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 

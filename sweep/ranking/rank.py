@@ -6,8 +6,6 @@ smallest strain is the best, under a striker the one with the least force on the
 whose results cannot be trusted (`merit.doubtful`) come last, whatever their values.
 """
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace

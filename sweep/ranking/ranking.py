@@ -1,22 +1,14 @@
 """The answer of `rank.ranked`, a `Ranking`: the table, and data that are not in the table."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from pandas import concat
+from pandas import DataFrame, concat
 
 from sweep.numbers import counted
 from sweep.ranking.budget import greatest_mass
+from sweep.ranking.requirements import Outcome
 from sweep.ranking.unfinished import PLACES
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from pandas import DataFrame
-
-    from sweep.ranking.requirements import Outcome
 
 
 @dataclass(frozen=True, eq=False, repr=False)

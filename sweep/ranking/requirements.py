@@ -11,27 +11,20 @@ If no design fulfils the requirements, the nearest one has the smallest worst mi
 a greatest value L by v / L - 1, and a least value L by 1 - v / L.
 """
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from pandas import DataFrame
+from pandas import DataFrame, Series
 
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
 from sweep.ranking.merit import Compared, doubtful
-from sweep.ranking.question import RankError, in_si
+from sweep.ranking.question import Quantity, RankError, in_si
 from sweep.ranking.requirement_table import MEASURES
-
-if TYPE_CHECKING:
-    from pandas import Series
-
-    from sweep.ranking.question import Quantity
 
 
 class Best(NamedTuple):
@@ -139,7 +132,7 @@ class Judged(NamedTuple):
     shares: DataFrame
     fulfil: Series
 
-    def within(self, budget_g: float) -> Judged:
+    def within(self, budget_g: float) -> "Judged":
         """The same for the rows within a budget."""
         kept = within_budget(self.rows[self.mass], budget_g)
         parts = {

@@ -1,7 +1,5 @@
 """Limit of values at decreasing sizes: observed order and Richardson extrapolation."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Loading scenes: which cases are compared, and the names of their loadings."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from pandas import DataFrame, Series, to_numeric

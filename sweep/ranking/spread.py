@@ -5,25 +5,19 @@ At a corner one uncertain number is at an end of its range, for all designs at o
 material has no range for this number keeps its value.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from pandas import DataFrame
+from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import merits
+from sweep.ranking.question import Question
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import measured, misses
 from sweep.ranking.unfinished import loaded
-
-if TYPE_CHECKING:
-    from pandas import Series
-
-    from sweep.ranking.question import Question
-    from sweep.ranking.ranking import Ranking
 
 ROUND_OFF = 1e-9
 AS_GIVEN = "as given"  # the corner at which no number is at an end of its range

@@ -15,29 +15,22 @@ the place that it has at least; doubtful designs follow all others. A requiremen
 misses, or its mass, excludes it.
 """
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
 from sweep.loading_modes import has
 from sweep.ranking.budget import within_budget
 from sweep.ranking.merit import Compared, doubtful
-from sweep.ranking.question import in_si
+from sweep.ranking.question import Question, in_si
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import measured, misses
 from sweep.result import Status
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
-    from numpy.typing import NDArray
-
-    from sweep.ranking.question import Question
 
 RISING = re.compile(
     r"(absorbed_energy|specific_absorption|panel_energy|panel_force|peak_|passed_on|counted_stroke)"

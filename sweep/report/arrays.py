@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from pandas import DataFrame
 
 from sweep.columns import HISTORY_COLUMNS, Column, describe_array, describe_column, is_grid_key
 from sweep.store.read import StoreError, read_curves, read_history
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
     from xarray import Dataset
 
 Variables = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]

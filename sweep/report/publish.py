@@ -8,7 +8,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pandas import concat
+from pandas import DataFrame, Series, concat
 
 from sweep.loading_modes import MODES, has
 from sweep.numbers import budget_text, in_unit
@@ -18,7 +18,8 @@ from sweep.ranking.cushion import crush_of, drops
 from sweep.ranking.merit import unequal_periods
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
-from sweep.report.figures import case_plots, cushion_plots, design_map
+from sweep.ranking.ranking import Ranking
+from sweep.report.figures import case_plots, cushion_plots, ranking_plots
 from sweep.report.figures.base_plots import base_pressure
 from sweep.report.figures.panel_piece import piece
 from sweep.report.figures.pattern_bars import panel_size, pattern_bars
@@ -37,9 +38,6 @@ from sweep.store.read import read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 MAX_SCENES = 12  # most scenes in one figure
 MAX_WINNERS = 6
@@ -131,7 +129,7 @@ def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequenc
     for name, part in drawn.items():
         if not (part.table.empty or unequal_periods(part.table)):
             figure = case_plots.blank(*_size(part.table))
-            design_map.design_map(figure, part)
+            ranking_plots.merit_over_mass(figure, part)
             yield name, figure
     crushed = drawn["absorption"]
     designs = crushed.table
@@ -140,9 +138,9 @@ def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequenc
         figure = case_plots.blank(*panel_size(designs, drawn=bool(shapes)))
         pattern_bars(figure, crushed, shapes)
         yield "patterns", figure
-    if design_map.has_trends(designs):
+    if ranking_plots.has_trends(designs):
         figure = case_plots.blank(*_size(designs))
-        design_map.thickness_trends(figure, crushed)
+        ranking_plots.thickness_trends(figure, crushed)
         yield "wall_thickness", figure
     yield from _cushion_figures(file, designs, ranking.table, drop_heights)
     if winners := _winners(file, shown.table, ranking.table):

@@ -1,7 +1,5 @@
 """A small drawing of a design, as SVG, from the first of its stored shapes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -6,8 +6,8 @@ dask), and `child_process` runs suspect ones one at a time; `place` chooses betw
 `warming` loads the kernels, `memory` limits the memory of a case, `on_worker` is the code of a
 worker, if it has the `fingerprint` of the run. `journal` records which cases run at the moment,
 `writer_thread` stores results, with the attributes of `provenance`. `progress` reports how far a
-sweep is, `estimate` how long it will take, `relaxation_warning` which cases are too short or too
-long for their material, `period_note` which are one period of a panel; `applicable` refuses
-requirements that fit no case. `run` does the same for a user of Python. `beside` has runs that
-accompany a sweep, `searching` the search for the best design.
+sweep is, `estimate` how long it will take, `case_notes` which cases are one period of a panel, or
+too short or too long for their material; `applicable` refuses requirements that fit no case. `run`
+does the same for a user of Python. `beside` has runs that accompany a sweep, `searching` the search
+for the best design.
 """

@@ -57,7 +57,7 @@ def run(
         how = How(count, place, rerun)
         run_sweep(config, path, *how)
         if error_bars:
-            add_error_bars(config, path, *how)
+            add_error_bars(config, path, how)
     ids = [*compact(config.cases).ids]
     question = {
         "budget": list(config.rank.budgets) or None,
@@ -103,7 +103,7 @@ def spreads_of(
     corners = corners_of(cases, ranking.table["case_id"], out)
     if not any(corners.values()):
         return []
-    run_corners(corners, out, *how)
+    run_corners(corners, out, how)
     beside = file_beside(out, "spread")
     rows = with_allowed(beside, read_summary(beside), question)
     ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}

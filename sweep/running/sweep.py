@@ -15,16 +15,15 @@ from sweep.config.grid import Config, cases_of, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
 from sweep.running.batches import Plan, cost, kind
+from sweep.running.case_notes import sentences_on_lossless, sentences_on_periods
 from sweep.running.child_process import DIED, NO_MEMORY, Simulate, run_alone
 from sweep.running.cluster import Cluster, Scheduler
 from sweep.running.dask_graph import Work, run_on_cluster
 from sweep.running.journal import Journal
 from sweep.running.memory import limited_memory
-from sweep.running.period_note import sentences_on_periods
 from sweep.running.place import Place, open_place
 from sweep.running.progress import Progress, announce
 from sweep.running.provenance import config_text, describe_run
-from sweep.running.relaxation_warning import sentences_on_lossless
 from sweep.running.threads import Sink, Stop, run_on_threads
 from sweep.running.warming import real_simulate, simulate_unloaded
 from sweep.running.writer_thread import result_sink, writer_thread

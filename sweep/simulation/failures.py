@@ -71,7 +71,8 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     buckles = not timed and not driven
     further = "a larger solver.max_iterations" if buckles else shorter
     limit = solver.max_iterations
-    if outcome == outcomes.STALLED and _may_overlap(case):
+    loose = isinstance(case.loading, DeadLoad) and case.contact.model == "none"  # may overlap
+    if outcome == outcomes.STALLED and loose:
         return APART
     if case.loading.quasi_static:
         limit <<= MOST_DOUBLINGS  # of the last attempt
@@ -81,11 +82,6 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     return ADVICE[outcome].format(
         limit=limit, shorter=shorter, further=further, damped=damped, needed=needed
     )
-
-
-def _may_overlap(case: Case) -> bool:
-    """Whether a dead load presses walls whose contact is left out."""
-    return isinstance(case.loading, DeadLoad) and case.contact.model == "none"
 
 
 def timed_out(case: Case, where: str) -> Failure:

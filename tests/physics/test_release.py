@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.simulation.simulate import simulate
+from tests.support.converged import converged
 
 
 def released(force, friction, integrator):
@@ -29,7 +29,6 @@ def released(force, friction, integrator):
 @pytest.mark.parametrize("force", [2e-4, 2e-3, 9e-3])
 def test_the_book_of_a_load_below_the_weight_of_the_lattice_closes(force, friction, integrator):
     """Damping is then a force below the admissible residual."""
-    result = simulate(released(force, friction, integrator))
-    assert result.status == "converged", result.message
+    result = converged(released(force, friction, integrator))
     left = np.abs(result.history["energy_residual_J"]).max()
     assert left < 1e-3 * np.abs(result.history["work_in_J"]).max()

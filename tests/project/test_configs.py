@@ -18,6 +18,16 @@ from tests.support.materials.strips import pulled
 CONFIGS = Path(__file__).parents[2] / "configs"
 
 
+def sound(case):
+    """The result of a case; it has converged, its energies balance and no walls cross."""
+    result = simulate(case)
+    summary = result.summary
+    assert result.status == "converged", result.message
+    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    assert summary["max_crossings"] == 0
+    return result
+
+
 def test_no_config_is_forgotten():
     """`thousand` is held by the bench, `others` by tests of their own."""
     names = {path.stem for path in CONFIGS.glob("*.toml")}
@@ -65,9 +75,7 @@ def test_armor_holds_its_numbers(mode, platen, force, energy):
         and case.loading.value("force") == force
     ]
     assert len(found) == 1
-    summary = simulate(found[0]).summary
-    assert summary["status"] == "converged"
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    summary = sound(found[0]).summary
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
 
 
@@ -85,14 +93,11 @@ def infills():
     ("design", "energy"), [(("hex", "flat", 0), 1913.3), (("diamond", None, 0), 1686.7)]
 )
 def test_infills_hold_their_numbers(design, energy):
-    result = simulate(infills()[design])
+    result = sound(infills()[design])
     summary, frames = result.summary, result.frames
-    assert summary["status"] == "converged"
-    assert summary["max_crossings"] == 0
     y, plates = frames["position_m"][..., 1], frames["plate_y_m"]
     assert np.all((y > plates[:, :1]) & (y < plates[:, 1:]))
     assert summary["mass_g"] == pytest.approx(14.5, rel=1e-12)
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=1e-3)
 
 
@@ -109,8 +114,7 @@ def test_panel_holds_its_numbers():
         and case.lattice.wall_thickness == 0.8e-3
     )
     assert wide.lattice.cells_y == 3
-    summary = simulate(wide).summary
-    assert summary["status"] == "converged"
+    summary = sound(wide).summary
     assert summary["absorbed_energy_until_packed_J"] == pytest.approx(7.556, rel=1e-3)
 
 
@@ -118,9 +122,7 @@ def test_drawn_holds_its_numbers():
     """The braced panel, whose walls are as thick as its mass says."""
     case = expand(load_config(CONFIGS / "drawn.toml"))[0]
     assert (case.lattice.name, case.lattice.counts) == ("drawn.csv", (23, 44))
-    summary = simulate(case).summary
-    assert summary["status"] == "converged"
-    assert summary["max_crossings"] == 0
+    summary = sound(case).summary
     assert summary["mass_g"] == pytest.approx(4.0, rel=1e-9)
     assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(405.48, rel=1e-3)
 
@@ -129,8 +131,7 @@ def test_rammed_holds_its_numbers():
     """Squares of 17 x 3 cells are rammed by a flat robot of 1 lb, as heavy as their own."""
     case = expand(load_config(CONFIGS / "rammed.toml"))[0]
     assert (case.lattice.cells_x, case.lattice.cells_y) == (17, 3)
-    summary = simulate(case).summary
-    assert summary["status"] == "converged"
+    summary = sound(case).summary
     assert summary["peak_force_N"] == pytest.approx(4318.6, rel=1e-3)
     assert summary["target_speed_m_per_s"] == pytest.approx(3.3031, rel=1e-3)
 
@@ -138,10 +139,8 @@ def test_rammed_holds_its_numbers():
 def test_reuse_holds_its_numbers():
     found = {case.lattice.kind: case for case in expand(load_config(CONFIGS / "reuse.toml"))}
     assert list(found) == ["square", "hex", "diamond", "circle"]
-    summary = simulate(found["square"]).summary
-    assert summary["status"] == "converged"
+    summary = sound(found["square"]).summary
     assert summary["mass_g"] == pytest.approx(1.4, rel=1e-12)
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_in_cycle_2_J"] == pytest.approx(25.825, rel=1e-3)
     assert summary["second_cycle_share"] == pytest.approx(0.7169, rel=1e-3)
 
@@ -165,10 +164,8 @@ def test_slicer_holds_its_numbers():
     assert len(cases) == 2 * len(glued) == 14
     shares = {name: case.lattice.infill for name, case in glued.items()}
     assert shares["honeycomb"] == min(shares.values()) == pytest.approx(0.1769, rel=1e-3)
-    summary = simulate(glued["honeycomb"]).summary
-    assert summary["status"] == "converged"
+    summary = sound(glued["honeycomb"]).summary
     assert summary["printed_mass_g"] == pytest.approx(24.0, rel=1e-9)
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
     assert 1e3 * summary["absorbed_energy_until_packed_J"] == pytest.approx(6709, rel=2e-3)
 
 
@@ -179,10 +176,8 @@ def test_drop_holds_its_numbers():
         for case in expand(load_config(CONFIGS / "drop.toml"))
     }
     assert len(found) == 8
-    summary = simulate(found["hex", 6, 0.8e-3]).summary
-    assert summary["status"] == "converged"
+    summary = sound(found["hex", 6, 0.8e-3]).summary
     assert summary["impact_energy_J"] == pytest.approx(0.5 * 9.80665 * 0.5)
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["impact_energy_J"]
     assert summary["peak_force_N"] == pytest.approx(346.6, rel=2e-3)
     filtered = "peak_deceleration_filtered_m_per_s2"
     assert summary[filtered] / 9.80665 == pytest.approx(57.2, rel=2e-3)
@@ -196,9 +191,7 @@ def test_search_holds_its_number():
     lattice = case.lattice
     assert (lattice.kind, lattice.cells_x, lattice.cells_y) == ("hex", 4, 3)
     assert lattice.wall_thickness == 1e-3
-    summary = simulate(case).summary
-    assert summary["status"] == "converged"
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    summary = sound(case).summary
     assert 1e3 * summary["absorbed_energy_at_50N_J"] == pytest.approx(14.302, rel=1e-3)
 
 
@@ -208,7 +201,7 @@ def pressed_a_little(case, steps=2, **lattice):
     loading = dict(direction="out_of_plane", platen=case.loading.platen, strain=0.01)
     steps = case.solver.model_copy(update={"load_steps": steps})
     tables = {"lattice": coarse, "material": case.material, "loading": loading, "solver": steps}
-    return simulate(Case.of(**tables)).summary
+    return sound(Case.of(**tables)).summary
 
 
 @pytest.mark.parametrize(
@@ -225,7 +218,6 @@ def test_khatri_egan_along_the_cells_begins_as_a_block(cells, walls, area, peak)
     assert {case.loading.platen for case in cases} == {"glued", "clamped", "contact"}
     case = cases[0]
     summary = pressed_a_little(case, nodes_per_wall=3, imperfection=0.0)
-    assert summary["status"] == "converged"
     outer = case.lattice.outer_size
     assert summary["solid_strain"] == pytest.approx(
         1.0 - 1e-6 * area / (outer[0] * outer[1]), rel=1e-5
@@ -248,7 +240,6 @@ def test_which_way_presses_one_print_in_both_directions():
         assert case.lattice.wall_thickness == across[kind].lattice.wall_thickness
         assert case.loading.stroke == across[kind].loading.stroke
     summary = pressed_a_little(along["square"], nodes_per_wall=2)
-    assert summary["status"] == "converged"
     assert summary["mass_g"] == pytest.approx(0.5, rel=1e-9)
     assert summary["direction"] == "out_of_plane"
 
@@ -265,7 +256,6 @@ def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_30_perc
         assert (case.material.loss, case.loading.unload) == (0.3, True)
     along = next(case for case in cases if case.loading.direction == "out_of_plane")
     summary = pressed_a_little(along, nodes_per_wall=2, steps=20)
-    assert summary["status"] == "converged"
     assert summary["lost_share"] == pytest.approx(0.3245, abs=2e-3)
 
 
@@ -292,22 +282,21 @@ def test_gyroid_holds_its_numbers(name, laid, along, energy):
     ][-1]
     coarse = {"nodes_per_wall": 2, "layers": None if case.lattice.sheet else 6}
     tables = {"loading": {"strain": 0.01, "stroke": None}, "solver": {"load_steps": 2}}
-    summary = simulate(case.changed(lattice=coarse, **tables)).summary
-    assert summary["status"] == "converged"
+    summary = sound(case.changed(lattice=coarse, **tables)).summary
     assert summary["sides"] == "tied, fixed period"
     assert summary["relative_density"] == pytest.approx(0.2, rel=0.02)
     assert 1e3 * summary["specific_absorption_J_per_g"] == pytest.approx(energy, rel=1e-3)
 
 
 def seed(model, hinges):
-    """Result of the case of seed.toml in steps of 20 us, nonlinear, Newton exact."""
+    """Summary of the case of seed.toml in steps of 20 us, nonlinear, Newton exact."""
     (case,) = (
         case
         for case in expand(load_config(CONFIGS / "seed.toml"))
         if (case.contact.model, case.solver.element) == (model, hinges)
         and (case.material.stretch, case.solver.hessian) == ("nonlinear", "exact")
     )
-    return simulate(case)
+    return sound(case).summary
 
 
 @pytest.mark.parametrize(
@@ -316,10 +305,7 @@ def seed(model, hinges):
 )
 def test_seed_holds_its_numbers(model, hinges, energy, within):
     """Nodes that are moved apart in another order come to rest a little elsewhere."""
-    summary = seed(model, hinges).summary
-    assert summary["status"] == "converged"
-    assert summary["max_crossings"] == 0
-    assert abs(summary["energy_residual_J"]) < 1e-6 * summary["absorbed_energy_J"]
+    summary = seed(model, hinges)
     assert (summary["injected_by_projection_J"] > 0.0) == (model == "position_based")
     assert summary["touched"] == 1
     assert 1e3 * summary["absorbed_energy_J"] == pytest.approx(energy, rel=within)

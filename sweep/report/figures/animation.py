@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from io import BytesIO
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pandas import DataFrame
 
 from sweep.loading_modes import MODES
 from sweep.numbers import in_unit
@@ -16,11 +18,8 @@ from sweep.report.figures.probe_plots import probe_reactions
 from sweep.report.figures.storyboard import FLOWN, headline
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from pandas import DataFrame
 
 SIZE = (8.0, 4.2)  # inches
 PLACES = {"left": 0.02, "right": 0.97, "bottom": 0.14, "top": 0.84, "wspace": 0.25}

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pandas import DataFrame
+
 from sweep.numbers import in_unit, significant, text_in
 from sweep.report.figures.case_plots import BLUE, mark, plain
 from sweep.report.figures.storyboard import headline, path_of, turns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from pandas import DataFrame
 
 
 def base_pressure(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:

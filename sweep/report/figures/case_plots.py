@@ -21,6 +21,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import Bbox, ScaledTranslation
+from pandas import DataFrame
 
 from sweep.design.silhouette import silhouette
 from sweep.loading_modes import MODES
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.backend_bases import RendererBase
     from matplotlib.figure import SubFigure
-    from pandas import DataFrame
 
 BLUE, SKY, ORANGE = "#0072b2", "#56b4e9", "#e69f00"
 VERMILION, PURPLE, YELLOW, GREY = "#d55e00", "#cc79a7", "#f0e442", "#8a8a8a"

@@ -6,22 +6,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pandas import isna
+from pandas import DataFrame, Series, isna
 
 from sweep.numbers import in_unit
-from sweep.ranking.cushion import absorbed_below, cushion_curve, dropped_from, shoulder
+from sweep.ranking.cushion import Crush, absorbed_below, cushion_curve, dropped_from, shoulder
 from sweep.ranking.merit import doubtful
 from sweep.ranking.scenes import ASSUMPTIONS
 from sweep.report.figures.case_plots import legend, round_ticks
-from sweep.report.figures.design_map import SHAPED, scene_axes
 from sweep.report.figures.design_style import PLAIN, THIN, Looks, looks
+from sweep.report.figures.ranking_plots import SHAPED, scene_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.cushion import Crush
 
 DESIGN = [
     *("lattice_kind", "infill_share", "cells_x", "cells_y", "wall_thickness_m", "width_m"),

@@ -6,14 +6,12 @@ marker the next of them, or the same one if the others do not vary. With one pat
 shows the cells, and the direction if it varies, and the marker the material.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import cycle
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from pandas import concat
+from pandas import DataFrame, Series, concat
 
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
@@ -22,12 +20,8 @@ from sweep.numbers import budget_text, energy_text, in_unit, tenths, text_in, th
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.places import places_by
+from sweep.ranking.ranking import Ranking
 from sweep.report.tables.design_text import WAYS, design_labels
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 RAMP = ((68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98))  # viridis: few to many cells
 WORDS = {"lattice_kind": "pattern", "material": "material", "direction": "pressed"}

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.numbers import in_unit
 from sweep.report.figures.case_plots import BLUE, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
@@ -13,10 +14,8 @@ from sweep.report.figures.case_plots import BLUE, GREY, ORANGE, PURPLE, SKY, VER
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
-    Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
-
+Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
 COLORS = (BLUE, VERMILION, ORANGE, SKY, PURPLE, GREY, YELLOW)
 STYLES = ("-", "--", ":")
 NEAR = -0.1, 0.1  # strain

@@ -4,20 +4,16 @@ The stored period ends along the sides of its quads. Here quads are cut where th
 sides of a period; the parts move with their quad. Such periods fit side by side.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.columns import TIED_SIDES
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 START = 0.618  # of a period, along both sides: cuts sheets into few parts, and no wall along it
 SHIFTS = np.array(list(product(range(-1, 3), repeat=2)))  # periods in which a quad may be cut

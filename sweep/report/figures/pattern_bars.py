@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pandas import DataFrame
 
 from sweep.numbers import in_unit
 from sweep.ranking.merit import doubtful
+from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import beside, walls
 from sweep.report.figures.design_style import errors_of, until
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from pandas import DataFrame
-
-    from sweep.ranking.ranking import Ranking
-
 
 ROW, DRAWN_ROW = 0.25, 0.5  # inches for a bar, without and with a drawing
 WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing as wide as high

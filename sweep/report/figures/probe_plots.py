@@ -6,12 +6,13 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pandas import DataFrame
+
 from sweep.numbers import in_unit
 from sweep.report.figures.storyboard import headline
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from pandas import DataFrame
 
 PROBE = re.compile(r"probe_(\d+)_reaction_([xy])_N")
 COLORS = ("#0072b2", "#d55e00", "#e69f00", "#56b4e9", "#cc79a7", "#8a8a8a")

@@ -4,17 +4,13 @@ The view is orthographic, from above and aside, so that lengths along the screen
 true and the cells are open to view.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # camera, from the x axis and up
 LIGHT = np.array([-0.25, -0.65, 0.75])  # direction towards the light, left above the camera

@@ -1,23 +1,18 @@
 """Chooses the contents of the pictures of a case: its shapes, with captions, and its energies."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from pandas import DataFrame
+from numpy.typing import NDArray
+from pandas import DataFrame, Series
 
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
 from sweep.loading_modes import MODES
 from sweep.numbers import in_unit, text_in
 from sweep.ranking.scenes import scene_label
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from pandas import Series
 
 INTEGRATOR = "dissipated_integrator_J"
 GAINED = " + gained in load or time steps"

@@ -2,17 +2,17 @@
 origin.
 """
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from pandas import DataFrame, Series
 
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
@@ -26,11 +26,11 @@ from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
-from sweep.report.figures.flattened import plan
 from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
@@ -50,24 +50,18 @@ from sweep.report.page.thinning import (
     thin_stairs,
     work_until,
 )
-from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape
+from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, plan
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import front, meanings
 from sweep.report.tables.marks import other_bow
-from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
+from sweep.report.tables.size_notes import narrow_note
 from sweep.result import Status
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""
@@ -126,7 +120,8 @@ def page_data(
     about = read_attributes(file)
     forces = [each.force for each in counted if each.force is not None]
     leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(counted, scenes)]))
-    stored, rows_by_id = _Stored(len(cases)), _by_id([*kept, *shown])
+    rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
+    stored = _Stored(len(cases))
     for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = rows_by_id[case.case_id]
         design = cases.get(case.case_id) or unfinished[case.case_id]
@@ -174,11 +169,6 @@ def page_data(
         "about": _about(about, summary),
         "config": _config(about),
     }
-
-
-def _by_id(parts: Iterable[DataFrame]) -> dict[str, Series]:
-    """The rows of several parts of a summary by their ids."""
-    return {row["case_id"]: row for part in parts for _, row in part.iterrows()}
 
 
 def _prints(ids: Sequence[str], files_of: FilesOf) -> dict[str, str]:

@@ -12,26 +12,19 @@ mass alone and once by all limited values, and the lower of both bounds counts; 
 also the bound from the front of the designs that are left out.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, islice, zip_longest
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+from pandas import DataFrame
 
 from sweep.loading_modes import MODES, compared
-from sweep.ranking.merit import doubtful, gap_behind, through_solid
+from sweep.ranking.merit import Compared, doubtful, gap_behind, through_solid
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
-    from numpy.typing import NDArray
-    from pandas import DataFrame
-
-    from sweep.ranking.merit import Compared
-
-    Floats = NDArray[np.float64]
-    Indices = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 MOST = 300  # designs
 SAMPLE = 50  # number of these that are sampled from all the others

@@ -1,20 +1,15 @@
 """Reduces curves to the few points that matter most for their shape."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
-    Indices = NDArray[np.int64]
-    Gap = Callable[[Floats, Floats, Floats], Floats]
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Gap = Callable[[Floats, Floats, Floats], Floats]
 
 TINY = np.finfo(float).tiny
 LEAST_WORK = 1e-3  # share of all work: below, an error counts relative to this work

@@ -1,12 +1,14 @@
-"""Stores walls of a shape as few long polylines, or as faces, and shapes as short text."""
-
-from __future__ import annotations
+"""Stores walls of a shape as few long polylines, or as faces, and shapes as short text; plates as
+their plan.
+"""
 
 from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.numbers import in_unit
 from sweep.ranking.budget import ROUND_OFF
@@ -14,12 +16,7 @@ from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
 from sweep.report.page.thinning import thinned
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+Floats = NDArray[np.float64]
 
 STRAIGHT = 0.03  # share of the wall thickness: nodes nearer to a straight wall are not drawn
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it
@@ -201,3 +198,22 @@ def _shown(strain: Floats) -> list[int]:
 
 def _few(values: Any) -> list[float | None]:
     return [float(f"{v:.4g}") if np.isfinite(v) else None for v in values]
+
+
+LEVEL = 1e-6  # share of the height within which nodes have one height
+
+
+def plan(frames: Mapping[str, Any]) -> dict[str, Any]:
+    """The shape at rest as walls in the plan: `frames` with `edges`, and one frame."""
+    sides = np.concatenate([frames["quads"][:, [k, (k + 1) % 4]] for k in range(4)])
+    edges, first = np.unique(np.sort(sides, axis=1), axis=0, return_index=True)
+    thickness = np.tile(frames["quad_thickness_m"], 4)[first]
+    position = frames["position_m"][:1]
+    height = position[0, :, 2]
+    bottom = np.all(height[edges] <= height.min() + LEVEL * np.ptp(height), axis=1)
+    return {
+        **{name: frames[name][:1] for name in ("strain", "time_s", "plate_y_m")},
+        "position_m": position[..., :2],
+        "edges": edges[bottom],
+        "edge_thickness_m": thickness[bottom],
+    }

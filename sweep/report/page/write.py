@@ -1,7 +1,5 @@
 """Writes the page of a sweep: template, style and program filled with the data."""
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
@@ -9,22 +7,20 @@ from hashlib import sha256
 from html import escape
 from pathlib import Path
 from string import Template
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from pandas import DataFrame
 
 from sweep.numbers import budget_text, counted
 from sweep.ranking.merit import doubtful
+from sweep.ranking.question import Question
+from sweep.ranking.ranking import Ranking
 from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import FilesOf, first_ranking, page_data
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.html import cells, html_table, paragraphs
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.question import Question
-    from sweep.ranking.ranking import Ranking
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")

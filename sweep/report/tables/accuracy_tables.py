@@ -1,13 +1,11 @@
 """Tables of an accuracy study: errors and run times, observed orders, recommended settings."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from textwrap import fill
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from pandas import DataFrame, Series
 
 from sweep.columns import describe_column
 from sweep.loading_modes import mode_of
@@ -25,9 +23,6 @@ from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
 from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
 
 WIDTH = 100  # letters of a line below a table
 LEAST_SHOWN = 1e-5  # relative error; smaller ones are shown as "<" this value

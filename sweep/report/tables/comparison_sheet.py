@@ -1,7 +1,5 @@
 """Predictions beside measured values, as a table of text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from textwrap import wrap
 

@@ -1,20 +1,14 @@
 """Designs as text: as columns of a table, or as words in a sentence."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-from pandas import Series
+from pandas import DataFrame, Series
 from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import ALONG, describe_column
 from sweep.design.slicer.patterns import is_lateral, is_sheet
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_labels
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 ID = 4  # least letters of an id in a sentence
 WAYS = {"in_plane": "across", ALONG: "along"}

@@ -1,13 +1,9 @@
 """Tables of text as HTML, for the page of a sweep and for notebooks; every text is escaped."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from html import escape
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.sheet import Sheet
 
 
 def html_table(sheet: Sheet, pictures: Mapping[str, str] | None = None) -> str:

@@ -1,21 +1,15 @@
 """The meaning of the marks and the heads of columns in the tables of a ranking."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from pandas import DataFrame
 
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
 from sweep.loading_modes import MODES, Mode, has
 from sweep.numbers import tenths
 from sweep.ranking.merit import is_period, unequal_periods
+from sweep.ranking.ranking import Ranking
 from sweep.report.tables.marks import densifies_twice, is_unsure, mark_notes
 from sweep.report.tables.requirement_notes import column_notes, of_one, panel_note
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.ranking import Ranking
 
 ABSORBS = "absorbs as much"
 MARKS = "*: on the Pareto front: no lighter design {}. mass: of {}."

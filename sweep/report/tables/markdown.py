@@ -1,13 +1,9 @@
 """Sheets as text in Markdown."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from sweep.report.tables.sheet import Sheet
+from sweep.report.tables.sheet import Sheet
 
 TAG = re.compile(r"<(?=[A-Za-z/!])")
 

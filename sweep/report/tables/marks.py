@@ -1,17 +1,13 @@
 """The marks of doubtful results in the tables of a ranking, and what each mark means."""
 
-from __future__ import annotations
-
 from functools import reduce
 from operator import add
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
 from sweep.numbers import tenths
 from sweep.ranking.unfinished import unloaded
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
 
 LONG_SPAN = 0.1  # span of strain
 MEANINGS = {

@@ -1,23 +1,18 @@
 """Sentences on the requirements, and on how many designs fail each of them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from textwrap import fill
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame, Series
 
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import budget_text, energy_text, in_unit, numerals, percent, tenths, three_digits
 from sweep.ranking.merit import doubtful, is_period
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
-    from sweep.ranking.requirements import Outcome
+from sweep.ranking.requirements import Outcome
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 ONE_SPECIMEN = "panel N: force of the panel, which is one specimen of {} mm."

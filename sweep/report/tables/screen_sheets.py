@@ -1,10 +1,9 @@
 """Estimates by unit columns beside the values of the whole models, as tables of text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import isnan
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame, Series
 
 from sweep.numbers import NOTHING, budget_text, three_digits
 from sweep.ranking.merit import merits
@@ -13,9 +12,6 @@ from sweep.ranking.rank import answer
 from sweep.ranking.unfinished import loaded
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.sheet import Sheet
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
 
 ABOUT = (
     "estimate: one cell, scaled by mass; not a result, and in no ranking. full: the whole model; "

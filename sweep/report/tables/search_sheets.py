@@ -1,24 +1,17 @@
 """The results of a search, as tables of text and sentences."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
 
-from pandas import Series
+from pandas import DataFrame, Series
 
 from sweep.numbers import NOTHING, in_unit, numerals, percent, three_digits
 from sweep.ranking.assessment import ALIKE
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.spread import AS_GIVEN, FINE, Spread, ends
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.marks import mark_notes, marks
 from sweep.report.tables.requirement_notes import panel_column
 from sweep.report.tables.sheet import Sheet
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.ranking import Ranking
 
 AGAIN = """\
 fine mesh: with twice the elements. lowest, highest: of this, of walls 5 % thinner and thicker, and

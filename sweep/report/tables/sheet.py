@@ -1,11 +1,6 @@
 """A table of text, for a terminal, a page or a file."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    pass
+from typing import NamedTuple
 
 
 class Sheet(NamedTuple):
@@ -23,7 +18,7 @@ class Sheet(NamedTuple):
     elsewhere: str = ""
     cases: tuple[str, ...] = ()
 
-    def without(self, head: str) -> Sheet:
+    def without(self, head: str) -> "Sheet":
         """The table without a column."""
         k = self.heads.index(head)
         heads, *rows = [[*texts[:k], *texts[k + 1 :]] for texts in [self.heads, *self.rows]]

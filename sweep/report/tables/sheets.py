@@ -1,21 +1,18 @@
 """Rankings and lists of cases as tables of text that fit a terminal of 80 columns."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
-from pandas import Series
+from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
 from sweep.loading_modes import compared, mode_of
 from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
 from sweep.ranking.budget import greatest_mass
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.marks import densifies_twice, is_unsure, marks
-from sweep.report.tables.narrow_note import narrow_note
 from sweep.report.tables.requirement_notes import (
     DECELERATION,
     FELT,
@@ -25,13 +22,8 @@ from sweep.report.tables.requirement_notes import (
     requirement_notes,
 )
 from sweep.report.tables.sheet import Sheet
-from sweep.report.tables.size_note import size_note
+from sweep.report.tables.size_notes import narrow_note, size_note
 from sweep.report.tables.unfinished_notes import unfinished_notes
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from sweep.ranking.ranking import Ranking
 
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
@@ -210,7 +202,8 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns["panel g"] = numerals(rows["panel_mass_g"])
     shown = {"printed_mass_g", "counted_mass_g"}
     if least := compared(rows):
-        columns |= impact_text(rows) if mode_of(rows).struck else _under_load(rows)
+        strain = {"strain %": numerals(in_unit(rows["peak_strain"], "%"))}
+        columns |= impact_text(rows) if mode_of(rows).struck else strain
         shown |= {least}
     else:
         columns |= _crushed(rows, ranking) | panel_column(rows)
@@ -226,10 +219,6 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
             share = rows["ranked_error"] / rows[by].abs()
             columns["± %"] = share.map(tenths).where(share.notna(), "?")
     return columns
-
-
-def _under_load(rows: DataFrame) -> dict[str, Series]:
-    return {"strain %": numerals(in_unit(rows["peak_strain"], "%"))}
 
 
 def impact_text(rows: DataFrame) -> dict[str, Series]:

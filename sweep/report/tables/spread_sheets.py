@@ -1,17 +1,13 @@
 """The spread of the best designs as tables of text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+
+from pandas import DataFrame, Series
 
 from sweep.numbers import NOTHING, budget_text, three_digits
 from sweep.ranking.spread import Spread, ends
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.sheet import Sheet
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
 
 ABOUT = (
     "lowest, highest: with one uncertain number at a time at an end of its range.\n"

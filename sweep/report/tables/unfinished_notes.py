@@ -1,22 +1,15 @@
 """Sentences on cases that stopped and could have had a place in a ranking, each with its reason."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from textwrap import fill
-from typing import TYPE_CHECKING
 
 import numpy as np
-from pandas import concat
+from pandas import DataFrame, Series, concat
 
 from sweep.numbers import budget_text
+from sweep.ranking.ranking import Ranking
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import WIDTH
-
-if TYPE_CHECKING:
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 MOST = 5  # most cases that are named for each scene
 MORE = "{} more unfinished cases could have had a place: crumple status lists them."

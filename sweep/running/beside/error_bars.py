@@ -30,9 +30,7 @@ from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.ranking.unfinished import loaded
 from sweep.running.beside.refinement import refined
-from sweep.running.beside.run_beside import How, file_beside, run_beside
-from sweep.running.child_process import Simulate
-from sweep.running.cluster import Scheduler
+from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
@@ -127,23 +125,20 @@ def companions_beside(
 def add_error_bars(
     sweep: Config | Sequence[Case],
     out: str | os.PathLike[str],
-    workers: int = 2,
-    scheduler: Scheduler = None,
-    rerun: Rerun = ONLY_MISSING,
-    simulate: Simulate | None = None,
+    how: How = AS_USUAL,
 ) -> int:
     """Compute error bars of the converged designs of a sweep; return how many designs have none.
 
     Runs the missing companions. The error of a design is NaN if a companion failed or was computed
-    by another version of the model. The arguments are the same as for `run_sweep`.
+    by another version of the model.
     """
     config = sweep_of(sweep)
     cases = config.cases
     beside, rows = file_beside(out, "companions"), _comparable(out)
     designs = [case for case in cases if case.case_id in rows]
-    others = companions_beside(designs, out, rerun)
+    others = companions_beside(designs, out, how.rerun)
     what = f"error bars of {len(designs)} designs: {len(others)} companions"
-    run_beside(others, beside, what, How(workers, scheduler, rerun, simulate))
+    run_beside(others, beside, what, how)
     rows |= _comparable(beside) if exists(beside) else {}
     bars = {design.case_id: error_bars(design, rows) for design in designs}
     labels = {case.case_id: {**case.axes, **bars.get(case.case_id, {})} for case in cases}

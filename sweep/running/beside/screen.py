@@ -29,10 +29,8 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.unfinished import loaded
 from sweep.result import design_columns
-from sweep.running.beside.run_beside import How, file_beside, run_beside
-from sweep.running.child_process import Simulate
-from sweep.running.cluster import Scheduler
-from sweep.store.read import ONLY_MISSING, Rerun, read_summary
+from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
+from sweep.store.read import read_summary
 
 EXTENSIVE = ("J", "N", "g")
 PER_AREA = ("Pa", "J/m^3")
@@ -74,17 +72,14 @@ def unit_column(design: Case) -> Case:
 def run_columns(
     designs: Sequence[Case],
     out: str | os.PathLike[str],
-    workers: int = 2,
-    scheduler: Scheduler = None,
-    rerun: Rerun = ONLY_MISSING,
-    simulate: Simulate | None = None,
+    how: How = AS_USUAL,
 ) -> DataFrame:
-    """Run the missing columns of designs; return `estimates`. Arguments as for `run_sweep`."""
+    """Run the missing columns of designs; return `estimates`."""
     columns = {design.case_id: unit_column(design) for design in designs}
     alone = {column.case_id: column for column in columns.values()}
     beside = file_beside(out, "screen")
     what = f"screen of {len(designs)} designs: {len(alone)} unit columns"
-    run_beside(alone, beside, what, How(workers, scheduler, rerun, simulate))
+    run_beside(alone, beside, what, how)
     rows = read_summary(beside)
     by_id = loaded(rows).set_index("case_id", drop=False)
     return DataFrame(

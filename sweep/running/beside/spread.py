@@ -18,16 +18,11 @@ from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.coupon.curve import with_tension
-from sweep.running.beside.run_beside import How, file_beside, run_beside
-from sweep.running.child_process import Simulate
-from sweep.running.cluster import Scheduler
+from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
 from sweep.scene.material import with_compression
-from sweep.store.read import ONLY_MISSING, Rerun, read_case
+from sweep.store.read import read_case
 
-FRICTION = (
-    0.2,
-    0.9,
-)  # of TPU on TPU or steel, assumed: no source gives it (configs/materials/README.md)
+FRICTION = 0.2, 0.9  # of TPU on TPU or steel, assumed: no source (configs/materials/README.md)
 BRANCHES = {"compression": with_compression, "tension": with_tension}
 BEST = 5  # designs of a ranking
 SEEDS = 1, 2, 3  # seeds of other imperfections of a lattice that is pressed along its cells
@@ -114,13 +109,9 @@ def corners_of(
 def run_corners(
     by_design: Mapping[str, Sequence[Corner]],
     out: str | os.PathLike[str],
-    workers: int = 2,
-    scheduler: Scheduler = None,
-    rerun: Rerun = ONLY_MISSING,
-    simulate: Simulate | None = None,
+    how: How = AS_USUAL,
 ) -> None:
-    """Run the missing corners of designs in `out`; arguments as for `run_sweep`."""
+    """Run the missing corners of designs in `out`."""
     others = {c.case_id: c.case for several in by_design.values() for c in several}
     what = f"spread of {len(by_design)} designs: {len(others)} cases"
-    how = How(workers, scheduler, rerun, simulate)
     run_beside(others, file_beside(out, "spread"), what, how)

@@ -27,19 +27,13 @@ class PlateMesh(ShellMesh):
     where all of its quads are in one plane, else x, y and z. Nodes are bowed by the imperfection,
     whereas sizes belong to flat quads, and triangles have alternate diagonals.
 
-    wall (m,): in the plan. level (n,): of a node. is_flat (n,), is_on (n, 2): `flat` and `on`.
+    wall (m,): in the plan. level (n,): of a node. is_on (n, 2): `on`.
     """
 
     plan: Plan
     wall: Ints
     level: Ints
-    is_flat: np.ndarray
     is_on: np.ndarray
-
-    @property
-    def flat(self) -> np.ndarray:
-        """See `ShellMesh`."""
-        return self.is_flat
 
     @property
     def on(self) -> np.ndarray:
@@ -50,11 +44,6 @@ class PlateMesh(ShellMesh):
     def planes(self) -> Floats:
         """See `ShellMesh`."""
         return self.plan.planes
-
-    @property
-    def quad_area(self) -> Floats:
-        """See `ShellMesh`."""
-        return np.asarray(self.size.prod(axis=1))
 
     @property
     def smooth_corners(self) -> Ints:
@@ -159,10 +148,11 @@ def extruded(
         frames=np.repeat(frames.reshape(-1, 9), layers + 1, axis=0),
         quads=quads[own],
         size=size[wall][own],
+        quad_area=size[wall][own].prod(axis=1),
         thickness=plan.thickness[wall][own],
         wall=wall[own],
         directors=np.repeat(directors, layers, axis=0)[own],
-        is_flat=np.repeat(flat, layers + 1),
+        flat=np.repeat(flat, layers + 1),
         level=level,
         is_on=np.repeat(on, layers + 1, axis=0),
         triangles=cut(quads, (np.repeat(number, layers) + level[quads[:, 0]]) % 2 == 0),

@@ -109,7 +109,7 @@ def scene_of(case: Case, mesh: ShellMesh, network: Network | None, whole: float)
     bottom = low if loose else np.append(numbering.position(bottom, 2), low)
     return Scene(
         mesh, network, terms, x_rest, bottom, high, low,
-        force_scale=_force_scale(mesh, case),
+        force_scale=case.material.modulus * mesh.force,
         velocity=np.where(leader == numbering.high, -striker.speed, 0.0),
     )  # fmt: skip
 
@@ -179,8 +179,3 @@ def _stiffness(mesh: ShellMesh, case: Case) -> tuple[float, float]:
     """Stiffness of a node in stretching (N/m) and in bending by w (N m), of the thickest wall."""
     thickness = float(mesh.thickness.max())
     return case.material.modulus * thickness, case.material.modulus * thickness**3 * 4.0 / 3.0
-
-
-def _force_scale(mesh: ShellMesh, case: Case) -> float:
-    """Typical force, N: the least Y t^3 / (12 l) of a wall of width l."""
-    return case.material.modulus * mesh.force

@@ -27,11 +27,10 @@ class SheetMesh(ShellMesh):
     and its normal; where the sheet meets a wall, or two walls meet, they are x, y and z. Sizes are
     means of two opposite sides; the shorter diagonal cuts a quad.
 
-    net: of the period, or the block. is_flat (n,): `flat`.
+    net: of the period, or the block.
     """
 
     net: Net
-    is_flat: np.ndarray
 
     @property
     def bottom(self) -> Ints:
@@ -44,19 +43,9 @@ class SheetMesh(ShellMesh):
         return self.net.top
 
     @property
-    def flat(self) -> np.ndarray:
-        """See `ShellMesh`."""
-        return self.is_flat
-
-    @property
     def capped(self) -> bool:
         """See `ShellMesh`."""
         return VERTICAL_AXIS in (self.net.box.walls or ())
-
-    @property
-    def quad_area(self) -> Floats:
-        """See `ShellMesh`."""
-        return self.net.area
 
     @property
     def smooth_corners(self) -> Ints:
@@ -175,7 +164,8 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
         shift=shift,
         period=period if repeats else np.full(2, np.inf),
         net=net,
-        is_flat=flat[original],
+        flat=flat[original],
+        quad_area=net.area,
     )
 
 

@@ -25,7 +25,8 @@ class ShellMesh(ABC):
     directors (m, 4, 3): normal at the corners, in the axes of their nodes. triangles (k, 3): two of
     each quad, then of their copies. original (n,): the node itself or, for an image, its original;
     shift (n, 2): by how many periods it is moved along x and y. period (2,), m; infinite if nothing
-    repeats.
+    repeats. quad_area (m,): of each quad, m^2. flat (n,): whether all quads of a node have one
+    tangent plane: nothing resists a turn there about its normal, the third axis.
     """
 
     height: float
@@ -39,6 +40,8 @@ class ShellMesh(ABC):
     original: Ints
     shift: Ints
     period: Floats
+    quad_area: Floats
+    flat: np.ndarray
 
     @property
     @abstractmethod
@@ -49,18 +52,6 @@ class ShellMesh(ABC):
     @abstractmethod
     def top(self) -> Ints:
         """Nodes at the upper platen."""
-
-    @property
-    @abstractmethod
-    def flat(self) -> np.ndarray:
-        """Whether all quads of a node have one tangent plane, (n,): nothing resists a turn there
-        about its normal, the third axis.
-        """
-
-    @property
-    @abstractmethod
-    def quad_area(self) -> Floats:
-        """Area of each quad, (m,) m^2."""
 
     @property
     @abstractmethod

@@ -1,9 +1,15 @@
 """Where the descent of a step sets out, and with which factor."""
 
+from collections import Counter
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 
+from kernels.compile.jit import Kernel
 from kernels.compile.reference import by_reference
+from kernels.planar import neighbour_lists
+from kernels.planar.problem import Planar
 from kernels.shared.rows import STORED
 from kernels.solve import march, newton
 from kernels.solve.workspace import make_workspace
@@ -11,8 +17,26 @@ from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.bench.measuring import cases
 from tests.studies.bench.measuring.crushes import Crush
-from tests.support.kernels.counts import counted
 from tests.support.kernels.solving import at_rest, ramp, whole
+
+WATCHED = {Planar.factor: "factor", neighbour_lists.list_neighbours: "list"}
+COMPILED = (Planar.descend,)  # meets records that only compiled code can read
+
+
+def counted(crush):
+    """Calls an iteration of every part while a crush goes on."""
+    calls, compiled = Counter(), Kernel.__call__
+
+    def call(kernel, *args):
+        if kernel not in WATCHED:
+            return compiled(kernel, *args) if kernel in COMPILED else kernel.__wrapped__(*args)
+        calls[WATCHED[kernel]] += 1
+        return compiled(kernel, *args)
+
+    with patch.object(Kernel, "__call__", call):
+        spent, _ = crush.onwards()
+    return {part: calls[part] / spent.iterations for part in WATCHED.values()}
+
 
 STEP = 1e-4  # m
 

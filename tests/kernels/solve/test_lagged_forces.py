@@ -5,6 +5,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
+from tests.support.converged import converged
 
 
 def crushed(contact, **numerics):
@@ -62,8 +63,7 @@ def test_walls_of_acute_corners_are_kept_from_crossing(friction):
         contact=dict(friction=friction),
         solver=dict(load_steps=100),
     )
-    found = simulate(case)
-    assert found.status == "converged"
+    found = converged(case)
     assert found.summary["max_crossings"] == 0
 
 
@@ -90,6 +90,5 @@ def test_a_violent_motion_slides_smoothly():
         contact=dict(friction=2.0),
         solver=dict(time_step=0.163, time_limit=60.0, retry=False),
     )
-    result = simulate(case)
-    assert result.status == "converged", result.message
+    result = converged(case)
     assert result.summary["newton_iterations"] < 3000

@@ -9,8 +9,8 @@ from kernels.solve.residual import Tolerance, allowed, allowed_decrement
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
+from tests.support.converged import converged
 from tests.support.designs.scenes import grid, slopes
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
@@ -170,22 +170,6 @@ def test_no_iteration_raises_the_energy(seed, dt):
     assert is_minimum(case, scene, x, dt, whole(scene, x, scene.x_rest, dt))
 
 
-@pytest.mark.parametrize(
-    ("force", "contact", "dt"), [(2.0, "none", 1e-3), (15.0, "barrier", np.inf)]
-)
-def test_it_ends_quadratically(force, contact, dt):
-    """Order log(r'' / r') / log(r' / r) of the last residuals that are more than round-off."""
-    case = grid(force, "contact", contact)
-    scene = build_scene(case)
-    args = whole(scene, scene.x_rest, dt=dt)
-    x, sizes, outcome = scene.x_rest, [], outcomes.ITERATIONS
-    while outcome == outcomes.ITERATIONS:
-        outcome, _, x = descend(case, scene, x, args, iterations=1)
-        sizes.append(np.abs(residual(scene, x, whole(scene, x, scene.x_rest, dt))).max())
-    falls = np.diff(np.log([size for size in sizes if size > ROUND_OFF][-3:]))
-    assert falls[1] / falls[0] > 1.75
-
-
 def test_the_platen_ends_exactly_at_its_target():
     case = column()
     scene = build_scene(case)
@@ -294,6 +278,5 @@ def test_a_residual_that_positions_do_not_resolve_is_round_off():
         loading=dict(mode="displacement", strain=0.0569, speed=3.06e-3),
         solver=dict(load_steps=25, retry=False, time_limit=60.0),
     )
-    result = simulate(case)
-    assert result.status == "converged", result.message
+    result = converged(case)
     assert result.summary["newton_iterations"] < 1000

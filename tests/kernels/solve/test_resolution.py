@@ -6,6 +6,7 @@ from scipy.linalg import eigh
 
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
+from tests.support.converged import converged
 from tests.support.designs.structures import APART, CLAMPED, UNDAMPED, probe, structure
 
 LENGTH, THICKNESS, DEPTH, DENSITY, ELEMENTS = 30.0, 2.0, 12.0, 1190.0, 6
@@ -63,8 +64,7 @@ def test_a_cantilever_under_a_load_along_itself_moves(integrator, modulus, force
     fastest = 2.0 / PIECE * np.sqrt(modulus / DENSITY)  # rad/s
     if fastest * time_step > 0.3:
         time_step = 0.1 / fastest
-    result = simulate(pulled(integrator, modulus, force, time_step))
-    assert result.status == "converged", result.message
+    result = converged(pulled(integrator, modulus, force, time_step))
     moved = stretched(STEPS * time_step, modulus, force)
     assert end(result) == pytest.approx(moved, rel=SCHEMES[integrator], abs=1e-16)
     assert np.all(np.diff(result.history["work_in_J"])[:5] > 0.0)
@@ -99,8 +99,7 @@ def drawn_by_a_spring(integrator, time_step, force=1.0):
 
 @pytest.mark.parametrize("integrator", SCHEMES)
 def test_a_strained_spring_moves_what_no_load_moves(integrator):
-    result = simulate(drawn_by_a_spring(integrator, 1e-7))
-    assert result.status == "converged", result.message
+    result = converged(drawn_by_a_spring(integrator, 1e-7))
     assert end(result) == pytest.approx(stretched(STEPS * 1e-7), rel=SCHEMES[integrator])
 
 
@@ -120,8 +119,7 @@ def test_steps_too_short_for_round_off_are_a_failure_without_a_load(integrator, 
 @pytest.mark.parametrize("force", [1e-5, 1.0])
 def test_a_small_load_is_borne_in_statics(integrator, force):
     """However small it is compared with Y I / L^2, 0.1 N: u = F L / (Y A)."""
-    result = simulate(pulled(integrator, force=force))
-    assert result.status == "converged", result.message
+    result = converged(pulled(integrator, force=force))
     u = force * 1e-3 * LENGTH / (12e6 * AREA)
     assert end(result) == pytest.approx(u, rel=1e-3)
 

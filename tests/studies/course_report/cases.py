@@ -8,8 +8,8 @@ from pandas import DataFrame
 
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.simulation.simulate import simulate
 from tests.support.converged import demand
+from tests.support.designs.scenes import run as simulated
 
 CONFIG = Path(__file__).parents[3] / "configs" / "seed.toml"
 RECORD = ("modulus", "density", "poisson", "curve_strain", "curve_stress", "uncertain")
@@ -45,25 +45,16 @@ def varied(case, **changes):
     return case.changed(axes, **changes)
 
 
-_results = {}
-
-
 def converges(case):
     """Whether a case converges, for figures that show for which time steps it does not."""
-    return _attempt(case).status == "converged"
+    return simulated(case).status == "converged"
 
 
 def run(case):
     """Result of a case, which has to converge."""
-    result = _attempt(case)
+    result = simulated(case)
     demand([{**result.summary, "axes": case.axes}])
     return result
-
-
-def _attempt(case):
-    if case.case_id not in _results:
-        _results[case.case_id] = simulate(case)
-    return _results[case.case_id]
 
 
 def history(case):

@@ -20,7 +20,8 @@ def draw(folder):
         rows = [f"{name} {_energies(case)}" for name, case in cases.items()]
         measured.append(f"{words}: {', '.join(rows)}; {_losses(cases['to 60 %'])}")
     legend(axes[1])
-    residual = max(_residual(_crush(platen, strain)) for platen in PLATENS for strain in STRAINS)
+    crushes = [_crush(platen, strain) for platen in PLATENS for strain in STRAINS]
+    residual = max(abs(float(run(case).summary["residual_strain"])) for case in crushes)
     case_plots.save(figure, folder / "cycles.png")
     return (
         "The report loads by a force only; it proposes displacement control, reaction forces and "
@@ -54,7 +55,3 @@ def _losses(case):
         f"in the largest loop friction dissipates {last['dissipated_friction_J']:.1f} and snaps "
         f"dissipate {abs(last['dissipated_integrator_J']):.1f}"
     )
-
-
-def _residual(case):
-    return abs(float(run(case).summary["residual_strain"]))

@@ -27,7 +27,8 @@ def draw(folder):
     title(left, f"pressed to 40 % and back at {SHOWN:g} m/s")
     legend(left, loc="upper right")
     areas = {name: [_area(past) for past in runs] for name, runs in pasts.items()}
-    lost = {name: [_lost(past) for past in runs] for name, runs in pasts.items()}
+    in_material = "dissipated_material_J"
+    lost = {name: [past[in_material].iloc[-1] for past in runs] for name, runs in pasts.items()}
     curves(right, {n: (SPEEDS, 1e3 * np.array(a)) for n, a in lost.items()}, "", "", marker="o")
     right.set(xscale="log", yscale="log")
     ticks(right.xaxis, SPEEDS)
@@ -91,7 +92,3 @@ def _loop(past):
 def _area(past):
     """Work that the platen does not get back, J."""
     return float(past["work_in_J"].iloc[-1])
-
-
-def _lost(past):
-    return float(past["dissipated_material_J"].iloc[-1])

@@ -100,12 +100,12 @@ def sheet(table):
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
         "changed": [f"{row.factor} {row.value}".strip() or "base" for row in table.itertuples()],
-        "absorbed, J": _digits(table["absorbed_energy_J"]),
-        "/ measured": _digits(table["absorbed_energy_J"] / MEASURED),
+        "absorbed, J": digits(table["absorbed_energy_J"]),
+        "/ measured": digits(table["absorbed_energy_J"] / MEASURED),
         "load peaks": [str(count) for count in table["peaks"]],
-        "packed at, mm": _digits(1e3 * table["densification_strain"] * table["height_m"]),
-        "greatest force, N": _digits(table["peak_force_N"]),
-        "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
+        "packed at, mm": digits(1e3 * table["densification_strain"] * table["height_m"]),
+        "greatest force, N": digits(table["peak_force_N"]),
+        "within the model, J": digits(table["absorbed_energy_within_model_J"]),
         "least element strain": [f"{strain:.2f}" for strain in table["least_element_strain"]],
         "kept area": [f"{share:.2f}" for share in table["kept_area"]],
     }
@@ -113,7 +113,7 @@ def sheet(table):
     return Sheet("", list(columns), rows, notes=(verdict(table),))
 
 
-def _digits(values):
+def digits(values):
     return [three_digits(value) for value in values]
 
 

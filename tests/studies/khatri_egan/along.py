@@ -12,7 +12,6 @@ import numpy as np
 
 from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.numbers import three_digits
 from sweep.report.figures import case_plots
 from sweep.report.tables.markdown import markdown
 from sweep.report.tables.sheet import Sheet
@@ -40,11 +39,6 @@ SHOWN = 2.5  # greatest load that is drawn / greatest load up to half
 COMPARED = 0.5  # friction of the cases that are compared with those across the cells
 
 
-def energy_at(history, strain):
-    """Energy in J absorbed up to ``strain``."""
-    return float(np.interp(strain, history["strain"], history["work_in_J"]))
-
-
 def first_peak(force):
     """The first load in N, of rows (r,), that is followed by a drop; NaN if it never drops."""
     falls = np.flatnonzero(np.diff(force) < 0.0)
@@ -57,7 +51,7 @@ def predictions(path):
     demand(table.to_dict("records"))
     histories = [read_history(path, case_id) for case_id in table["case_id"]]
     return table.assign(
-        to_half_J=[energy_at(history, HALF) for history in histories],
+        to_half_J=[np.interp(HALF, past["strain"], past["work_in_J"]) for past in histories],
         first_peak_N=[first_peak(history["reaction_top_N"].to_numpy()) for history in histories],
     )
 
@@ -67,19 +61,15 @@ def sheet(cells, table, others):
     columns = {
         "platens": [PLATENS[name][0] for name in table["platen"]],
         "friction": [f"{value:g}" for value in table["contact.friction"]],
-        "first peak, N": _digits(table["first_peak_N"]),
-        "to 50 %, J": _digits(table["to_half_J"]),
-        "within the model, J": _digits(table["absorbed_energy_within_model_J"]),
-        "absorbed, J": _digits(table["absorbed_energy_J"]),
+        "first peak, N": across.digits(table["first_peak_N"]),
+        "to 50 %, J": across.digits(table["to_half_J"]),
+        "within the model, J": across.digits(table["absorbed_energy_within_model_J"]),
+        "absorbed, J": across.digits(table["absorbed_energy_J"]),
         "iterations": [f"{count:,}" for count in table["newton_iterations"]],
-        "CPU, s": _digits(table["cpu_s"]),
+        "CPU, s": across.digits(table["cpu_s"]),
     }
     rows = [list(row) for row in zip(*columns.values(), strict=True)]
     return Sheet(cells, list(columns), rows, notes=tuple(_notes(cells, table, others)))
-
-
-def _digits(values):
-    return [three_digits(value) for value in values]
 
 
 def _notes(cells, table, others):

@@ -2,9 +2,9 @@
 three.
 """
 
-from sweep.simulation.simulate import simulate
 from tests.studies.khatri_egan.across import load_peaks
 from tests.studies.khatri_egan.rows import CHANGES, cases
+from tests.support.converged import converged
 
 
 def test_every_change_is_a_case_of_its_own():
@@ -14,6 +14,5 @@ def test_every_change_is_a_case_of_its_own():
 
 
 def test_a_flat_stress_and_unequal_walls_part_three_rows():
-    result = simulate(cases()["flat beyond 4 MPa, 1.1", "glued"])
-    assert result.status == "converged"
+    result = converged(cases()["flat beyond 4 MPa, 1.1", "glued"])
     assert load_peaks(result.history["reaction_top_N"]) == 3

@@ -17,11 +17,6 @@ from sweep.running.sweep import run_sweep
 from tests.studies.scale.invented import invent
 
 
-def expanded(folder):
-    """Read the config and make its cases."""
-    load_config(folder / "scale.toml")
-
-
 def run(folder):
     """Run the cases that the file does not hold, with invented results, on one thread."""
     run_sweep(load_config(folder / "scale.toml"), folder / "scale.h5", 1, simulate=invent)
@@ -43,7 +38,7 @@ def _verb(*words):
 
 
 ACTIONS = {
-    "expand": expanded,
+    "expand": lambda folder: load_config(folder / "scale.toml"),
     "run of every second case": half,
     "run of the rest": run,
     "run, nothing missing": run,

@@ -12,12 +12,6 @@ POISSON = 0.3
 PLANE = 1.0 / (1.0 - POISSON**2)
 
 
-def on_surface(n):
-    """Points of the gyroid and their unit normals, from a net."""
-    net = best_period(n)
-    return net.points, net.normals
-
-
 def test_an_isotropic_material_has_one_modulus():
     law = voxels.elastic(POISSON)
     of, rest = moduli.cubic(law)
@@ -40,7 +34,8 @@ def test_moduli_along_a_direction(way, row):
 
 
 def test_distances_are_along_the_normal():
-    points, normals = on_surface(8)
+    net = best_period(8)
+    points, normals = net.points, net.normals
     away = RNG.uniform(-0.06, 0.06, len(points))
     found = wall.distance(points + away[:, None] * normals)
     np.testing.assert_allclose(found, np.abs(away), atol=1e-5)

@@ -1,5 +1,6 @@
 """Lattices that repeat, for tests: a pressed period, and the coordinates that its unknowns lead."""
 
+from contextlib import contextmanager
 from unittest.mock import patch
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.design import period
 from sweep.design.drawing import welded
+from sweep.design.lattice import build_network
 from tests.support.designs.tables import lattice_with, material_with
 
 Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
@@ -97,10 +99,23 @@ def assert_solved(scene, x, args, drifts=False):
     np.testing.assert_allclose(solved, expected, rtol=0, atol=within * size)
 
 
+@contextmanager
 def cut_elsewhere(cut):
-    """Patch that puts the lower left corner of the period at ``cut``, m."""
+    """Networks are built anew, with the lower left corner of the period at ``cut``, m."""
 
     def moved(segments, tolerance):
         return welded(segments - np.array(cut), tolerance)
 
-    return patch.object(period, "welded", moved)
+    build_network.cache_clear()
+    with patch.object(period, "welded", moved):
+        yield
+    build_network.cache_clear()
+
+
+def assert_alike(one, other, friction):
+    """Two cuts of a period in which walls touch have the same work, contact and friction."""
+    assert one.history["contact_J"][-1] > 1e-4 * one.history["stretch_J"][-1]
+    most = np.abs(one.history["work_in_J"]).max()
+    within = 1e-3 * most if friction else 1e-6 * most  # rounding decides which of two walls sticks
+    for name in ("work_in_J", "contact_J", "dissipated_friction_J"):
+        np.testing.assert_allclose(other.history[name], one.history[name], rtol=0, atol=within)

@@ -125,13 +125,14 @@ def misshapen(result):
 
 
 def is_sound(result):
-    """True if the whole scene ran, without gaps in its numbers and without walls that cross."""
+    """True if the whole scene ran, without gaps in its numbers, in balance, and no walls cross."""
     gaps = [name for name, column in result.history.items() if not np.all(np.isfinite(column))]
     return (
         (result.status, result.message) == ("converged", "")
         and set(gaps) <= {"min_gap_m", "base_pressure_Pa", "base_pressure_x_m"}
         and np.all(np.isfinite(result.frames["position_m"]))
         and result.summary["max_crossings"] == 0
+        and unbalanced(result.history) < 1e-6
     )
 
 

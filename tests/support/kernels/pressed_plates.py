@@ -172,6 +172,25 @@ def _remember(problem, step, of, seed):
         )  # fmt: skip
 
 
+def slope(function, x, move, step):
+    """Fourth-order difference of ``function`` at ``x`` along ``move``, in steps of its share."""
+    near, far = (function(x + k * step * move) - function(x - k * step * move) for k in (1, 2))
+    return (8 * near - far) / (12 * step)
+
+
+def hessian_error(of, x, seed, step):
+    """Greatest error of the matrix times a random move of the unknowns, over the greatest entry of
+    the product; step: of the differences.
+    """
+    args, R = whole(of, x), reduction(of)
+    args.factored(x, through=True)
+    size = R.T @ unit(of)
+    move = size * np.random.default_rng(seed).uniform(-1, 1, size.size)
+    difference = size * (R.T @ slope(args.gradient, x, R @ move, step))
+    expected = size * (args.entries() @ move)
+    return np.abs(difference - expected).max() / np.abs(expected).max()
+
+
 def reduction(of):
     """Matrix (n, u): moves of all coordinates by the moves of the unknowns."""
     layout = of.terms.layout

@@ -23,7 +23,7 @@ def opened(monkeypatch, tmp_path):
         calls.append((where, wait))
         yield
 
-    monkeypatch.setattr("sweep.running.place.open_place", open_place)
+    monkeypatch.setattr("sweep.cli.place.open_place", open_place)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trial.toml").write_text(CRUSH)
     return calls
@@ -78,7 +78,7 @@ def test_a_cluster_that_fails_is_a_sentence_and_exits_with_1(capsys, opened, mon
     def fail(*_):
         raise ClusterError("lost the Dask scheduler at tcp://host:1; what is finished is kept")
 
-    monkeypatch.setattr("sweep.running.sweep.run_sweep", fail)
+    monkeypatch.setattr("sweep.cli.run.run_sweep", fail)
     status, out, err = crumple(capsys, "run", "trial.toml", "--scheduler", "tcp://host:1")
     assert (status, out) == (1, "")
     assert err == (

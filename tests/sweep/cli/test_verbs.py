@@ -89,18 +89,14 @@ REFUSED = [
     (["export", "FILE", "0000000000000000", "--to", "a.3mf", "--kind", "x"], "invalid choice: 'x'"),
     (["export", "FILE", "0000000000000000", "--to", "/proc/a.csv"], "a.csv cannot be written: "),
     (["export", "FILE", "0000000000000000", "--to", "FILE/a.csv"], "lies in a file; allow"),
-    (["show", "FILE", "0"], "begins 5 ids: 0000000000000000"),
     (["run", "nowhere.toml"], "nowhere.toml"),
     (["run", "smok"], "an example, such as smoke"),
     (["run", "nowhere.toml", "--workers", "none"], "1 or more"),
     (["run", "nowhere.toml", "--workers", "2", "--scheduler", "tcp://a:1"], "not allowed with"),
     (["run", "nowhere.toml", "--out", ""], "an empty path"),
     (["run", "nowhere.toml", "--out", "/dev/full"], "argument --out: '/dev/full'; allowed: a file"),
-    (["rank", "FILE", "--out", ""], "an empty path"),
     (["rank", ""], "an empty path"),
     (["rank", "FILE", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
-    (["show", "FILE", "zz", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
-    (["accuracy", "nowhere.toml", "--out", "FILE"], "trial.h5' is a file; allowed: a folder\n"),
     (["run", "nowhere.toml", "--out", "LINK"], "a.h5'; allowed: a file"),
     (["rank", "FILE", "--out", "/dev/full/x"], "/dev/full/x is or lies"),
     (["rank", "FILE", "--out", "/proc/x"], "/proc/x cannot be written: "),
@@ -240,14 +236,6 @@ def test_tables_fit_a_terminal_of_80_columns(capsys, file, monkeypatch):
     assert "Panel of 100 mm x 50 mm" in out
     assert max(len(line) for line in out.splitlines() if "crumple status" not in line) <= 100
     assert "…" not in out
-
-
-def test_budget_that_nothing_meets_is_told(capsys, file):
-    status, out, _ = crumple(capsys, "rank", file, "--budget", "0.5 g")
-    assert status == 1
-    question, _, told, *_ = out.splitlines()
-    assert question.startswith("At most 0.5 g.")
-    assert told.endswith(f" 1 g, case {16 * '0'}, ninjaflex.")
 
 
 def test_the_lightest_case_has_the_same_id_in_the_sentence_and_in_the_command(capsys, tmp_path):
@@ -692,7 +680,7 @@ def test_interruption_says_what_is_kept(capsys, config, monkeypatch, stop, told)
     def interrupt(*_):
         raise stop
 
-    monkeypatch.setattr("sweep.running.sweep.run_sweep", interrupt)
+    monkeypatch.setattr("sweep.cli.run.run_sweep", interrupt)
     assert crumple(capsys, "run", config) == (1, "", told)
 
 

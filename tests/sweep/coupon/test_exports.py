@@ -19,11 +19,6 @@ SLIDE = 0.4 * ROWS.displacement + 0.01 * ROWS.time  # of another sensor
 BLUEHILL = ["Dimension : Length,50,mm", "", "Time,Extension,Load,Tensile strain,Tensile stress"]
 
 
-def strain_and_stress(strain, stress):
-    """Time, strain and stress in other units."""
-    return [ROWS.time, ROWS.strain / strain, ROWS.stress / stress]
-
-
 NINE = {
     "kN": (text(OURS, measured(ROWS, 1e3), "{:.4f}"), {"units": {"force": "kN"}}),
     "machine": (
@@ -35,7 +30,7 @@ NINE = {
         {},
     ),
     "percent_MPa": (
-        text(["time_s,strain,stress_Pa"], strain_and_stress(0.01, 1e6)),
+        text(["time_s,strain,stress_Pa"], [ROWS.time, ROWS.strain / 0.01, ROWS.stress / 1e6]),
         {"units": {"strain": "%", "stress": "MPa"}, "gauge": None, "area": None},
     ),
     "preload": (

@@ -3,13 +3,15 @@
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from sweep.config.materials.material_file import read_record
 from sweep.config.materials.material_header import assumed, source
 from sweep.coupon.fit import fit
+from sweep.coupon.hyperelastic import Rubber
 from sweep.coupon.record import Coupon
-from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
+from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit, tension_lines
 from tests.support.designs.tables import material_with
 from tests.support.materials.coupons import coupon
 
@@ -121,3 +123,27 @@ def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
 def test_what_is_not_known_is_told(own_record, ends, line):
     found = fit(coupon(*ends))
     assert line in "\n".join(sentences_on_fit(found, read(own_record, found)))
+
+
+STRAIN = np.array([0.05, 0.1, 0.2, 0.3, 0.4])
+BOTH_WAYS = np.r_[-STRAIN[::-1], STRAIN]
+
+
+def test_a_rubber_is_told_with_the_range_of_other_rules():
+    """Neo-Hookean, 4 MPa: 3.05 MPa at -20 %, 2.02 MPa at 20 %."""
+    rule, ends = tension_lines(BOTH_WAYS, Rubber(4e6, 0.0).at(BOTH_WAYS))
+    assert rule.startswith("# Tension [A]: of the rubber (Mooney and Rivlin)")
+    assert ends.startswith("#   At 20 % strain 2.02 MPa; other rules give 1.7")
+    assert ends.endswith("to 3.05 MPa (nominal).")
+
+
+def test_what_is_no_rubber_is_told():
+    yields = np.sign(BOTH_WAYS) * 1e6 * np.minimum(np.abs(BOTH_WAYS), 0.1) + 1e4 * BOTH_WAYS
+    rule, _ = tension_lines(BOTH_WAYS, yields)
+    assert rule.endswith("no rubber (Mooney and Rivlin) follows that.")
+
+
+def test_a_short_record_is_compared_at_its_end():
+    part = BOTH_WAYS[np.abs(BOTH_WAYS) < 0.15]
+    *_, ends = tension_lines(part, Rubber(4e6, 0.0).at(part))
+    assert ends.startswith("#   At 10 % strain 1.09 MPa; ")

@@ -9,7 +9,7 @@ from sweep.report.publish import publish_case, publish_ranking
 from sweep.report.tables.legend import MARKS
 from tests.support.results.specimens import designs, summary, write
 
-DESIGN_MAP = "sweep.report.figures.design_map.design_map"
+MERIT_OVER_MASS = "sweep.report.figures.ranking_plots.merit_over_mass"
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def test_table_of_all_designs_is_sorted_like_the_ranking(published):
 @pytest.mark.usefixtures("unpainted")
 def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published, monkeypatch):
     drawn = []
-    monkeypatch.setattr(DESIGN_MAP, lambda _, ranking: drawn.append(ranking))
+    monkeypatch.setattr(MERIT_OVER_MASS, lambda _, ranking: drawn.append(ranking))
     published(budget=["2 g", "3 g"], top=1)
     assert [list(ranking.table["mass_g"]) for ranking in drawn] == [[4.0, 1.0], [1.0]]
     assert [ranking.budgets_g for ranking in drawn] == [(2.0, 3.0)] * 2
@@ -51,7 +51,7 @@ def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published,
 def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
     drawn = []
     monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 1)
-    monkeypatch.setattr(DESIGN_MAP, lambda _, ranking: drawn.append(ranking.table))
+    monkeypatch.setattr(MERIT_OVER_MASS, lambda _, ranking: drawn.append(ranking.table))
     published(summary({}, {"platen": "contact"}))
     assert [list(table["platen"]) for table in drawn] == [["glued"]]
 

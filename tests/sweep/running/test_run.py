@@ -38,14 +38,14 @@ def test_file_may_be_named(config, tmp_path):
 
 def test_pictures_compare_within_the_budgets_of_the_config(config):
     results = run(config)
-    assert results._question.budget == [0.005, 0.02]
-    assert results._question.panel is None
+    assert results.question.budget == [0.005, 0.02]
+    assert results.question.panel is None
 
 
 def test_pictures_require_what_the_config_requires(config):
     with Path(config).open("a") as file:
         file.write('\n[require]\nmax_mass = "1 mg"\n')
-    table = ranked(run(config).table, **run(config)._question._asdict()).table
+    table = ranked(run(config).table, **run(config).question._asdict()).table
     assert table.empty
     assert not ranked(run(config).table).table.empty
 

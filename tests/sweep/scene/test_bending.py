@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.result import Status
 from sweep.scene.lattice import build_scene
-from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
+from tests.support.converged import converged
 from tests.support.designs.tables import material_with
 from tests.support.kernels.solving import whole
 
@@ -67,8 +66,7 @@ def test_walls_without_bending_fold(measure):
         damping=dict(model="rayleigh", stiffness=1e-4),
         solver=dict(element="classical", bend_measure=measure),
     )
-    result = simulate(case)
-    assert result.status == "converged", result.message
+    result = converged(case)
     last, top = result.frames["position_m"][-1], result.history["top_displacement_m"][-1]
     assert abs(result.summary["energy_residual_J"]) < 1e-6 * result.summary["absorbed_energy_J"]
     assert top > 2.0 * case.lattice.height
@@ -137,8 +135,7 @@ def test_what_full_joints_leave_of_a_wall_bends_linearly():
 def test_such_a_lattice_reaches_the_end_of_its_crush():
     """Its stubs once bent as if they had fibres, by many radians."""
     lattice = dict(kind="circle", width=20e-3, height=20e-3, mass=2e-3)
-    result = simulate(Case.of(lattice=lattice, material={}, loading=LOOSE))
-    assert result.status == Status.CONVERGED
+    assert converged(Case.of(lattice=lattice, material={}, loading=LOOSE))
 
 
 def test_short_elements_of_a_fine_mesh_are_no_stubs():

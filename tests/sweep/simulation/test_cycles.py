@@ -7,7 +7,7 @@ from sweep.columns import cycle_columns
 from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
 from sweep.simulation.cycles import columns_of_cycles
-from sweep.simulation.simulate import simulate
+from tests.support.converged import converged
 
 WORK = np.array([0.0, 1.0, 4.0, 3.0, 2.0, 2.5, 4.0, 3.5, 3.0])
 FORCE = np.array([0.0, 5.0, 9.0, 3.0, 1.0, 4.0, 8.0, 2.0, 0.0])
@@ -46,8 +46,7 @@ def crushed(**material):
     """The summary of a small lattice that is pressed twice, and its history."""
     given = {"modulus": 12e6, "density": 1190.0, "plane": "stress"} | material
     lattice = dict(cells_x=1, cells_y=1, nodes_per_wall=0)
-    result = simulate(twice(10, lattice=lattice, material=given, contact=dict(model="none")))
-    assert result.status == "converged"
+    result = converged(twice(10, lattice=lattice, material=given, contact=dict(model="none")))
     return result.summary, result.history
 
 

@@ -180,8 +180,3 @@ def test_kept_area_of_walls_of_two_thicknesses():
     cell = frames(apart, over, edges=[[0, 1], [2, 3]])
     cell["edge_thickness_m"] = np.array([0.1, 0.3])
     assert kept_area(cell) == pytest.approx(0.75, abs=5e-3)
-
-
-def test_walls_that_touch_without_a_common_node_cross():
-    on_the_side = [[0, 0], [2, 0], [1, 0], [1, 1]]
-    assert crossings(frames(on_the_side, edges=[[0, 1], [2, 3]])) == 1

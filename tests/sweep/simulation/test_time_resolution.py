@@ -15,6 +15,7 @@ from sweep.simulation.time_resolution import (
     peak_row,
     striker_share,
 )
+from tests.support.converged import converged
 from tests.support.designs.scenes import is_sound, pressed
 
 CELLS = {"cells_x": 2, "cells_y": 2}
@@ -57,8 +58,7 @@ def test_a_message_names_steps_that_do(speed, time_step):
     assert result.status == Status.UNRESOLVED
     words = result.message.split("time_step of ")[1].split()
     step = in_si(" ".join(words[:2]), "s")
-    finer = simulate(struck(step, striker_speed=speed, striker_mass=5e-4))
-    assert finer.status == Status.CONVERGED
+    finer = converged(struck(step, striker_speed=speed, striker_mass=5e-4))
     assert is_sound(finer)
 
 
@@ -78,8 +78,7 @@ def test_a_short_run_is_not_one_of_long_steps():
     ],
 )
 def test_what_the_integrator_takes_is_a_measure_of_the_error(time_step, integrator, share, error):
-    result = simulate(struck(time_step, integrator))
-    assert result.status == Status.CONVERGED
+    result = converged(struck(time_step, integrator))
     assert share[0] <= result.summary["integrator_share"] < share[1]
     assert error[0] <= 1.0 - result.summary["peak_force_N"] / RIGHT < error[1]
 

@@ -21,12 +21,7 @@ from sweep.store.read import (
     unreadable,
 )
 from tests.support.command import crumple
-from tests.support.results.standin import NODES, cases, forge, parts_of, write
-
-
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "results" / "armor.h5"
+from tests.support.results.standin import NODES, blank, cases, forge, parts_of, write
 
 
 @pytest.mark.parametrize("content", [b"", b"not HDF5", None])
@@ -79,11 +74,7 @@ def test_truncated_file_is_named_with_advice(path, fold, left):
 def test_damage_that_shows_only_on_reading_is_named_too(path, damaged, reads):
     write(path, cases(5))
     part = parts_of(path)[0]
-    with h5py.File(part) as file:
-        piece = file[damaged].id.get_chunk_info(0)
-    content = bytearray(part.read_bytes())
-    content[piece.byte_offset : piece.byte_offset + piece.size] = bytes(piece.size)
-    part.write_bytes(content)
+    blank(part, damaged)
     assert len(read_summary(path)) == 5
     for read in reads:
         with pytest.raises(StoreError, match=f"{part.name}.* is damaged"):
@@ -261,51 +252,28 @@ def test_a_pipe_is_no_results_file(path):
         read_summary(path)
 
 
-def replaced(file, name, values):
-    del file[name]
-    file[name] = values
-
-
-def text_for_numbers(file):
-    replaced(file, "summary/mass_g", np.array([b"a", b"b"]))
-
-
-def numbers_for_text(file):
-    replaced(file, "summary/message", [1.0, 2.0])
-
-
-def curve_of_text(file):
-    replaced(file, "histories/values/strain", np.full(len(file["histories/values/time_s"]), b"a"))
-
-
-def curve_of_rows(file):
-    replaced(file, "histories/values/strain", np.zeros((len(file["histories/values/time_s"]), 2)))
-
-
-def edges_of_three(file):
-    replaced(file, "edges/values/edges", np.zeros((len(file["edges/values/edges"]), 3), int))
-
-
 @pytest.mark.parametrize(
-    ("change", "named"),
+    ("name", "values"),
     [
-        (text_for_numbers, "/summary/mass_g"),
-        (numbers_for_text, "/summary/message"),
-        (curve_of_text, "/histories/values/strain"),
-        (curve_of_rows, "/histories/values/strain"),
-        (edges_of_three, "/edges/values/edges"),
+        ("/summary/mass_g", lambda rows: np.full(rows, b"a")),  # text for numbers
+        ("/summary/message", np.ones),
+        ("/histories/values/strain", lambda rows: np.full(rows, b"a")),
+        ("/histories/values/strain", lambda rows: np.zeros((rows, 2))),
+        ("/edges/values/edges", lambda rows: np.zeros((rows, 3), int)),
     ],
 )
-def test_arrays_of_another_kind_are_named(path, change, named, capsys):
+def test_arrays_of_another_kind_are_named(path, name, values, capsys):
     """With checksums that fit: the file comes from elsewhere."""
     write(path, cases(2), fold=True)
     with h5py.File(path, "r+") as file:
-        change(file)
-    with pytest.raises(StoreError, match=f"damaged: {named} has values of another kind, or rows"):
+        other = values(len(file[name]))
+        del file[name]
+        file[name] = other
+    with pytest.raises(StoreError, match=f"damaged: {name} has values of another kind, or rows"):
         read_summary(path)
     for words in (["show", str(path)], ["status", str(path)]):
         status, _, said = crumple(capsys, *words)
-        assert (status, named in said) == (2, True)
+        assert (status, name in said) == (2, True)
 
 
 @pytest.mark.parametrize(

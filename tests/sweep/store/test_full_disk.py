@@ -28,11 +28,6 @@ except StoreError as error:
 """
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "results" / "armor.h5"
-
-
 def fill(path, count, limit, size=2):
     """Write results of cases, `size` at a time, where no file may be longer than `limit` bytes."""
     program = PROGRAM.format(path=str(path), count=count, limit=limit, size=size, merge_at=MERGE_AT)

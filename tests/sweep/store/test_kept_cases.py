@@ -21,12 +21,7 @@ from sweep.store.read import (
 from sweep.store.write import Writer
 from tests.support.results.specimens import summary
 from tests.support.results.specimens import write as write_made_up
-from tests.support.results.standin import cases, forge, parts_of, write
-
-
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "armor.h5"
+from tests.support.results.standin import blank, cases, forge, parts_of, write
 
 
 def every_kind():
@@ -79,18 +74,9 @@ def test_texts_of_neighbours_cost_few_bytes(path):
         assert data.id.get_storage_size() < 150 * 300
 
 
-def broken(path):
-    """Zeros in place of the first texts, which their checksum tells from others."""
-    with h5py.File(path) as file:
-        piece = file["cases/values/json"].id.get_chunk_info(0)
-    content = bytearray(path.read_bytes())
-    content[piece.byte_offset : piece.byte_offset + piece.size] = bytes(piece.size)
-    path.write_bytes(content)
-
-
 def test_only_who_asks_for_a_case_reads_it(path):
     write(path, cases(5), fold=True)
-    broken(path)
+    blank(path)
     ids = list(read_summary(path)["case_id"])
     assert len(list(read_runs(path, ids))) == 5
     with pytest.raises(StoreError, match="is damaged"):

@@ -9,11 +9,6 @@ from sweep.store.read import read_summary
 from tests.support.results.standin import cases, write
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "sweep.h5"
-
-
 def columns(path, batch):
     """Version and revision of each case."""
     table = read_summary(path).set_index("case_id").loc[[case.case_id for case in batch]]

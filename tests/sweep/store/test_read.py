@@ -31,11 +31,6 @@ from tests.support.results.standin import cases, frames, parts_of, simulate, wri
 ROOT = Path(__file__).parents[3]
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "results" / "armor.h5"
-
-
 @pytest.mark.parametrize("fold", [False, True])
 def test_what_was_written_is_read_back(path, fold):
     batch = cases(9)

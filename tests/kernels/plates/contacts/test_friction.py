@@ -124,18 +124,13 @@ def test_friction_opposes_every_move(seed):
             assert move @ term.gradient(x + move) > 0.0
 
 
-def turning(x, axis):
-    """Move of a slow rigid rotation of all nodes."""
-    return np.cross(axis, positions(x))
-
-
 @pytest.mark.parametrize("seed", [None, 0, 1, 2])
 def test_what_moves_as_one_does_not_slip(seed):
     x0, touch = two(seed)
     contacts = lagged(x0, touch)
     assert contacts.count[0] > 0
     for axis in np.eye(3):
-        u = placed(turning(x0, axis) + 3.0, 0.0, 0.0)
+        u = placed(np.cross(axis, positions(x0)) + 3.0, 0.0, 0.0)
         for k in range(contacts.count[0]):
             assert friction._slip(u, contacts, k) == pytest.approx((0.0, 0.0), abs=1e-12)
 

@@ -9,9 +9,8 @@ from sweep.config.kinds import lattice as lattices
 from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.table import Few, Inputs, own_values
 from sweep.design.geometry import Drawing, Geometry
-from sweep.result import Status
 from sweep.running.batches import cost
-from sweep.simulation.simulate import simulate
+from tests.support.converged import converged
 
 
 class Ladder(WallLattice):
@@ -73,6 +72,5 @@ def test_it_is_completed_counted_and_crushed(known, direction):
     assert case.lattice.counts == (6, 7)
     assert cost(case) > 0.0
     assert case.changed(lattice={"rungs": 3}).lattice.rungs == 3
-    result = simulate(case)
-    assert result.status == Status.CONVERGED
+    result = converged(case)
     assert (result.summary["lattice_kind"], result.summary["cells_y"]) == ("ladder", 2)

@@ -24,14 +24,9 @@ SIDE = 4e-3  # m, of the unit of a drawing
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 
 
-def angle_of(pattern):
-    """A fill angle (rad) that a pattern may have."""
-    return 0.0 if PATTERNS[pattern].slopes else 0.3
-
-
 def laid(slicer, pattern, **changes):
     """A lattice of a slicer in a box of 60 mm."""
-    angle = angle_of(SLICERS[slicer][pattern])
+    angle = 0.0 if PATTERNS[SLICERS[slicer][pattern]].slopes else 0.3
     box = {"width": 60e-3, "height": 60e-3, "infill": 0.2, "fill_angle": angle, "nodes_per_wall": 1}
     return lattice_with(slicer=slicer, pattern=pattern, **box | changes)
 

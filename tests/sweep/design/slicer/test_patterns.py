@@ -22,10 +22,6 @@ from sweep.design.slicer.patterns import (
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 
 
-def laid(pattern, share, line=LINE):
-    return Sliced(pattern, distance_of(pattern, share, line), 0.0, line, (0.0, 0.0))
-
-
 def test_a_line_with_round_sides_fills_less_than_its_width():
     assert pytest.approx(0.407e-3, abs=0.0005e-3) == LINE
     assert line_of("orca", 0.45e-3, 0.2e-3) == LINE
@@ -53,7 +49,9 @@ def test_sides_are_those_of_the_slicer(pattern, side):
 
 def test_share_is_that_of_the_lines():
     assert share_of("grid", 4e-3, 0.4e-3) == pytest.approx(0.2)
-    assert [laid(name, 0.2).share for name in PATTERNS] == pytest.approx([0.2] * len(PATTERNS))
+    for name in PATTERNS:
+        distance = distance_of(name, 0.2, LINE)
+        assert Sliced(name, distance, 0.0, LINE, (0.0, 0.0)).share == pytest.approx(0.2)
 
 
 def test_walls_of_honeycomb_are_double_in_every_third_layer():

@@ -26,10 +26,6 @@ def table(ranking):
     return ranking.table
 
 
-def changed(ranking, **columns):
-    return replace(ranking, table=ranking.table.assign(**columns))
-
-
 def winners(ranking):
     return budget_winners(ranking.table, ranking)
 
@@ -139,7 +135,8 @@ def test_of_equal_winners_the_one_named_tells_its_own_error():
 
 
 def test_without_a_merit_no_design_wins(ranking):
-    assert winners(changed(ranking, **{ranking.energy: np.nan})) == []
+    table = ranking.table.assign(**{ranking.energy: np.nan})
+    assert winners(replace(ranking, table=table)) == []
 
 
 def test_a_faded_colour_lies_between_white_and_itself():

@@ -196,17 +196,12 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
     assert len(tab.run(ROWS)) > 5
 
 
-def told_by_rank(capsys, file, *words):
-    """The lines of a ranking, with one blank in place of line ends."""
-    return " ".join(crumple(capsys, "rank", file, *words)[1].split())
-
-
 def test_what_would_be_needed_is_told_as_in_a_terminal_and_the_nearest_is_drawn(tab, capsys, file):
     put(tab, "min_absorbed", "1000")
     put(tab, "max_force", "60")
     more = tab.run('document.getElementById("detail").textContent')
     asked = ["--budget", "60 g", "--min-absorbed", "1 kJ", "--max-force", "60 N"]
-    told = told_by_rank(capsys, file, *asked)
+    told = " ".join(crumple(capsys, "rank", file, *asked)[1].split())
     needed = "Absorbing 1000 J at no more than 60 N takes a stroke of at least 16667 mm"
     for words in (needed, "the lattice is 12.2 mm high"):
         assert words in told

@@ -1,19 +1,15 @@
 """The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
-import json
 from math import isclose
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from py_mini_racer import MiniRacer
 
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.ranking.unfinished import PLACES
-from sweep.report.page import gather
 from sweep.report.page.gather import page_data
 from tests.support.results.questions import (
     OTHERS,
@@ -25,7 +21,6 @@ from tests.support.results.questions import (
 )
 from tests.support.results.specimens import summary, there_and_back, write
 
-SCRIPT = Path(gather.__file__).with_name("rank.js")
 SWEEPS, ASKED = 5, 32
 DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
@@ -52,25 +47,6 @@ function answersOf({ data, questions }) {
   }));
 }
 """
-
-
-@pytest.fixture(scope="module")
-def page_answers():
-    """Rankings by the script of the page: for each question a list of scenes."""
-    with MiniRacer() as engine:
-        engine.eval(SCRIPT.read_text("utf-8") + ASK)
-
-        def ask(data, questions):
-            asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-            return json.loads(engine.eval(f"JSON.stringify(answersOf({asked}))"))
-
-        yield ask
-
-
-def on_the_page(question):
-    """A question as the page asks it: the budget in g."""
-    budget = question["budget"]
-    return question | {"budget": None if budget is None else 1e3 * budget}
 
 
 def expected(table, question):
@@ -169,7 +145,7 @@ def asked_of_both(page_answers, path, seed):
         asked = Question(None, question["panel"], None, None, question["force"])
         asked = asked._replace(per=question["per"])
         wanted += expected(with_allowed(file, table, asked, known), question)
-    answers = page_answers(data, [on_the_page(one) for one in each])
+    answers = page_answers(data, each)
     for question, scenes, found in zip(each, wanted, answers, strict=True):
         for scene, answer in zip(data["scenes"], found, strict=True):
             if question["force"] is None or scene["mode"] == "displacement":
@@ -202,7 +178,7 @@ def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
 def test_energies_between_the_stored_forces_are_read_from_curves(page_answers, tmp_path):
     table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})
     data = page_data(write(tmp_path / "trial.h5", table, {"config": "{}"}), table, Question())
-    asked = {"budget": 5.0, "panel": None, "per": "specimen"}
+    asked = {"budget": 5e-3, "panel": None, "per": "specimen"}
     (between,), (stored,) = page_answers(data, [asked | {"force": force} for force in (20.3, 20.0)])
     history = there_and_back()
     squares = history["reaction_top_N"][:21] ** 2

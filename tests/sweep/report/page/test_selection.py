@@ -2,17 +2,14 @@
 not be.
 """
 
-import json
-
 import numpy as np
 import pytest
-from py_mini_racer import MiniRacer
 
 from sweep.columns import absorbed_energy_column
 from sweep.ranking.curves import reached, with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
-from sweep.report.page import gather, selection
+from sweep.report.page import selection
 from sweep.report.page.gather import page_data
 from sweep.report.page.selection import layers
 from tests.support.results.questions import (
@@ -37,20 +34,6 @@ function answersOf({ data, questions }) {
   }));
 }
 """
-
-
-@pytest.fixture(scope="module")
-def page_answers():
-    """The answers of the page to questions, for each a list of scenes."""
-    script = gather.__file__.replace("gather.py", "rank.js")
-    with MiniRacer() as engine, open(script, encoding="utf-8") as file:
-        engine.eval(file.read() + ASK)
-
-        def ask(data, questions):
-            asked = json.dumps({"data": data, "questions": questions}, allow_nan=False)
-            return json.loads(engine.eval(f"JSON.stringify(answersOf({asked}))"))
-
-        yield ask
 
 
 @pytest.fixture
@@ -93,11 +76,6 @@ def among_all(file, table, question, cache):
     return rows, ranking.outcomes
 
 
-def on_the_page(question):
-    """A question as the page asks it: the budget in g."""
-    return question | {"budget": question["budget"] and 1e3 * question["budget"]}
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_first_places_are_those_among_all_designs_or_the_page_says_so(
     page_answers, few, tmp_path, seed
@@ -109,7 +87,7 @@ def test_first_places_are_those_among_all_designs_or_the_page_says_so(
     drawn, cache = [random_question(rng, table) for _ in range(QUESTIONS)], {}
     questions = [each_budget(question)[0] for question in drawn]
     sure = better = 0
-    answers = page_answers(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, questions)
     for question, scenes in zip(questions, answers, strict=True):
         every, outcomes = among_all(file, table, question, cache)
         for scene, found in zip(data["scenes"], scenes, strict=True):
@@ -138,7 +116,7 @@ def test_page_has_the_first_for_every_budget_up_to_the_forces_of_the_columns(
     plain = {"panel": None, "per": "specimen", "require": {}}
     budgets = [None, *(1e-3 * np.sort(masses)[len(masses) // 2 :: 8])]
     questions = [plain | {"budget": b, "force": f} for b in budgets for f in (None, *FORCES)]
-    answers = page_answers(data, [on_the_page(question) for question in questions])
+    answers = page_answers(data, questions)
     for question, (found, *_) in zip(questions, answers, strict=True):
         rows = next(iter(among_all(file, table, question, {})[0].values()))
         sound = not (rows.iloc[0]["beyond_model"] or rows.iloc[0]["crossed"])

@@ -6,8 +6,8 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from sweep.report.page.trails import FRAMES, drawing, moving_shape, trails
-from tests.support.results.specimens import squeezed_cell
+from sweep.report.page.trails import FRAMES, drawing, moving_shape, plan, trails
+from tests.support.results.specimens import squeezed_cell, tube
 
 CROSS = np.array([[0, 0], [1, 0], [2, 0], [1, 1], [1, -1]]) * 1e-3
 ARMS = np.array([[0, 1], [1, 2], [1, 3], [4, 1]])
@@ -103,3 +103,19 @@ def test_path_of_a_drawing_holds_only_numbers():
     cell = squeezed_cell()
     (wall,) = drawing(cell["position_m"][5], cell["edges"], cell["edge_thickness_m"])["walls"]
     assert re.fullmatch(r"(M-?\d+ -?\d+l(-?\d+ ?)+)+", wall[1])
+
+
+def test_plan_of_a_tube_is_a_square_of_its_thickness():
+    found = plan(tube())
+    assert found["position_m"].shape == (1, 8, 2)
+    assert sorted(map(sorted, found["edges"].tolist())) == [[0, 1], [0, 3], [1, 2], [2, 3]]
+    assert found["edge_thickness_m"] == pytest.approx(1e-4)
+    drawn = drawing(found["position_m"][0], found["edges"], found["edge_thickness_m"])
+    assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
+
+
+def test_a_plan_has_the_sides_on_the_ground_wherever_quads_begin():
+    frames = tube()
+    quads = np.array([np.roll(row, k) for k, row in enumerate(frames["quads"])])
+    found = plan(frames | {"quads": quads})
+    np.testing.assert_array_equal(found["edges"], plan(frames)["edges"])

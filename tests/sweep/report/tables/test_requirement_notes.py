@@ -4,23 +4,12 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.legend import legend
-from sweep.report.tables.requirement_notes import quantity, required
+from sweep.report.tables.requirement_notes import quantity
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHES, IMPACTS
 
 NAN = float("nan")
 PANEL = ("130 mm", "50 mm")  # 50 specimens
-
-
-def notes(table, **question):
-    """Notes below the only table of a ranking."""
-    (sheet,) = ranking_sheets(ranked(table, **question), table)
-    return sheet.notes
-
-
-def test_nothing_is_said_where_nothing_is_required():
-    assert notes(CRUSHES) == ()
-    assert required(ranked(CRUSHES), ["displacement"]) == ""
 
 
 def test_what_is_required_is_shown():

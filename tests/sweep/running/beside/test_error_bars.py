@@ -14,7 +14,7 @@ from sweep.ranking.rank import rank
 from sweep.result import Status
 from sweep.running.batches import cost
 from sweep.running.beside.error_bars import add_error_bars, companions, error_bars
-from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
 from sweep.store.read import Rerun, read_attributes, read_summary
@@ -225,7 +225,7 @@ def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, log, 
     assert BAR not in read_summary(out)
     assert log == ids or log == ids[::-1]
 
-    assert add_error_bars(config(), out, simulate=logged) == 0
+    assert add_error_bars(config(), out, How(simulate=logged)) == 0
     assert "error bars of 2 designs: 4 companions, in" in capsys.readouterr().err
     assert len(log) == len(set(log)) == 6
     summary = read_summary(out)
@@ -235,7 +235,7 @@ def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, log, 
     assert set(read_summary(file_beside(out, "companions"))["case_id"]) == set(log[2:])
 
     before = out.stat().st_mtime_ns
-    assert add_error_bars(config(), out, simulate=logged) == 0
+    assert add_error_bars(config(), out, How(simulate=logged)) == 0
     assert run_sweep(config(), out, simulate=logged) == 0
     assert len(log) == 6
     assert out.stat().st_mtime_ns == before
@@ -247,21 +247,21 @@ def test_longer_grid_runs_only_the_companions_of_what_is_new(out, log, logged):
     longer = config(lattice__imperfection=(0.001, 0.002, 0.003))
     for sweep in (config(), longer):
         run_sweep(sweep, out, simulate=logged)
-        add_error_bars(sweep, out, simulate=logged)
+        add_error_bars(sweep, out, How(simulate=logged))
     assert len(log) == len(set(log)) == 9
 
 
 def test_companion_that_is_a_design_of_the_sweep_runs_once(out, log, logged):
     sweep = config(lattice__nodes_per_wall=(2, 5))
     run_sweep(sweep, out, simulate=logged)
-    add_error_bars(sweep, out, simulate=logged)
+    add_error_bars(sweep, out, How(simulate=logged))
     assert len(log) == len(set(log)) == 5  # one, three, six elements; three and six in 20 steps
     assert list(read_summary(out)[BAR]) == pytest.approx([1.0 + 0.5, 0.5 + 0.5])
 
 
 def test_companion_that_an_earlier_sweep_left_does_not_run(out, log, logged):
     run_sweep(config(lattice__nodes_per_wall=(2, 5)), out, simulate=logged)
-    add_error_bars(config(lattice__nodes_per_wall=(5,)), out, simulate=logged)
+    add_error_bars(config(lattice__nodes_per_wall=(5,)), out, How(simulate=logged))
     assert len(log) == len(set(log)) == 3
     summary = read_summary(out).set_index("lattice.nodes_per_wall")
     assert summary[BAR].notna().to_dict() == {2: False, 5: True}
@@ -269,7 +269,7 @@ def test_companion_that_an_earlier_sweep_left_does_not_run(out, log, logged):
 
 def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsys):
     run_sweep(config(), out, simulate=without_coarse_meshes)
-    assert add_error_bars(config(), out, simulate=without_coarse_meshes) == 1
+    assert add_error_bars(config(), out, How(simulate=without_coarse_meshes)) == 1
     told = capsys.readouterr().err
     beside = file_beside(out, "companions")
     assert f"1 of 2 designs have no error bar: crumple status {beside}" in told
@@ -279,18 +279,18 @@ def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsy
     assert len(rank(summary)) == 2
 
     run = first_order
-    assert add_error_bars(config(), out, simulate=run) == 1
-    assert add_error_bars(config(), out, rerun=Rerun(failed=True), simulate=run) == 0
+    assert add_error_bars(config(), out, How(simulate=run)) == 1
+    assert add_error_bars(config(), out, How(rerun=Rerun(failed=True), simulate=run)) == 0
     assert list(read_summary(out)[BAR]) == pytest.approx([1.5, 1.5])
 
 
 def test_error_bars_are_never_of_two_models(out):
     run_sweep(config(), out, simulate=first_order)
-    assert add_error_bars(config(), out, simulate=first_order) == 0
+    assert add_error_bars(config(), out, How(simulate=first_order)) == 0
     make_older(file_beside(out, "companions"))
-    assert add_error_bars(config(), out, simulate=first_order) == 2
+    assert add_error_bars(config(), out, How(simulate=first_order)) == 2
     assert read_summary(out)[BAR].isna().all()
-    assert add_error_bars(config(), out, rerun=Rerun(older=True), simulate=first_order) == 0
+    assert add_error_bars(config(), out, How(rerun=Rerun(older=True), simulate=first_order)) == 0
     assert list(read_summary(out)[BAR]) == pytest.approx([1.5, 1.5])
 
 
@@ -299,8 +299,8 @@ def test_renewed_companions_are_no_older_rows_of_another_sweep(out):
     make_older(out)
     sweep, renew = config(lattice__nodes_per_wall=(2,)), Rerun(older=True)
     run_sweep(sweep, out, rerun=renew, simulate=first_order)
-    assert add_error_bars(sweep, out, rerun=renew, simulate=first_order) == 0
-    assert add_error_bars(sweep, out, simulate=first_order) == 0
+    assert add_error_bars(sweep, out, How(rerun=renew, simulate=first_order)) == 0
+    assert add_error_bars(sweep, out, How(simulate=first_order)) == 0
 
 
 def test_failed_design_has_no_companions(out, log, logged):
@@ -309,7 +309,7 @@ def test_failed_design_has_no_companions(out, log, logged):
 
     sweep = config(lattice__imperfection=(0.001,))
     run_sweep(sweep, out, simulate=stopped)
-    assert add_error_bars(sweep, out, simulate=logged) == 0
+    assert add_error_bars(sweep, out, How(simulate=logged)) == 0
     assert log == []
     assert BAR not in read_summary(out)
 

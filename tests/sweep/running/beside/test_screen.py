@@ -10,7 +10,7 @@ from sweep.design.infill import families
 from sweep.design.network import mass
 from sweep.ranking.question import Question
 from sweep.result import Result, Status, design_columns
-from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.screen import best_of, has_column, run_columns, unit_column
 from sweep.store.read import read_summary
 from tests.support.results.standin import simulate as invent
@@ -108,7 +108,7 @@ def crush(case, stop=None):
 
 def test_estimates_are_those_of_the_whole_where_walls_are_alike(tmp_path):
     """Fails if energies, forces or stresses are not scaled: a cell has a tenth of the mass."""
-    found = run_columns(DESIGNS, tmp_path / "trial.h5", simulate=crush).set_index("case_id")
+    found = run_columns(DESIGNS, tmp_path / "trial.h5", How(simulate=crush)).set_index("case_id")
     for design in DESIGNS:
         whole = crush(design).summary
         for name in (
@@ -128,10 +128,10 @@ def test_no_column_runs_twice_and_a_stopped_one_gives_no_estimate(tmp_path):
         log.append(case.case_id)
         return crush(case)
 
-    run_columns(DESIGNS[:1], out, simulate=logged)
+    run_columns(DESIGNS[:1], out, How(simulate=logged))
     designs = [*DESIGNS, along("brick")]
     for _ in range(2):
-        found = run_columns(designs, out, simulate=logged)
+        found = run_columns(designs, out, How(simulate=logged))
     assert sorted(log) == sorted(unit_column(design).case_id for design in designs)
     assert set(found["case_id"]) == {design.case_id for design in DESIGNS}
     assert file_beside(out, "screen").name == "trial.screen.h5"
@@ -141,7 +141,7 @@ def test_no_column_runs_twice_and_a_stopped_one_gives_no_estimate(tmp_path):
 def test_the_best_are_those_of_the_ranking_of_each_infill(tmp_path):
     """Between infills estimates do not order designs, and the worst one keeps its best."""
     thick = [along(kind, wall_thickness=5e-4, nodes_per_wall=4) for kind in WORTH]
-    found = run_columns([*DESIGNS, *thick], tmp_path / "trial.h5", simulate=crush)
+    found = run_columns([*DESIGNS, *thick], tmp_path / "trial.h5", How(simulate=crush))
     question = Question(by="absorbed_energy_J")
     best = best_of(found, question, 1)
     assert best == [design.case_id for design in thick]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sweep.config.case import Case
-from sweep.running.beside.run_beside import file_beside
+from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.spread import (
     FRICTION,
     SEEDS,
@@ -129,7 +129,7 @@ def test_only_missing_corners_of_the_best_run(tmp_path):
     assert list(found) == [designs[1].case_id]
     ids = {corner.case_id for corner in found[designs[1].case_id]}
     for _ in range(2):
-        run_corners(found, out, simulate=logged)
+        run_corners(found, out, How(simulate=logged))
     assert sorted(log) == sorted(ids)
     summary = read_summary(file_beside(out, "spread"))
     assert file_beside(out, "spread").name == "trial.spread.h5"

@@ -1,9 +1,13 @@
-"""A sweep warns of cases in which a relaxing material loses nothing."""
+"""A run says in which cases a relaxing material loses nothing, and in which one period represents a
+wide panel.
+"""
 
 import pytest
 
 from sweep.config.case import Case
-from sweep.running.relaxation_warning import sentences_on_lossless
+from sweep.ranking.merit import check_panel
+from sweep.ranking.question import RankError
+from sweep.running.case_notes import sentences_on_lossless, sentences_on_periods
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate
 from tests.support.designs.cases import pressed
@@ -76,3 +80,27 @@ def test_what_is_told_is_true():
     elastic = simulate(Case.of(loading=loading)).summary["lost_share"]
     assert shares[0] - elastic > 0.03
     assert shares[1] - elastic < 0.01
+
+
+def tied(friction):
+    return Case.of(
+        lattice={"sides": "periodic"},
+        loading={"strain": 0.5, "platen": "contact"},
+        contact={"friction": friction},
+    )
+
+
+def test_fixed_and_free_periods_are_told_apart():
+    others = [Case.of(), tied(0.3), tied(0.0), tied(0.4)]
+    fixed, free = sentences_on_periods(others)
+    assert fixed.startswith("2 of 4 cases are one period of a wide panel")
+    assert "its width is fixed" in fixed
+    assert free.startswith("1 of 4 cases")
+    assert "its width is free" in free
+    assert sentences_on_periods([Case.of()]) == []
+
+
+def test_periods_fill_a_panel_of_any_size():
+    check_panel(("1 mm", "1 mm"), [tied(0.3)])
+    with pytest.raises(RankError, match="smaller than half of a specimen"):
+        check_panel(("1 mm", "1 mm"), [Case.of(), tied(0.3)])

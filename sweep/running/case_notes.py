@@ -1,8 +1,26 @@
-"""Warns of cases in which a relaxing material loses no energy: they are too short or too long."""
+"""Notes on the cases of a sweep, before it runs: which are one period of a wide panel, and which
+are too short or too long for a relaxing material, which loses no energy in them.
+"""
 
 from collections.abc import Sequence
 
 from sweep.config.case import Case
+
+HELD = "glued platens, friction or inertia hold it"
+FREE = "platens without friction hold nothing: the mean lateral force is zero"
+
+
+def sentences_on_periods(cases: Sequence[Case]) -> list[str]:
+    """A sentence about cases whose period is fixed, and one about cases whose period is free."""
+    tied = [case.widens for case in cases if case.lattice.tied_sides]
+    free = sum(tied)
+    return [
+        f"{number} of {len(cases)} cases are one period of a wide panel, whose "
+        f"masses, forces and energies are reported; its width is {how}"
+        for number, how in ((len(tied) - free, f"fixed, as {HELD}"), (free, f"free, as {FREE}"))
+        if number
+    ]
+
 
 FAR = 100.0  # factor from a time of relaxation beyond which its branch loses next to nothing
 

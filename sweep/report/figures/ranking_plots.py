@@ -10,11 +10,13 @@ from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pandas import DataFrame, Series
 
 from sweep.loading_modes import mode_of
 from sweep.numbers import budget_text, in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
+from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import GREY, GRID, legend, mark, plain, round_ticks
 from sweep.report.figures.design_style import (
     WORDS,
@@ -31,9 +33,6 @@ from sweep.report.tables.requirement_notes import titled
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from pandas import DataFrame, Series
-
-    from sweep.ranking.ranking import Ranking
 
 TITLE = 72  # most letters in a line above a panel
 WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -62,7 +61,7 @@ NARROW, MARGIN = 1.2, 0.1  # axis of mass: least ratio of its ends; margin at ei
 ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis has no zero
 
 
-def design_map(fig: Figure, ranking: Ranking) -> None:
+def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
     """Merit over mass, one panel per scene, with the winner of each budget named.
 
     ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead

@@ -20,7 +20,7 @@ def size(comparisons: Sequence[Comparison]) -> tuple[float, float]:
     return WIDTH, MARGIN + ROW * len(comparisons)
 
 
-def range_bars(ax: Axes, comparisons: Sequence[Comparison]) -> None:
+def prediction_bars(ax: Axes, comparisons: Sequence[Comparison]) -> None:
     """A bar for each prediction / middle of the measured range; predictions outside in another
     colour.
 

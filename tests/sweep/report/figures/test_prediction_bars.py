@@ -4,7 +4,7 @@ import pytest
 
 from sweep.ranking.comparison import Comparison, Range
 from sweep.report.figures.case_plots import BLUE, VERMILION, blank
-from sweep.report.figures.range_bars import range_bars, size
+from sweep.report.figures.prediction_bars import prediction_bars, size
 
 
 def test_bars_are_ranges_over_the_middle_of_the_measured_value():
@@ -15,7 +15,7 @@ def test_bars_are_ranges_over_the_middle_of_the_measured_value():
     ]
     figure = blank(*size(rows))
     ax = figure.subplots()
-    range_bars(ax, rows)
+    prediction_bars(ax, rows)
     bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in ax.patches]
     assert bars == [pytest.approx((0.5, 1.5)), pytest.approx((1.5, 2.0))]
     handles, labels = ax.get_legend_handles_labels()

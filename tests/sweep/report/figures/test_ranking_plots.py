@@ -9,9 +9,9 @@ from matplotlib.colors import to_hex, to_rgb
 
 from sweep.ranking.rank import ranked
 from sweep.report.figures.case_plots import GREY, TICKS, blank, round_ticks
-from sweep.report.figures.design_map import PALE, design_map, has_trends, thickness_trends
 from sweep.report.figures.design_style import looks
 from sweep.report.figures.pattern_bars import pattern_bars
+from sweep.report.figures.ranking_plots import PALE, has_trends, merit_over_mass, thickness_trends
 from tests.support.results.specimens import designs, summary
 
 
@@ -26,7 +26,7 @@ def ranking():
 
 def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
     figure = blank(8, 4)
-    design_map(figure, ranking)
+    merit_over_mass(figure, ranking)
     scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
     assert scenes == list(ranking.table["scene"].unique())
     stairs = figure.axes[0].get_lines()[0]
@@ -36,7 +36,7 @@ def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
 
 def test_map_names_and_rings_the_winner_of_each_budget(ranking):
     figure = blank(8, 4)
-    design_map(figure, replace(ranking, budgets_g=(1.5, 3.0)))
+    merit_over_mass(figure, replace(ranking, budgets_g=(1.5, 3.0)))
     ax = figure.axes[0]
     said = ax.get_title("left").splitlines()[1:]
     assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
@@ -47,7 +47,7 @@ def test_map_names_and_rings_the_winner_of_each_budget(ranking):
 
 def test_map_says_what_is_required(ranking):
     figure = blank(8, 4)
-    design_map(figure, replace(ranking, required={"max_force": 60.0}))
+    merit_over_mass(figure, replace(ranking, required={"max_force": 60.0}))
     said = figure.axes[0].get_title("left").splitlines()
     assert said[1] == "Required of the part: force at most 60 N."
     figure = blank(8, 4)
@@ -58,7 +58,7 @@ def test_map_says_what_is_required(ranking):
 def test_force_of_a_panel_stands_beside_that_of_a_specimen():
     hit = {"loading_mode": "impact", "stroke_m": np.nan, "peak_force_N": 30.0}
     figure = blank(8, 4)
-    design_map(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
+    merit_over_mass(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
     (ax,) = figure.axes
     assert "30.0 N on the support, 1500 N on the panel" in ax.get_title("left")
     assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
@@ -67,7 +67,7 @@ def test_force_of_a_panel_stands_beside_that_of_a_specimen():
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
     figure = blank(8, 4)
-    design_map(figure, loaded)
+    merit_over_mass(figure, loaded)
     ax = figure.axes[0]
     assert ax.get_ylabel() == "greatest strain, %"
     sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
@@ -75,7 +75,7 @@ def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
 
 
 def test_legends_explain_error_bars_where_any_are_drawn(ranking):
-    for name, draw in ((ranking.energy, design_map), (ranking.per_gram, thickness_trends)):
+    for name, draw in ((ranking.energy, merit_over_mass), (ranking.per_gram, thickness_trends)):
         bars = changed(ranking, **{f"error_{name}": [np.nan, 0.1] * 3})
         for shown, known in ((ranking, False), (bars, True)):
             legends = drawn(shown, draw).legends
@@ -91,7 +91,7 @@ def test_legends_stay_on_the_page(patterns, cells):
         for n in range(cells)
     ]
     figure = blank(6.8, 4.2)
-    design_map(figure, ranked(summary(*rows), top=None))
+    merit_over_mass(figure, ranked(summary(*rows), top=None))
     figure.draw_without_rendering()
     (legend,) = figure.legends
     page, box = figure.bbox, legend.get_window_extent()
@@ -103,14 +103,14 @@ def test_legends_stay_on_the_page(patterns, cells):
 def test_charts_say_up_to_which_force_energy_counts():
     rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
     ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
-    for draw in design_map, thickness_trends:
+    for draw in merit_over_mass, thickness_trends:
         assert "\nuntil the force exceeds 50 N, J" in drawn(ranking, draw).axes[0].get_ylabel()
 
 
 def test_designs_beyond_the_model_are_open(ranking):
     ranking.table["beyond_model"] = ranking.table["wall_thickness_m"] > 1e-3
     figure = blank(8, 4)
-    design_map(figure, ranking)
+    merit_over_mass(figure, ranking)
     for dots in figure.axes[0].collections[:2]:
         is_open = (dots.get_facecolor() == 1.0).all(axis=1)
         np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
@@ -118,12 +118,12 @@ def test_designs_beyond_the_model_are_open(ranking):
 
 def test_designs_of_coarse_steps_have_the_sign_of_the_tables(ranking):
     shown = changed(ranking, loading_mode="force", peak_strain=0.1, coarse=[True, False, True] * 2)
-    figure = drawn(shown, design_map)
+    figure = drawn(shown, merit_over_mass)
     signs = [text.xy[0] for text in figure.axes[0].texts if text.get_text() == "i"]
     coarse = shown.table[shown.table["coarse"] & (shown.table["scene"] == shown.table["scene"][0])]
     assert sorted(signs) == sorted(coarse["mass_g"])
     assert "coarse time steps" in _entries(figure)
-    assert "coarse time steps" not in _entries(drawn(ranking, design_map))
+    assert "coarse time steps" not in _entries(drawn(ranking, merit_over_mass))
 
 
 def _entries(figure):
@@ -132,7 +132,7 @@ def _entries(figure):
 
 def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking):
     figure = blank(8, 4)
-    design_map(figure, replace(ranking, budgets_g=(2.5,)))
+    merit_over_mass(figure, replace(ranking, budgets_g=(2.5,)))
     colors = {}
     for dots in figure.axes[0].collections[:2]:
         at, faces = dots.get_offsets()[:, 0], dots.get_facecolor()
@@ -143,7 +143,7 @@ def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking
     pale = PALE * np.array(to_rgb(GREY)) + (1.0 - PALE)
     assert colors[3.0] == to_hex(pale)
     assert _entries(figure)[-3:] == ["Pareto front; others pale", "best", "above all budgets"]
-    design_map(figure := blank(8, 4), ranking)
+    merit_over_mass(figure := blank(8, 4), ranking)
     assert _entries(figure)[-2:] == ["Pareto front; others pale", "best"]
     dots = figure.axes[0].collections[0]
     assert to_hex(dots.get_facecolor()[0]) == to_hex(PALE * np.array(to_rgb(own)) + (1.0 - PALE))
@@ -151,7 +151,7 @@ def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking
 
 def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
     ranking.table["crossed"] = ranking.table["wall_thickness_m"].between(0.7e-3, 0.9e-3)
-    for draw, y in ((design_map, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
+    for draw, y in ((merit_over_mass, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
         figure = blank(8, 4)
         draw(figure, ranking)
         solid, dashed = figure.axes[0].get_lines()
@@ -202,7 +202,7 @@ def test_a_log_axis_has_enough_round_labels_and_not_too_many(view):
     np.testing.assert_allclose(seen, [float(f"{tick:.3g}") for tick in seen], rtol=1e-9)
 
 
-def drawn(ranking, draw=design_map):
+def drawn(ranking, draw=merit_over_mass):
     figure = blank(8, 4)
     draw(figure, ranking)
     return figure
