@@ -152,7 +152,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
-    if len(question.budgets) == 1:
+    if len(ranking.budgets_g) == 1:
         budget = question.budgets[0]
         text = budget if isinstance(budget, str) else budget_text(in_unit(budget, "g"))
         lines.insert(0, f"At most {text}.")
