@@ -40,8 +40,8 @@ def pattern_bars(
 ) -> None:
     """Energy per gram of every design with its error bar, the best on top, one panel per scene.
 
-    Bars of doubtful designs are open, those of designs heavier than all budgets grey. shapes:
-    case_id -> frames; then each name has a drawing.
+    Bars of doubtful designs are open, bars above all budgets grey. shapes: case_id -> frames; then
+    each name has a drawing.
     """
     designs, per_gram = ranking.table, ranking.per_gram
     heavy = designs[ranking.mass] > greatest_mass(max(ranking.budgets_g, default=inf))
