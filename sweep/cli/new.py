@@ -4,8 +4,8 @@ import json
 import re
 from pathlib import Path
 from textwrap import wrap
-from typing import Any
 
+from sweep.cli.terminal import quoted
 from sweep.design.infill import families
 
 NAME = re.compile(r"\w[\w.-]*")
@@ -16,9 +16,7 @@ HEAD = """\
 #:schema {schema}
 # {title}
 #
-#   crumple run {file} --dry-run          how many cases, how long
-#   crumple run {file}                    simulate, then rank
-#   crumple show {results} 1    pictures of the best design
+{commands}
 #
 # Every quantity has a unit. Keys that are left out have defaults. configs/README.md of Crumple
 # explains all of them. A line that begins with # is a comment: remove the # to use its key.
@@ -117,8 +115,15 @@ def schema_text() -> str:
 
 def template(name: str, kind: str, path: Path) -> str:
     """The text of a config."""
-    words: dict[str, Any] = {"name": name, "file": path, "results": f"results/{name}.h5"}
+    file, results = quoted(str(path)), quoted(f"results/{name}.h5")
+    verbs = {
+        f"run {file} --dry-run": "how many cases, how long",
+        f"run {file}": "simulate, then rank",
+        f"show {results} 1": "pictures of the best design",
+    }
+    width = max(map(len, verbs))
+    commands = "\n".join(f"#   crumple {verb:{width}}  {does}" for verb, does in verbs.items())
     others = "or " + ", ".join(family for family in families() if family != "square")
     kinds = f"\n{' ' * COMMENT}# ".join(wrap(others, WIDTH - COMMENT - 2))
-    head = HEAD.format(title=TITLES[kind], kinds=kinds, schema=SCHEMA, **words)
+    head = HEAD.format(title=TITLES[kind], kinds=kinds, schema=SCHEMA, name=name, commands=commands)
     return head + LOADINGS[kind] + TAIL.format(budget="12 g")

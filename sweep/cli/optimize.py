@@ -2,13 +2,12 @@
 reliable they are.
 """
 
-import shlex
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from functools import partial
 
 from sweep.cli.place import place_of
-from sweep.cli.terminal import print_sheets, say, say_all
+from sweep.cli.terminal import print_sheets, quoted, say, say_all
 from sweep.config.case import Case
 from sweep.config.grid import Config
 from sweep.loading_modes import MODES
@@ -159,7 +158,7 @@ def _to_print(search: Search) -> Iterator[str]:
     if panel:
         words += ["--panel", *(p if isinstance(p, str) else text_in(p, "mm", 6) for p in panel)]
     which = "first" if assessment and assessment.by_id else "nearest"
-    yield f"to print the {which}: {shlex.join(words)}"
+    yield f"to print the {which}: {_in_shell(words)}"
 
 
 def _next_command(out: str, question: Question) -> str:
@@ -171,4 +170,8 @@ def _next_command(out: str, question: Question) -> str:
         values = [given] if isinstance(given, str) else [] if given is None else given
         if not isinstance(values, float) and all(isinstance(value, str) for value in values):
             words += [f"--{name.replace('_', '-')}", *values] if values else []
-    return shlex.join(words)
+    return _in_shell(words)
+
+
+def _in_shell(words: Sequence[str]) -> str:
+    return " ".join(map(quoted, words))

@@ -61,7 +61,8 @@ def _print(rows: list[Row], details: bool) -> None:
         measure = f"{row.measure}, ratio over {row.over}" if row.over else row.measure
         where = f", {row.where}" if row.where else ""
         say(f"{row.name}: {row.config}{where}: {measure}; {row.cases or 'no'} cases")
-        say_all([f"  measured: {row.measured}, {row.place}"] if row.measured else [])
+        place = f", {row.place}" if row.place else ""
+        say_all([f"  measured: {row.measured}{place}"] if row.measured else [])
 
 
 def _write(rows: list[Row], folder: Path) -> None:

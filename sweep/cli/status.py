@@ -19,8 +19,9 @@ NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 def print_status(file: str, as_json: bool) -> bool:
     """Print the status of a results file; return whether all of its cases converged."""
-    from sweep.cli.status_json import missing_cases, status_record
+    from sweep.cli.status_json import status_record
     from sweep.numbers import counted
+    from sweep.report.tables.missing_notes import missing_cases
     from sweep.store.read import read_attributes, read_summary
 
     summary, about = read_summary(file, _is_needed), read_attributes(file)

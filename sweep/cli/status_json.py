@@ -16,6 +16,7 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
     """
     from sweep.columns import ERROR
     from sweep.ranking.rank import model_versions
+    from sweep.report.tables.missing_notes import missing_cases
     from sweep.result import Status
 
     failed = summary[summary["status"] != Status.CONVERGED]
@@ -47,13 +48,6 @@ def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> di
             if name.startswith("version_")
         },
     }
-
-
-def missing_cases(count: int, about: Mapping[str, Any]) -> int:
-    """How many cases of the last run a file of ``count`` cases does not contain, as the run was
-    interrupted. about: its attributes.
-    """
-    return max(int(about["asked_cases"]) - count + int(about["other_cases"]), 0)
 
 
 def _text(about: Mapping[str, Any], name: str) -> str | None:

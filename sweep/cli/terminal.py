@@ -9,7 +9,7 @@ from itertools import zip_longest
 from shlex import quote
 from subprocess import list2cmdline
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TextIO
+from typing import TYPE_CHECKING, Literal, NamedTuple, TextIO
 
 from sweep.numbers import NOTHING, budget_text, in_unit, text_in
 from sweep.plain_text import plain
@@ -54,25 +54,9 @@ def version_counts(counts: Mapping[int, int]) -> str:
     return f"rows of model version {words}"
 
 
-def incomplete(count: int, about: Mapping[str, Any]) -> Iterator[str]:
-    """Warnings that a file of ``count`` cases lacks some that could lead; about: its attributes."""
-    from sweep.cli.status_json import missing_cases
-
-    if missing := missing_cases(count, about):
-        yield (
-            f"{missing} of {about['asked_cases']} cases of the last run are missing, and may "
-            "change the order: the same crumple run computes them."
-        )
-    if part := about.get("part"):
-        several = "s" * ("," in part)
-        yield (
-            f"This file has part{several} {part} of a sweep: designs of other parts may be better; "
-            "crumple merge combines all parts."
-        )
-
-
 def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     """Warnings about cases for a reader of the ranking."""
+    from sweep.report.tables.missing_notes import incomplete
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
@@ -152,7 +136,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
-    if len(question.budgets) == 1:
+    if len(ranking.budgets_g) == 1:
         budget = question.budgets[0]
         text = budget if isinstance(budget, str) else budget_text(in_unit(budget, "g"))
         lines.insert(0, f"At most {text}.")

@@ -13,7 +13,6 @@ from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.status import failed_cases, print_status
 from sweep.cli.terminal import (
     hint,
-    incomplete,
     nearest_commands,
     print_ranking,
     print_sheets,
@@ -24,6 +23,7 @@ from sweep.cli.terminal import (
 )
 from sweep.numbers import text_in
 from sweep.plain_text import csv_text
+from sweep.report.tables.missing_notes import incomplete
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series

@@ -91,7 +91,7 @@ def unlike(lattice: Lattice) -> str:
             return f"lattice.{key} = {getattr(lattice, key)}; allowed for a slicer: {value}"
     across, along = _scales(lattice)
     if abs(across / along - 1.0) > REGULAR:
-        regular = f"{TO_MM * lattice.width * along / across:.4g} mm within {REGULAR:.0%}"
+        regular = f"{TO_MM * lattice.width * along / across:.4g} mm within {100.0 * REGULAR:g} %"
         written = f"lattice.width = {TO_MM * lattice.width:.4g} mm"
         return f"{written}; allowed for a slicer: {regular}, where cells are regular"
     return _other_lines(lattice)
@@ -109,7 +109,9 @@ def _other_lines(lattice: Cells) -> str:
         allowed = f"{TO_MM * least:.4g} to {TO_MM * most:.4g} mm"
         return f"{written}; allowed for a slicer: {allowed}, with a nozzle of {TO_MM * nozzle:g} mm"
     if not (share := _nearest(lattice).infill) < 1.0:
-        return f"{written} makes an infill of {share:.0%}; allowed for a slicer: below 100 %"
+        return (
+            f"{written} makes an infill of {100.0 * share:.0f} %; allowed for a slicer: below 100 %"
+        )
     return ""
 
 

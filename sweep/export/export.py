@@ -362,11 +362,13 @@ def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[s
     lengths = " x ".join(f"{in_unit(side, 'mm'):g}" for side in wish.panel)
     nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
-    deep = f"each {layout.behind} specimens of {text_in(source.design.footprint[1], 'mm')} deep"
+    behind = "" if layout.behind == 1 else f"{layout.behind} specimens of "
+    deep = f"each {behind}{text_in(source.design.footprint[1], 'mm')} deep"
+    several = layout.specimens > 1
+    these = f"these {layout.specimens} specimens, which are not joined, are"
     return [
-        f"{layout.across} side by side, {deep}: {size}",
-        f"these {layout.specimens} specimens, which are not joined, are what rank counts "
-        f"for a panel of {lengths} mm"
+        f"{layout.across} side by side, {deep}: {size}" if several else size,
+        f"{these if several else 'this specimen is'} what rank counts for a panel of {lengths} mm"
         f"{wider if width - nominal > SHOWN else ''}",
     ]
 

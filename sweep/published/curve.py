@@ -42,18 +42,22 @@ def read_curve(path: Path) -> tuple[Floats, Floats]:
 def measure_of(path: Path, measure: str, row: Series) -> float:
     """A measure of a measured curve, in SI. row: of the simulated specimen in the summary.
 
-    Energy and force are taken up to the simulated stroke; nominal stress and strain refer to the
-    overall size of the specimen.
+    Energy and force are taken up to the simulated stroke, between two rows if need be; nominal
+    stress and strain refer to the overall size of the specimen.
     """
     travel, force = read_curve(path)
     stroke = float(row["stroke_m"])
-    if not travel[-1] >= (1.0 - SHORT_OF) * stroke:
+    reached = travel[-1]
+    if not reached >= (1.0 - SHORT_OF) * stroke:
         raise PublishedError(
-            f"{path}: ends at {text_in(travel[-1], 'mm')}; needed: the whole simulated stroke, "
+            f"{path}: ends at {text_in(reached, 'mm')}; needed: the whole simulated stroke, "
             f"{text_in(stroke, 'mm')}"
         )
+    last = np.interp(stroke, travel, force)
     end = int(np.searchsorted(travel, stroke, side="right"))
     travel, force = travel[:end], force[:end]
+    if travel[-1] < stroke <= reached:
+        travel, force = np.append(travel, stroke), np.append(force, last)
     work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
     area, height = float(row["outer_width_m"] * row["depth_m"]), float(row["height_m"])
     values = figures(travel / height, force / area, work / (area * height)) | {

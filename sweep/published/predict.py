@@ -79,7 +79,8 @@ def _values(measure: str, results: DataFrame, row: Row) -> np.ndarray:
 def _column(name: str, results: DataFrame, row: Row) -> "Series[float]":
     if name not in results or results[name].dtype.kind not in "fiu":
         near = get_close_matches(name, map(str, results))
-        hint = f"; the nearest are {', '.join(near)}" if near else ""
+        verb = "are" if len(near) > 1 else "is"
+        hint = f"; the nearest {verb} {', '.join(near)}" if near else ""
         raise PublishedError(f"{row.name}: measure = {name}; allowed: {ALLOWED}{hint}")
     return results[name]
 

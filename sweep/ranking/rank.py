@@ -327,7 +327,8 @@ def _column(frame: DataFrame, by: str) -> str:
     is_column = by in numbers
     why = "neither more nor less of it makes a design better" if is_column else "no such column"
     nearest = difflib.get_close_matches(by, allowed, n=NEAREST, cutoff=0.5)
-    near = f"; the nearest are {', '.join(nearest)}" if nearest else ""
+    verb = "are" if len(nearest) > 1 else "is"
+    near = f"; the nearest {verb} {', '.join(nearest)}" if nearest else ""
     usual = ", ".join(name for name in USUAL if name in allowed)
     more = len(allowed) - sum(name in allowed for name in USUAL)
     raise RankError(

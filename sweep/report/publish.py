@@ -31,10 +31,11 @@ from sweep.report.tables.accuracy_tables import MARKS, accuracy_sheets, scene_ti
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.legend import legend
 from sweep.report.tables.markdown import markdown
+from sweep.report.tables.missing_notes import incomplete
 from sweep.report.tables.sheet import Sheet
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.report.tables.unfinished_notes import picture_note
-from sweep.store.read import read_frames, read_history, read_summary
+from sweep.store.read import read_attributes, read_frames, read_history, read_summary
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -64,7 +65,8 @@ def publish_ranking(
     text, table = folder / "ranking.md", folder / "ranking.csv"
     tables = markdown(ranking_sheets(shown, summary))
     explained = "" if shown.table.empty else f"\n{legend(shown)}\n"
-    text.write_text(f"{tables}{explained}", encoding="utf-8")
+    missing = "".join(f"\n{line}\n" for line in incomplete(len(summary), read_attributes(file)))
+    text.write_text(f"{tables}{explained}{missing}", encoding="utf-8")
     table.write_text(csv_text(ranking.with_unfinished), encoding="utf-8", newline="\n")
     figures = _sweep_figures(file, shown, ranking, drop_heights)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]

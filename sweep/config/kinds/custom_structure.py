@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import COMPUTED, Inputs, NonNegative, RefusedError, own_values
 from sweep.config.structures.structure import Structure
-from sweep.config.structures.structure_file import faults, read_structure
+from sweep.config.structures.structure_file import StructureError, faults, read_structure
 from sweep.constants import MM, TO_MM
 
 if TYPE_CHECKING:
@@ -78,7 +78,11 @@ class CustomStructure(Specimen):
 
     @classmethod
     def check_file(cls, path: Path) -> list[str]:
-        """Refuse a file that is no structure."""
+        """Refuse a file that is no structure; a drawing is told by its ending."""
+        from sweep.config.drawings.drawing_file import READERS
+
+        if path.suffix.lower() in READERS.keys() - {".json"}:
+            raise StructureError(['a drawing; needed: lattice.kind = "drawn"'])
         read_structure(path)
         return []
 

@@ -312,6 +312,8 @@ class Reader:
         if raw == "" and where == "[[zip]]":
             return Written(None, '""')
         try:
+            if isinstance(raw, list) and not keys[name].is_list:
+                raise MisfitError(f"a list{' in a list' if where else ', which belongs in [grid]'}")
             return Written(self._checked(keys[name], raw), in_words(raw), name)
         except RecordError as error:
             self._refuse(name, raw, str(error).removeprefix(f"{Path(raw).name}: "), where)
@@ -352,8 +354,6 @@ class Reader:
         if key.targets == ("loading.preset",) and isinstance(raw, str):
             return drop_tests.in_si(raw, self.to_si)
         many = isinstance(raw, list)
-        if many and not key.is_list:
-            raise MisfitError("a list, which belongs in [grid]")
         value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
         try:
             checked = key.adapter.validate_python(tuple(value) if many else value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import inf
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +11,12 @@ import numpy as np
 from pandas import DataFrame
 
 from sweep.numbers import in_unit
+from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.ranking import Ranking
-from sweep.report.figures.case_plots import beside, walls
+from sweep.report.figures.case_plots import GREY, beside, legend, walls
 from sweep.report.figures.design_style import errors_of, until
+from sweep.report.figures.ranking_plots import HEAVY
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
 
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+DARK = "#3b528b"
 ROW, DRAWN_ROW = 0.25, 0.5  # inches for a bar, without and with a drawing
 WIDTH, DRAWN = 9.0, 0.7  # inches of the figure, and for a drawing as wide as high
 WIDEST = 2.5  # widths over heights of a drawing as high as its row; wider ones are drawn smaller
@@ -33,14 +37,17 @@ def pattern_bars(
 ) -> None:
     """Energy per gram of every design with its error bar, the best on top, one panel per scene.
 
-    Bars of doubtful designs are open. shapes: case_id -> frames; then each name has a drawing.
+    Bars of doubtful designs are open, bars above all budgets grey. shapes: case_id -> frames; then
+    each name has a drawing.
     """
     designs, per_gram = ranking.table, ranking.per_gram
+    heavy = designs[ranking.mass] > greatest_mass(max(ranking.budgets_g, default=inf))
     scenes = designs.groupby("scene", sort=False)
     axes = fig.subplots(len(scenes), 1, squeeze=False).ravel()
     for ax, (scene, rows) in zip(axes, scenes, strict=True):
         ordered = rows.sort_values([per_gram, "case_id"])
-        bars = ax.barh(range(len(ordered)), ordered[per_gram], color="#3b528b", ec="#3b528b")
+        colors = [GREY if above else DARK for above in heavy[ordered.index]]
+        bars = ax.barh(range(len(ordered)), ordered[per_gram], color=colors, ec=colors)
         for bar, doubt in zip(bars, doubtful(ordered), strict=True):
             bar.set(fill=not doubt)
         errors = errors_of(ordered, per_gram)
@@ -54,6 +61,7 @@ def pattern_bars(
         ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
         ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
+    legend(fig, [HEAVY | {"marker": "s"}] * bool(heavy.any()))
 
 
 def _draw(ax: Axes, shapes: Sequence[Mapping[str, Any]]) -> None:

@@ -54,6 +54,7 @@ from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, 
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import front, meanings
 from sweep.report.tables.marks import other_bow
+from sweep.report.tables.missing_notes import incomplete
 from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.report.tables.size_notes import narrow_note
@@ -161,6 +162,7 @@ def page_data(
         "designs": len(finished),
         "failed": int((summary["status"] != Status.CONVERGED).sum()),
         "failures": list(_failures(summary, labels)),
+        "missing": list(incomplete(len(summary), about)),
         "drawings": stored.drawings,
         "shapes": stored.shapes,
         "prints": _prints([*islice(leading, MOST_PRINTS)], files_of) if files_of else {},

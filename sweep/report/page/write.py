@@ -24,7 +24,7 @@ from sweep.report.tables.sheets import ranking_sheets
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")
-IN_HTML = ("failures", "failed", "about", "config", "total", "designs")
+IN_HTML = ("failures", "failed", "missing", "about", "config", "total", "designs")
 LEFT_OUT = (
     "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
     "up to the forces of the columns or below some limit, and a sample of the others. Where a "
@@ -59,6 +59,7 @@ def page(data: Mapping[str, Any], static: str) -> str:
     return Template(_read("page.html")).substitute(
         title=escape(f"{data['name']}: which lattice is best?"),
         subtitle=escape(f"{data['file']}, {done}"),
+        missing=paragraphs(data["missing"]),
         style=_read("page.css"),
         script=script,
         script_hash=f"sha256-{digest}",

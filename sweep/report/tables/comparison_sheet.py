@@ -53,5 +53,6 @@ def verdict(row: Comparison) -> str:
 def summary(rows: list[Comparison]) -> str:
     """How many predictions are inside."""
     met, compared = inside(rows)
-    waiting = f"; {len(rows) - compared} wait for a value" if compared < len(rows) else ""
+    count = len(rows) - compared
+    waiting = f"; {count} wait{'s' * (count == 1)} for a value" if count else ""
     return f"{met} of {compared} inside{waiting}."

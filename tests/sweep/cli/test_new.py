@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
@@ -59,6 +60,15 @@ def test_file_that_is_there_is_left_as_it_is(capsys, tmp_path):
     status, _, err = crumple(capsys, "new", "bumper", "--out", str(path))
     assert (status, path.read_text()) == (2, "mine")
     assert err == f"crumple new: {path} already exists; allowed: another name, or --out\n"
+
+
+def test_commands_in_the_config_are_those_of_a_shell():
+    head = template("a", "crush", Path("my pad.toml")).partition("\nname")[0]
+    commands = [line for line in head.splitlines() if "crumple " in line]
+    words = [shlex.split(line, comments=False)[1:4] for line in commands[:3]]
+    run = ["crumple", "run", "my pad.toml"]
+    assert words == [run, run, ["crumple", "show", "results/a.h5"]]
+    assert len({line.rindex("  ") for line in commands[:3]}) == 1
 
 
 def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):

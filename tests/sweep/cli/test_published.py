@@ -71,7 +71,7 @@ def test_own_crush_is_predicted_before_its_value_is_entered(capsys, folder):
     assert (row.quantity, row.open) == ("absorbed energy, J", "modulus")
     assert float(row.high) == pytest.approx(2.0 * float(row.low), rel=1e-3)
     assert row.measured == ""
-    assert "1 wait for a value" in out
+    assert "1 waits for a value" in out
     value = f"{1500.0 * float(row.low):.4g} mJ"
     status, out, _ = crumple(capsys, *words, "--measured", value, "--source", "my press")
     (again,) = read_table(folder / "published.csv")
@@ -84,6 +84,7 @@ def test_own_crush_is_predicted_before_its_value_is_entered(capsys, folder):
 def test_a_config_that_changes_after_the_value_is_told(capsys, folder):
     words = ["published", "mine", "--add", "mine.toml", "--measured", "1 J"]
     assert crumple(capsys, *words)[2].count("has changed since") == 0
+    assert "  measured: 1\n" in crumple(capsys, "published", "mine")[1]
     (folder / "mine.toml").write_text(CONFIG.replace("20 MPa", "30 MPa"))
     assert crumple(capsys, *words)[2].count("has changed since") == 1
 

@@ -30,8 +30,3 @@ def test_error_bars_count_where_a_case_has_one():
     table = summary({"error_absorbed_energy_J": 0.1}, {"error_absorbed_energy_J": float("nan")})
     assert status_record("a.h5", table, COUNTS)["with_error_bars"] == 1
     assert status_record("a.h5", summary({}), COUNTS)["with_error_bars"] == 0
-
-
-def test_a_file_of_more_than_was_asked_for_misses_nothing():
-    assert status_record("a.h5", summary({}), COUNTS)["missing_cases"] == 0
-    assert status_record("a.h5", summary({}, {}), COUNTS)["missing_cases"] == 0

@@ -192,6 +192,7 @@ def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):
     other = heading.replace("100 mm x 50 mm", "4 in x 2in").format(500)
     assert other in crumple(capsys, "rank", file, "--panel", "4 in", "2in")[1]
     assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz")[1]
+    assert "At most 2 oz. Best" in crumple(capsys, "rank", file, "--budget", "2 oz", "2 oz")[1]
     by_mass = crumple(capsys, "rank", file, "--by", "mass_g")[1]
     assert by_mass.startswith("Best first: least mass, in g.")
 

@@ -78,6 +78,23 @@ def test_panel_is_a_row_of_specimens(file, tmp_path):
     assert counted.endswith("100 x 50 mm")
 
 
+@pytest.mark.parametrize(
+    ("width", "beside", "these"),
+    [
+        (
+            "30 mm",
+            "2 side by side, each 12 mm deep: 27 x",
+            "these 2 specimens, which are not joined",
+        ),
+        ("13 mm", "13.3 x 13.3 mm, 12 mm deep: ", "this specimen is what rank counts "),
+    ],
+)
+def test_a_panel_of_one_row_is_described(file, tmp_path, width, beside, these):
+    size, counted = exported(file, tmp_path / "a.stl", panel=(width, "12 mm")).notes
+    assert size.startswith(beside)
+    assert counted.startswith(these)
+
+
 def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
     """Plans of 13.3 x 13.3 mm, 7 x 4 of them: as high as one, apart in both directions."""
     case = Case.of(loading=dict(direction="out_of_plane"))

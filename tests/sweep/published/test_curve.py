@@ -34,6 +34,18 @@ def test_force_that_rises_with_travel(tmp_path, measure, expected):
     assert measure_of(file, measure, SPECIMEN) == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.parametrize("rows", [11, 14, 80])
+def test_a_stroke_may_end_between_two_rows(tmp_path, rows):
+    """F = 2 N/mm x, recorded up to 8 mm; the simulated stroke is 4 mm, to 40 %."""
+    travel = np.linspace(0.0, 8.0, rows)
+    file = written(tmp_path, travel, 2.0 * travel)
+    specimen = pd.Series({**SPECIMEN, "stroke_m": 4e-3})
+    energy, peak, plateau = 0.5 * 8.0 * 4e-3, 8.0, 6.0 / 1e-4
+    assert measure_of(file, "absorbed_energy_J", specimen) == pytest.approx(energy, rel=1e-9)
+    assert measure_of(file, "peak_force_N", specimen) == pytest.approx(peak, rel=1e-9)
+    assert measure_of(file, "plateau_stress_iso_Pa", specimen) == pytest.approx(plateau, rel=0.02)
+
+
 def test_travel_counts_from_the_first_row(tmp_path):
     travel, force = read_curve(written(tmp_path, np.arange(12.0), np.ones(12)))
     assert (travel[0], travel[-1], force[0]) == pytest.approx((0.0, 11e-3, 1.0))

@@ -175,6 +175,8 @@ def test_a_column_that_is_not_there_is_refused_with_its_neighbours_and_the_usual
     count, _, where = end.partition(" others: ")
     assert int(count) > 30
     assert where == "the first line of rank --csv has all, docs/results.md explains most"
+    with pytest.raises(RankError, match="the nearest is steps\n"):
+        rank(summary({}), by="status")
     with pytest.raises(RankError, match="neither more nor less of it makes a design better"):
         rank(summary({}), by="cells_x")
     with pytest.raises(RankError, match='"nosuch": no such column\nallowed: absorbed'):

@@ -28,6 +28,14 @@ def published(tmp_path):
 
 
 @pytest.mark.usefixtures("unpainted")
+def test_tables_of_a_part_say_that_other_designs_may_be_better(tmp_path):
+    table = summary(*designs([1.0], [0.2]))
+    file = write(tmp_path / "f.h5", table, {"part": "1/3"})
+    publish_ranking(file, table, Question(), tmp_path)
+    assert "\nThis file has part 1/3 of a sweep: " in (tmp_path / "ranking.md").read_text("utf-8")
+
+
+@pytest.mark.usefixtures("unpainted")
 def test_table_of_all_designs_is_sorted_like_the_ranking(published):
     def places(**question):
         table = pd.read_csv(published(**question)["ranking.csv"])

@@ -150,6 +150,7 @@ VALUES = {
 
 AXES = {
     "[grid]\nlattice.cells = []": ("[grid] lattice.cells = []", "no values", "a list", CELLS),
+    "[grid]\nlattice.cells = [[2, 3]]": ("[grid] lattice.cells = [2, 3]", "in a list", CELLS),
     "[grid]\nlattice.cells = 3": ("[grid] lattice.cells = 3", "not a list", CELLS),
     '[grid]\nloading.allowed_forces = [["1 N"]]': (
         *('[grid] loading.allowed_forces = [["1 N"]]', "no axis", "one value"),

@@ -1,5 +1,8 @@
 """Bars of designs of several patterns."""
 
+from dataclasses import replace
+from math import inf
+
 import numpy as np
 import pytest
 
@@ -21,6 +24,20 @@ def test_several_patterns_are_drawn_side_by_side(tmp_path):
     assert labels == ["square", "hex, orientation flat"]
     assert [bar.get_width() for bar in ax.patches] == [0.1, 0.2]
     assert ax.get_xlabel() == "energy absorbed\nuntil densification, J/g"
+
+
+@pytest.mark.parametrize(("budget", "grey"), [(None, 0), (["1 g"], 1), (["1 g", "2 g"], 0)])
+def test_bars_above_all_budgets_are_grey(budget, grey):
+    table = summary(*designs([1.0, 2.0], [0.1, 0.4]))
+    ranking = ranked(table, budget=budget, top=None)
+    every = replace(ranked(table, budget=budget and [inf], top=None), budgets_g=ranking.budgets_g)
+    figure = blank(6, 3)
+    pattern_bars(figure, every)
+    (ax,) = figure.axes
+    first, second = (bar.get_facecolor() for bar in ax.patches)
+    assert (first != second) == bool(grey)
+    words = [text.get_text() for key in figure.legends for text in key.get_texts()]
+    assert words == ["above all budgets"] * grey
 
 
 @pytest.mark.parametrize("aspect", [1.0, 2.5, 8.0])

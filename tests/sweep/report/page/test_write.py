@@ -106,6 +106,15 @@ def test_tables_are_readable_without_scripts(tmp_path):
     assert text in written(tmp_path, table, budget=[0.002, 0.004])
 
 
+def test_a_page_of_a_part_says_that_other_designs_may_be_better(tmp_path):
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
+    file = write(tmp_path / "trial.h5", table, {"config": "{}", "part": "1/3"})
+    page = write_page(file, table, Question(), tmp_path / "trial.html").read_text("utf-8")
+    header = page.partition("</header>")[0]
+    assert "This file has part 1/3 of a sweep: designs of other parts may be better" in header
+    assert "of the last run are missing" not in header
+
+
 def test_tables_have_only_what_is_required(tmp_path):
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
     question = Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})
@@ -154,6 +163,7 @@ def test_page_tells_where_its_numbers_come_from(tmp_path):
 
 def test_page_without_data_is_small():
     empty = {"total": 0, "designs": 0, "failed": 0, "failures": [], "about": [], "config": {}}
+    empty["missing"] = []
     data = page({"name": "a", "file": "b", "points": 60, "shapes": {}, "cases": []} | empty, "")
     assert len(data) < 90_000
 

@@ -19,7 +19,7 @@ def test_rows_tell_ranges_and_misses():
         ["Haid", "modulus", "loss", "1..2", "–", "–"],
     ]
     assert sheet.opens == {2}
-    assert sheet.notes[0].startswith("1 of 2 inside; 1 wait for a value.\n")
+    assert sheet.notes[0].startswith("1 of 2 inside; 1 waits for a value.\n")
 
 
 @pytest.mark.parametrize(
