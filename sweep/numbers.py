@@ -20,6 +20,7 @@ Values = TypeVar("Values")
 NOTHING = "–"
 LARGE = 1e9  # from here on, numbers have an exponent
 ROUND_OFF = 1e-12
+SMALLEST_SHOWN = 5e-4  # share that has a digit in tenths of a percent
 SCALES = {
     "m": ((1e3, "mm"), (1e6, "um")),
     "m^2": ((1e6, "mm2"),),
@@ -159,6 +160,11 @@ def tenths(share: float) -> str:
     if not math.isfinite(share):
         return NOTHING
     return f"{in_unit(share, '%'):.1f}" if share < 0.0995 else percent(share)
+
+
+def error_share(share: float) -> str:
+    """A relative error in percent; one too small for `tenths` is not shown as zero."""
+    return "< 0.1" if 0.0 < share < SMALLEST_SHOWN else tenths(share)
 
 
 def energy_text(joules: float) -> str:

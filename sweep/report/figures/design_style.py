@@ -16,7 +16,7 @@ from pandas import DataFrame, Series, concat
 from sweep.columns import error_column, less_is_better
 from sweep.design.slicer.patterns import family_of
 from sweep.loading_modes import mode_of
-from sweep.numbers import budget_text, energy_text, in_unit, tenths, text_in, three_digits
+from sweep.numbers import budget_text, energy_text, error_share, in_unit, text_in, three_digits
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.places import places_by
@@ -243,7 +243,7 @@ def _ties(rows: DataFrame, won: DataFrame, name: str) -> str:
     others = rows.drop(index=won.index).sort_values(name, ascending=less_is_better(name))
     ordered = concat([won, others])
     count = int((places_by(ordered, name) == 1).sum())
-    share = f" ± {tenths(error / abs(won[name].item()))} %"
+    share = f" ± {error_share(error / abs(won[name].item()))} %"
     return f"{share}, a tie of {count}" if count > 1 else share
 
 

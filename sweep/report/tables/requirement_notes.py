@@ -8,7 +8,16 @@ from textwrap import fill
 from pandas import DataFrame, Series
 
 from sweep.loading_modes import MODES, has, mode_of
-from sweep.numbers import budget_text, energy_text, in_unit, numerals, percent, tenths, three_digits
+from sweep.numbers import (
+    SMALLEST_SHOWN,
+    budget_text,
+    energy_text,
+    in_unit,
+    numerals,
+    percent,
+    tenths,
+    three_digits,
+)
 from sweep.ranking.merit import doubtful, is_period
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
@@ -182,7 +191,7 @@ def _miss(name: str, outcome: Outcome, early: bool) -> str:
 
 def percentage(share: float) -> str:
     """A share above zero in percent."""
-    return f"{tenths(share)} %" if share >= 5e-4 else "less than 0.1 %"
+    return f"{tenths(share)} %" if share >= SMALLEST_SHOWN else "less than 0.1 %"
 
 
 def _mark(row: DataFrame) -> str:

@@ -7,7 +7,15 @@ from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
 from sweep.loading_modes import compared, mode_of
-from sweep.numbers import budget_number, budget_text, budget_unit, in_unit, numerals, tenths
+from sweep.numbers import (
+    budget_number,
+    budget_text,
+    budget_unit,
+    error_share,
+    in_unit,
+    numerals,
+    tenths,
+)
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.scenes import scene_labels
@@ -217,7 +225,7 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns |= {} if by in shown else {by: numerals(rows[by])}
         if "ranked_error" in rows:
             share = rows["ranked_error"] / rows[by].abs()
-            columns["± %"] = share.map(tenths).where(share.notna(), "?")
+            columns["± %"] = share.map(error_share).where(share.notna(), "?")
     return columns
 
 

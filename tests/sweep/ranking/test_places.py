@@ -80,6 +80,12 @@ def test_ties_are_marked_also_where_the_other_is_not_shown():
     assert legend(ranking).endswith(TIED)
 
 
+def test_an_error_too_small_for_its_digits_is_not_zero():
+    table = summary(*with_bars([10.0, 8.0, 6.0], [0.004, 0.006, 0.0]))
+    (sheet,) = ranking_sheets(ranked(table), table)
+    assert (sheet.heads[-1], [row[-1] for row in sheet.rows]) == ("± %", ["< 0.1", "0.1", "0.0"])
+
+
 def test_ties_that_are_cut_off_are_counted_for_each_budget():
     table = summary(*with_bars([10.0, 9.9, 9.8, 9.7], [0.5] * 4))
     table["mass_g"] = [3.0, 1.0, 1.0, 1.0]
