@@ -83,7 +83,7 @@ def test_a_case_that_has_not_converged_has_no_prediction(row, tmp_path):
     [
         ({"where": "lattice.cells=3"}, "allowed: contact.friction=0.1, contact.friction=0.2, "),
         ({"over": "lattice.width"}, "over = lattice.width is no axis; allowed: contact.friction, "),
-        ({"measure": "absorbed_energi_J"}, "the nearest are absorbed_energy_J"),
+        ({"measure": "absorbed_energi_J"}, "the nearest (is|are) absorbed_energy_J"),
         ({"measure": "message"}, "measure = message; allowed: a column"),
     ],
 )
