@@ -68,17 +68,6 @@ def test_light_scenes_violate_nothing(drawn):
     assert sum(found.balanced for found in audits) > len(light)
 
 
-@pytest.mark.parametrize(
-    "case",
-    [draw.scene(40)[1], draw.scene(51)[1], draw.remembering(105)],
-    ids=["struck", "rough", "released"],
-)
-def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
-    """A soft coordinate was not balanced next to a stiff one, nor friction at the end of a step."""
-    warm_up()
-    assert audit.audit(case.changed(solver={"retry": False})).violations == ()
-
-
 def corner(case, cells_x, cells_y):
     """The same scene of fewer cells, with their share of the striker."""
     lattice, loading = case.lattice, case.loading
@@ -92,6 +81,20 @@ def corner(case, cells_x, cells_y):
             "loading": loading.model_copy(update=mass),
         }
     )
+
+
+@pytest.mark.parametrize(
+    "case",
+    [corner(draw.scene(40)[1], 8, 1), draw.scene(51)[1], draw.remembering(105)],
+    ids=["struck", "rough", "released"],
+)
+def test_no_force_is_left_over_where_stiffnesses_differ_by_far(case):
+    """A soft coordinate was not balanced next to a stiff one, nor friction at the end of a step."""
+    warm_up()
+    solver = case.solver.model_copy(update={"retry": False})
+    seen = audit.audit(case.model_copy(update={"solver": solver}))
+    assert seen.violations == ()
+    assert seen.balanced > 0
 
 
 def between_points(case):
