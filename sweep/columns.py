@@ -5,7 +5,9 @@ energies up to a force, of cycles, errors and the like have derived names.
 """
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Literal
 
 from sweep.loading_modes import MODES
@@ -612,3 +614,9 @@ def _unit_of_key(name: str) -> str:
 
     key = case_keys().get(name)
     return (key and key.unit) or ""
+
+
+def nearest_names(name: str, columns: Iterable[str]) -> str:
+    """A clause of a refusal: up to three columns of nearly this name; empty if there are none."""
+    near = get_close_matches(name, [*columns], n=3, cutoff=0.5)
+    return f"; the nearest {'are' if len(near) > 1 else 'is'} {', '.join(near)}" if near else ""

@@ -19,6 +19,7 @@ from sweep.design.slicer.patterns import (
     share_of,
     width_of,
 )
+from sweep.numbers import percent
 
 REGULAR = 0.05  # relative difference of a cell's proportions from the slicer's
 WIDEST = 2.0  # nozzles: mean thickness of a line
@@ -91,7 +92,7 @@ def unlike(lattice: Lattice) -> str:
             return f"lattice.{key} = {getattr(lattice, key)}; allowed for a slicer: {value}"
     across, along = _scales(lattice)
     if abs(across / along - 1.0) > REGULAR:
-        regular = f"{TO_MM * lattice.width * along / across:.4g} mm within {100.0 * REGULAR:g} %"
+        regular = f"{TO_MM * lattice.width * along / across:.4g} mm within {percent(REGULAR)} %"
         written = f"lattice.width = {TO_MM * lattice.width:.4g} mm"
         return f"{written}; allowed for a slicer: {regular}, where cells are regular"
     return _other_lines(lattice)
@@ -109,9 +110,7 @@ def _other_lines(lattice: Cells) -> str:
         allowed = f"{TO_MM * least:.4g} to {TO_MM * most:.4g} mm"
         return f"{written}; allowed for a slicer: {allowed}, with a nozzle of {TO_MM * nozzle:g} mm"
     if not (share := _nearest(lattice).infill) < 1.0:
-        return (
-            f"{written} makes an infill of {100.0 * share:.0f} %; allowed for a slicer: below 100 %"
-        )
+        return f"{written} makes an infill of {percent(share)} %; allowed for a slicer: below 100 %"
     return ""
 
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 from hashlib import blake2b
 from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame, Series
 
+from sweep.columns import nearest_names
 from sweep.config.case import Case
 from sweep.config.load import load_config
 from sweep.published.table import PublishedError, Row
@@ -78,9 +78,7 @@ def _values(measure: str, results: DataFrame, row: Row) -> np.ndarray:
 
 def _column(name: str, results: DataFrame, row: Row) -> "Series[float]":
     if name not in results or results[name].dtype.kind not in "fiu":
-        near = get_close_matches(name, map(str, results))
-        verb = "are" if len(near) > 1 else "is"
-        hint = f"; the nearest {verb} {', '.join(near)}" if near else ""
+        hint = nearest_names(name, map(str, results))
         raise PublishedError(f"{row.name}: measure = {name}; allowed: {ALLOWED}{hint}")
     return results[name]
 

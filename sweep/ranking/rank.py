@@ -6,7 +6,6 @@ smallest strain is the best, under a striker the one with the least force on the
 whose results cannot be trusted (`merit.doubtful`) come last, whatever their values.
 """
 
-import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
@@ -15,7 +14,13 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame
 
-from sweep.columns import describe_column, error_column, is_grid_key, less_is_better
+from sweep.columns import (
+    describe_column,
+    error_column,
+    is_grid_key,
+    less_is_better,
+    nearest_names,
+)
 from sweep.loading_modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import within_budget
@@ -46,7 +51,6 @@ USUAL = (
     *("peak_force_until_packed_N", "peak_strain", "peak_deceleration_filtered_m_per_s2"),
 )
 """The columns by which rankings are sorted most: a refusal names these instead of all."""
-NEAREST = 3  # most names that a refusal suggests
 LEADING = [
     "budget_g",
     "scene",
@@ -326,13 +330,10 @@ def _column(frame: DataFrame, by: str) -> str:
         return by
     is_column = by in numbers
     why = "neither more nor less of it makes a design better" if is_column else "no such column"
-    nearest = difflib.get_close_matches(by, allowed, n=NEAREST, cutoff=0.5)
-    verb = "are" if len(nearest) > 1 else "is"
-    near = f"; the nearest {verb} {', '.join(nearest)}" if nearest else ""
     usual = ", ".join(name for name in USUAL if name in allowed)
     more = len(allowed) - sum(name in allowed for name in USUAL)
     raise RankError(
-        f'cannot sort by "{by}": {why}{near}\nallowed: {usual} and '
+        f'cannot sort by "{by}": {why}{nearest_names(by, allowed)}\nallowed: {usual} and '
         f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
     )
 
