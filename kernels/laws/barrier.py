@@ -10,7 +10,7 @@ import math
 
 from kernels.compile.jit import jit
 
-CLOSEST = 1e-10  # s below which distances are round-off: what is so close may have crossed
+CLOSEST = 1e-7  # s below which round-off of positions is a considerable part of the force
 
 
 @jit
