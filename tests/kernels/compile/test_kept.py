@@ -48,15 +48,3 @@ def test_tuples_of_kernels_are_known():
     assert is_of_kernels(found)
     assert is_of_kernels(by_reference(found))
     assert not is_of_kernels(found._replace(u=Pair(array, 1.0)))
-
-
-def test_kernels_call_kernels(cache):
-    inner = compiled(first)
-
-    def outer(x):
-        return 2.0 * inner((x, 1))
-
-    assert compiled(outer)(4.0) == 8.0
-    assert inner.linked.signatures
-    assert "entry" not in vars(inner)
-    assert kept(cache) == 1
