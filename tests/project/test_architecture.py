@@ -66,7 +66,7 @@ print([main(words) for words in {calls}])
 TESTED_ELSEWHERE = {
     "kernels.compile.undisturbed": "kernels/compile/test_jit.py",
     "kernels.compile.reference": "kernels/solve/test_first_guess.py",
-    "kernels.compile.verbs": "kernels/solve/test_chain.py",
+    "kernels.compile.verbs": "kernels/planar/test_potential.py",
     "kernels.geometry.space.vectors": "kernels/geometry/space/test_surface.py",
     "kernels.planar.problem": "kernels/planar/test_potential.py",
     "kernels.planar.steps": "physics/test_memories.py",
