@@ -3,17 +3,8 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
-from tests.support.designs.structures import (
-    APART,
-    BENDING,
-    CLAMPED,
-    LENGTH,
-    MATERIAL,
-    MM,
-    structure,
-)
+from tests.support.designs.structures import BENDING, CLAMPED, LENGTH, MM, case_of
 
 
 def column(slenderness, share, angle=90.0, element="cubic", iterations=3000):
@@ -29,14 +20,8 @@ def column(slenderness, share, angle=90.0, element="cubic", iterations=3000):
         "supports": [{"node": 0, "fix": CLAMPED}],
         "loads": [{"node": 1, "force_N": list(-load * along)}],
     }
-    numerics = dict(load_steps=5, max_iterations=iterations, element=element)
-    case = Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=MATERIAL,
-        contact=APART,
-        solver=dict(integrator="static", **numerics),
-    )
-    return simulate(case), along
+    solver = dict(load_steps=5, max_iterations=iterations, element=element)
+    return simulate(case_of(parts, solver=dict(integrator="static", **solver))), along
 
 
 def bow(result, along):

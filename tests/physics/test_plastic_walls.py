@@ -8,16 +8,7 @@ import pytest
 
 from sweep.config.case import Case
 from tests.support.converged import converged
-from tests.support.designs.structures import (
-    APART,
-    CLAMPED,
-    DEPTH,
-    LENGTH,
-    MM,
-    ROD,
-    THICKNESS,
-    structure,
-)
+from tests.support.designs.structures import CLAMPED, DEPTH, LENGTH, MM, ROD, THICKNESS, case_of
 from tests.support.designs.tables import material_with
 
 MODULUS, LIMIT = 2e9, 2e5  # a limit so low that deflections stay small
@@ -33,13 +24,8 @@ def plastic(limit=LIMIT, hardening=0.0, **keys):
 
 def loaded(material, steps=40, **parts):
     """Result of a rod that is loaded in equal increments."""
-    case = Case.of(
-        lattice=dict(kind="custom", structure=structure(**ROD | parts)),
-        material=material,
-        contact=APART,
-        solver=dict(integrator="static", load_steps=steps),
-    )
-    return converged(case)
+    solver = dict(integrator="static", load_steps=steps)
+    return converged(case_of(ROD | parts, material, solver=solver))
 
 
 def tip(elements, fibres, share):

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from kernels.solve import arc_length, outcomes
-from sweep.config.case import Case
 from sweep.config.faults import ConfigError
 from sweep.config.load import load_config
 from sweep.scene.custom import build_structure
@@ -16,29 +15,25 @@ from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_for
 from tests.support.converged import converged
 from tests.support.designs.scenes import unbalanced
 from tests.support.designs.structures import (
+    APART,
     AXIAL,
     BENDING,
     CLAMPED,
-    MATERIAL,
     MM,
     ROD,
+    case_of,
     probe,
-    structure,
 )
 from tests.support.kernels.solving import free_of, whole
 
 
-def case_of(parts, arcs=200, contact="none", **solver):
-    return Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=MATERIAL,
-        contact=dict(model=contact),
-        solver=dict(integrator="arc_length", load_steps=arcs, **solver),
-    )
+def arcs_of(parts, arcs=200, contact=APART, **solver):
+    solver |= dict(integrator="arc_length", load_steps=arcs)
+    return case_of(parts, contact=contact, solver=solver)
 
 
 def test_truss_follows_its_closed_form_through_both_limit_points():
-    result = converged(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
+    result = converged(arcs_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
     factor, height = result.history["load_factor"], probe(result, 1, "y_m")
     force = truss_force(height)
     np.testing.assert_allclose(4e-3 * AXIAL * factor, force, atol=1e-9 * AXIAL)
@@ -55,7 +50,7 @@ def test_truss_follows_its_closed_form_through_both_limit_points():
 
 def test_frame_of_lee_snaps_back():
     """Load and sinking each have a greatest value on the way, and the load a lowest."""
-    result = converged(case_of(lee(32)))
+    result = converged(arcs_of(lee(32)))
     factor = result.history["load_factor"]
     sunk = 0.12 - probe(result, 2, "y_m")
     first, lowest, farthest = np.argmax(factor[:100]), np.argmin(factor), np.argmax(sunk[:120])
@@ -93,7 +88,7 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
         "loads": [{"node": 6, "force_N": LEE["loads"][0]["force_N"]}],
         "probes": list(range(11)),
     }
-    case = case_of(parts)
+    case = arcs_of(parts)
     result, scene = converged(case), build_structure(case)
     factor = result.history["load_factor"]
     free, args, load = free_of(scene), whole(scene, scene.x_rest), scene.terms.coordinates.load
@@ -111,14 +106,14 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
 
 def test_arcs_end_at_the_full_load_or_with_their_number():
     """Loads grow by a twentieth at most, however far an arc would go along a stiff path."""
-    few = simulate(case_of(lee(8), 5))
+    few = simulate(arcs_of(lee(8), 5))
     assert (few.status, len(few.history["load_factor"])) == ("converged", 6)
     assert few.history["load_factor"][-1] < 0.9
     small = lee(8) | {"loads": [{"node": 2, "force_N": [0.0, -1e-3 * BENDING / 0.12**2]}]}
-    assert list(simulate(case_of(small)).history["load_factor"][[0, -1]]) == [0.0, 1.0]
+    assert list(simulate(arcs_of(small)).history["load_factor"][[0, -1]]) == [0.0, 1.0]
     pulled = ROD | {"supports": [{"node": 0, "fix": CLAMPED}]}
     pulled |= {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}
-    factor = converged(case_of(pulled)).history["load_factor"]
+    factor = converged(arcs_of(pulled)).history["load_factor"]
     np.testing.assert_allclose(factor, np.linspace(0.0, 1.0, 21), atol=1e-5)
 
 
@@ -135,7 +130,7 @@ def test_walls_that_meet_on_the_way_touch():
         ],
         "probes": [2, 3],
     }
-    result = converged(case_of(clamp, 60, "barrier"))
+    result = converged(arcs_of(clamp, 60, {}))
     assert result.history["load_factor"][-1] == 1.0
     assert result.history["contact_J"][-1] > 0.0
     assert 0.5 * MM < result.history["min_gap_m"][-1] < MM
@@ -152,7 +147,7 @@ def test_walls_that_meet_on_the_way_touch():
 )
 def test_refusals(changes, refused):
     with pytest.raises(ValueError, match=refused):
-        case_of(LEE | changes)
+        arcs_of(LEE | changes)
 
 
 @pytest.mark.parametrize(("table", "refused"), [
@@ -170,9 +165,9 @@ def test_keys_without_effect_are_refused(tmp_path, table, refused):
 
 
 def test_an_interruption_and_a_lost_path_are_told(monkeypatch):
-    interrupted = simulate(case_of(lee(8)), np.array([1, 0]))
+    interrupted = simulate(arcs_of(lee(8)), np.array([1, 0]))
     monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (outcomes.STALLED, 0))
-    lost = simulate(case_of(lee(8)))
+    lost = simulate(arcs_of(lee(8)))
     assert interrupted.status == lost.status == "stopped"
     assert "interrupted" in interrupted.message
     assert "solver.arc_length" in lost.message

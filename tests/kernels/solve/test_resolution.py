@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.support.converged import converged
-from tests.support.designs.structures import APART, CLAMPED, UNDAMPED, probe, structure
+from tests.support.designs.structures import CLAMPED, UNDAMPED, case_of, probe, structure
 
 LENGTH, THICKNESS, DEPTH, DENSITY, ELEMENTS = 30.0, 2.0, 12.0, 1190.0, 6
 AREA = THICKNESS * DEPTH * 1e-6
@@ -27,14 +26,10 @@ def pulled(integrator, modulus=12e6, force=1.0, time_step=1e-6):
     }
     in_time = integrator in SCHEMES
     steps = {"time_step": time_step} if in_time else {"load_steps": 40}
-    return Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=dict(modulus=modulus, density=DENSITY, poisson=0.48, plane="stress"),
-        loading=dict(duration=STEPS * time_step) if in_time else {},
-        contact=APART,
-        damping=UNDAMPED,
-        solver=dict(integrator=integrator, **steps),
-    )
+    material = dict(modulus=modulus, density=DENSITY, poisson=0.48, plane="stress")
+    loading = dict(duration=STEPS * time_step) if in_time else {}
+    solver = dict(integrator=integrator, **steps)
+    return case_of(parts, material, loading=loading, damping=UNDAMPED, solver=solver)
 
 
 def stretched(time, modulus=12e6, force=1.0):
