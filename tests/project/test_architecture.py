@@ -80,7 +80,7 @@ TESTED_ELSEWHERE = {
     "kernels.linear.condensed.condense": "kernels/linear/condensed/test_system.py",
     "kernels.linear.condensed.periodic_images": "kernels/planar/test_constraints.py",
     "kernels.linear.supernodal.dense": "kernels/linear/supernodal/test_factor.py",
-    "kernels.linear.supernodal.symbolic": "kernels/linear/supernodal/test_analysis.py",
+    "kernels.linear.supernodal.symbolic": "kernels/linear/supernodal/test_factor.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
     "kernels.solve.load_step_error": "kernels/solve/test_chain.py",
