@@ -27,24 +27,25 @@ def strain_under(force, element, damping):
 
 
 def on_platens(force, time_step, damping, friction):
-    case = loaded(force, "contact", friction, time_step, damping, RELEASE, RELEASE + REST)
-    return run(case)
+    """A run that ends well, whatever the load."""
+    end = RELEASE + REST
+    result = run(loaded(force, "contact", friction, time_step, damping, RELEASE, end))
+    assert is_sound(result)
+    assert result.history["time_s"][-1] == pytest.approx(end)
+    assert result.summary["peak_strain"] < 1.0
+    return result
 
 
-@pytest.mark.parametrize(
-    "damping", [UNDAMPED, SEED], ids=lambda damping: damping.get("model", "default")
-)
+def recovers(result):
+    """The strain is measured on its extent, and it may turn as it jumps off: so compare shapes."""
+    return result.summary["residual_strain"] < 0.02 and misshapen(result) < 0.02
+
+
+@pytest.mark.parametrize("damping", [UNDAMPED, SEED], ids=["none", "default"])
 def test_grid_bears_7_newtons_and_no_7_and_a_half(damping):
-    """The exact frame loses stability at 7.35 N."""
+    """The exact frame loses stability at 7.35 N; classical elements give way too early."""
     assert strain_under(7.0, "cubic", damping) < 0.025
     assert strain_under(7.5, "cubic", damping) > 0.04
-
-
-@pytest.mark.parametrize(
-    "damping", [UNDAMPED, SEED], ids=lambda damping: damping.get("model", "default")
-)
-def test_classical_elements_give_way_too_early(damping):
-    assert strain_under(6.6, "cubic", damping) < 0.025
     assert strain_under(6.6, "classical", damping) > 0.1
 
 
@@ -52,30 +53,14 @@ def test_classical_elements_give_way_too_early(damping):
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("damping", [UNDAMPED, HEAVY, VISCOUS], ids=["none", "rayleigh", "viscous"])
 def test_no_load_on_platens_is_too_much(force, friction, damping):
+    """If damped, the lattice recovers once released."""
     result = on_platens(force, 1e-3, damping, friction)
-    assert is_sound(result)
-    assert result.summary["peak_strain"] < 1.0
-
-
-@pytest.mark.parametrize("force", LOADS)
-@pytest.mark.parametrize("damping", [HEAVY, VISCOUS], ids=["rayleigh", "viscous"])
-def test_damped_lattice_recovers_once_released(force, damping):
-    """The strain is measured on its extent, and it may turn as it jumps off: so compare shapes
-    too.
-    """
-    result = on_platens(force, 1e-3, damping, 0.3)
-    assert result.history["time_s"][-1] == pytest.approx(RELEASE + REST)
-    assert result.summary["residual_strain"] < 0.02
-    assert misshapen(result) < 0.02
+    assert damping == UNDAMPED or friction == 0.0 or recovers(result)
 
 
 @pytest.mark.parametrize("force", [10.0, 40.0])
 def test_steps_of_a_tenth_of_a_millisecond(force):
-    result = on_platens(force, 1e-4, HEAVY, 0.3)
-    assert is_sound(result)
-    assert result.summary["peak_strain"] < 1.0
-    assert result.summary["residual_strain"] < 0.02
-    assert misshapen(result) < 0.02
+    assert recovers(on_platens(force, 1e-4, HEAVY, 0.3))
 
 
 @pytest.mark.parametrize("damping", [UNDAMPED, SEED, VISCOUS], ids=["none", "rayleigh", "viscous"])

@@ -3,37 +3,25 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case
-from sweep.config.structures.structure import Load, Structure, Support
 from sweep.simulation.simulate import simulate
-
-LENGTH, DEPTH, MODULUS = 100.0, 10.0, 12.0  # mm, MPa
+from tests.support.designs.structures import BENDING, CLAMPED, LENGTH, MM, case_of
 
 
 def column(slenderness, share, angle=90.0, element="cubic", iterations=3000):
     """A perfect clamped column under a dead ``share`` of Euler's load along itself."""
     thickness = LENGTH / slenderness
     along = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-    load = share * np.pi**2 * MODULUS * DEPTH * thickness**3 / 12.0 / (2.0 * LENGTH) ** 2
-    structure = Structure(
-        nodes_mm=((0.0, 0.0), tuple(LENGTH * along)),
-        walls=((0, 1),),
-        subdivide=12,
-        wall_thickness_mm=thickness,
-        depth_mm=DEPTH,
-        supports=(Support(node=0, fix=("x", "y", "rotation")),),
-        loads=(Load(node=1, force_N=tuple(-load * along)),),
-    )
-    return simulate(
-        Case.of(
-            lattice=dict(kind="custom", structure=structure),
-            material=dict(modulus=1e6 * MODULUS, density=1190.0, plane="stress"),
-            contact=dict(model="none"),
-            solver=dict(
-                integrator="static", load_steps=5, max_iterations=iterations, element=element
-            ),
-        )
-    ), along
+    load = share * np.pi**2 * BENDING * thickness**3 / (2.0 * LENGTH * MM) ** 2
+    parts = {
+        "nodes_mm": [[0.0, 0.0], list(LENGTH * along)],
+        "walls": [[0, 1]],
+        "subdivide": 12,
+        "wall_thickness_mm": thickness,
+        "supports": [{"node": 0, "fix": CLAMPED}],
+        "loads": [{"node": 1, "force_N": list(-load * along)}],
+    }
+    solver = dict(load_steps=5, max_iterations=iterations, element=element)
+    return simulate(case_of(parts, solver=dict(integrator="static", **solver))), along
 
 
 def bow(result, along):

@@ -9,7 +9,7 @@ from sweep.config.case import Case
 from sweep.report.figures.storyboard import crushes
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import cycle_rows, stages
-from tests.physics.test_memory import mean_modulus, slender
+from tests.physics.test_memories import mean_modulus, slender
 from tests.support.designs.scenes import is_sound, run, trapezoid
 
 SLOW = {"mode": "displacement", "strain": 0.3, "strain_rate": 0.1}
@@ -42,23 +42,17 @@ def test_energies_are_those_of_the_way_down_and_of_the_way_back(kind):
     history, summary = result.history, result.summary
     assert is_sound(result)
     turned, released, ended = crushes(pandas.DataFrame(history))[0]
-    assert history["time_s"][released] - history["time_s"][turned] == pytest.approx(
-        held(kind).loading.hold_time
+    time, work = history["time_s"], history["work_in_J"]
+    assert time[released] - time[turned] == pytest.approx(held(kind).loading.hold_time)
+    down, pause, back = (
+        trapezoid({name: column[first : last + 1] for name, column in history.items()})
+        for first, last in ((0, turned), (turned, released), (released, ended))
     )
-    ways = {
-        name: trapezoid({column: values[rows] for column, values in history.items()})
-        for name, rows in (
-            ("down", slice(turned + 1)),
-            ("pause", slice(turned, released + 1)),
-            ("back", slice(released, ended + 1)),
-        )
-    }
-    work = history["work_in_J"]
     assert summary["absorbed_energy_J"] == work[turned]
     assert summary["returned_energy_J"] == work[released] - work[ended]
-    assert ways["down"] == pytest.approx(work[turned], rel=1e-2)
-    assert ways["back"] == pytest.approx(work[ended] - work[released], rel=5e-2)
-    assert ways["pause"] == pytest.approx(0.0, abs=1e-9 * work[turned])
+    assert down == pytest.approx(work[turned], rel=1e-2)
+    assert back == pytest.approx(work[ended] - work[released], rel=5e-2)
+    assert pause == pytest.approx(0.0, abs=1e-9 * work[turned])
     assert summary["returned_energy_J"] < summary["absorbed_energy_J"]
 
 

@@ -1,22 +1,20 @@
-"""Lattices of materials with all kinds of memory: books, limits in time and in the step."""
+"""Lattices of materials with all kinds of memory: books, limits in time and in the step, rates."""
 
 import numpy as np
 import pytest
 
 from sweep.config.case import Case
 from sweep.result import Status
+from sweep.scene.relaxation import relaxation_of
 from sweep.simulation.simulate import simulate
-from tests.support.designs.scenes import LOST, STORED, summed
+from tests.support.designs.scenes import LOST, STORED, is_sound, run, summed
+from tests.support.designs.structures import APART
+from tests.support.designs.tables import material_with
 
 BRANCH = {"relaxation_times": (5.0,), "relaxation_shares": (0.6,), "reference_time": 1.0}
 SOFT = {"softening_r": 2.0, "softening_m": 2e5}
-PLASTIC = {
-    "modulus": 2e9,
-    "density": 1240.0,
-    "poisson": 0.35,
-    "yield_stress": 50e6,
-    "hardening": 4e7,
-}
+PLASTIC = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
+PLASTIC |= {"yield_stress": 50e6, "hardening": 4e7}
 
 
 def cushion(material, lattice=None, contact=None, solver=None, **loading):
@@ -63,8 +61,7 @@ def test_the_book_closes_and_dissipation_never_falls(name):
     book = result.history
     paid = book["work_in_J"] + book["injected_by_projection_J"]
     most = np.abs(paid).max()
-    left = paid - summed(book, STORED) - summed(book, LOST)
-    assert np.abs(left).max() < 1e-6 * most
+    assert np.abs(paid - summed(book, STORED + LOST)).max() < 1e-6 * most
     assert np.abs(book["energy_residual_J"]).max() < 1e-6 * most
     assert np.diff(book["dissipated_material_J"]).min() >= -1e-7 * most
     assert book["dissipated_material_J"][-1] > 0.02 * most
@@ -123,3 +120,71 @@ def test_a_strip_bends_alike_through_its_section_and_linearly():
     assert one["absorbed_energy_J"] == pytest.approx(two["absorbed_energy_J"], rel=5e-3)
     lost_shares = [1.0 - row["returned_energy_J"] / row["absorbed_energy_J"] for row in (one, two)]
     assert lost_shares[0] == pytest.approx(lost_shares[1], rel=1e-3)
+
+
+@pytest.mark.parametrize("bend", ["section", "linear"])
+def test_what_is_absorbed_is_lost_returned_or_left_in_the_branches(bend):
+    """3 x 3 cells; no step returns lost energy."""
+    cells = {"cells_x": 3, "cells_y": 3}
+    result, elastic = (run(cushion({"bend": bend} | loss, cells)) for loss in ({"loss": 0.4}, {}))
+    assert is_sound(result)
+    history, summary = result.history, result.summary
+    assert np.diff(history["dissipated_material_J"], prepend=0.0).min() >= 0.0
+    left = sum(history[f"{part}_J"][-1] for part in ("stretch", "bend", "contact"))
+    lost, absorbed = summary["dissipated_energy_J"], summary["absorbed_energy_J"]
+    assert lost + summary["returned_energy_J"] + left == pytest.approx(absorbed, rel=1e-6)
+    assert left > 0.01 * absorbed
+    returned, absorbed = (elastic.summary[f"{way}_energy_J"] for way in ("returned", "absorbed"))
+    assert returned == pytest.approx(absorbed, rel=1e-4)
+
+
+def slender(rate):
+    """A cell of slender walls pressed a little at a rate (1/s), linear all over."""
+    material = material_with(modulus=20e6, density=1190.0, loss=0.3, plane="stress")
+    return Case.of(
+        lattice=dict(cells_x=1, cells_y=1, wall_thickness=4e-4, imperfection=0.0),
+        material=material,
+        loading=dict(mode="displacement", strain=1e-4, strain_rate=rate, unload=False),
+        contact=APART,
+        solver=dict(load_steps=4, joints="points"),
+    )
+
+
+def mean_modulus(material, start, end):
+    """Mean of the modulus from one time to another over the modulus at 1 s: it determines the
+    stress at ``end`` after an even ramp of strain that began then and stopped at ``end - start``.
+    """
+    shares, times, instant = relaxation_of(material)
+    left = times * (np.exp(-start / times) - np.exp(-end / times)) / (end - start)
+    return instant * (1.0 + shares @ (left - 1.0))
+
+
+def test_a_lattice_stiffens_with_the_rate_as_its_material():
+    forces = []
+    for rate in (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0):
+        pressed = slender(rate)
+        result = run(pressed)
+        assert is_sound(result)
+        forces.append(
+            result.history["reaction_top_N"][-1] / mean_modulus(pressed.material, 0.0, 1e-4 / rate)
+        )
+    np.testing.assert_allclose(forces, forces[0], rtol=2e-3)
+    assert forces[0] > 0.0
+
+
+@pytest.mark.parametrize("nodes", [2, 3])
+def test_stars_that_snap_are_unloaded_to_the_end(nodes):
+    """A robot's foot, 24 x 15 mm: 26 J a panel of twelve, which lead its ranking."""
+    feet = dict(kind="kagome", width=24e-3, height=15e-3, depth=15e-3, cells_x=4)
+    lattice = feet | {"wall_thickness": 0.8e-3, "nodes_per_wall": nodes}
+    result = simulate(
+        Case.of(
+            lattice=lattice,
+            material={"name": "cheetah", "loss": 0.4},
+            loading={"mode": "displacement", "strain": 0.6, "platen": "contact"},
+        )
+    )
+    assert (result.status, result.message) == ("converged", "")
+    assert result.summary["absorbed_energy_until_packed_J"] == pytest.approx(2.15, rel=0.01)
+    work = result.history["work_in_J"].max()
+    assert result.summary["returned_energy_J"] == pytest.approx(0.5 * work, rel=0.05)

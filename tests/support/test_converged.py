@@ -29,16 +29,10 @@ def test_what_stops_ends_a_study(tmp_path):
     with pytest.raises(SystemExit, match=named):
         converged(STOPPED)
     file = tmp_path / "some.h5"
-    with pytest.raises(
-        SystemExit, match=rf"^case {STOPPED.case_id}.*: no equilibrium .* while loading"
-    ):
+    with pytest.raises(SystemExit, match=f"^case {STOPPED.case_id}: no equilibrium"):
         swept([PRESSED, STOPPED], file)
     assert len(read_summary(file)) == 2
     assert list(swept([PRESSED], file)["case_id"]) == [PRESSED.case_id]
-
-
-def test_all_that_stopped_are_named():
     rows = [{"case_id": name, "status": "stopped", "message": "why"} for name in "ab"]
-    with pytest.raises(SystemExit) as ended:
+    with pytest.raises(SystemExit, match=r"^case a: why\ncase b: why$"):
         demand(rows)
-    assert ended.value.code == "case a: why\ncase b: why"

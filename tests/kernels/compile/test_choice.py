@@ -55,11 +55,6 @@ def run(*command, **environment):
     )
 
 
-@pytest.mark.parametrize("asked", [FAST, STOCK])
-def test_what_is_asked_for_is_taken(asked):
-    assert choose(asked, "0.1", "0.1") == (asked, None)
-
-
 def test_what_does_not_exist_is_refused():
     done = run("-m", "sweep", "warm", **{VARIABLE: "quick"})
     assert done.returncode == 2
@@ -68,7 +63,9 @@ def test_what_does_not_exist_is_refused():
         choose("Fast", "0.68.1", "0.50.0")
 
 
-def test_numba_that_is_known_gets_the_fast_compiler():
+def test_what_is_asked_for_is_taken_else_numba_decides():
+    for asked in (FAST, STOCK):
+        assert choose(asked, "0.1", "0.1") == (asked, None)
     for numba, llvmlite in KNOWN:
         assert choose("", f"{numba}.3", f"{llvmlite}.0rc1") == (FAST, None)
 

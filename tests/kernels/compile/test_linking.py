@@ -25,26 +25,6 @@ class Pair(NamedTuple):
     second: np.ndarray
 
 
-def test_what_several_kernels_call_is_linked_into_their_caller():
-    @jit_owning
-    def ones(n):
-        return Pair(np.ones(n), np.ones(n))
-
-    @jit_owning
-    def left(n):
-        return ones(n).first.sum()
-
-    @jit_owning
-    def right(n):
-        return ones(n + 1).second.sum()
-
-    @jit_owning
-    def both(n):
-        return left(n) + 10.0 * right(n)
-
-    assert both(3) == 43.0
-
-
 def test_linked_kernels_take_no_tuple_apart_in_vain():
     @jit
     def dot(pair):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from kernels.compile.jit import jit
-from kernels.compile.simd import collect, exceeds, load, spread, store
+from kernels.compile.simd import exceeds, load, spread, store
 from kernels.linear.condensed import block_ldlt, block_matrix, periodic_images
 
 
@@ -21,17 +21,6 @@ def test_four_entries_are_loaded_computed_with_and_stored(at, to):
     expected[to : to + 4] += 3.0 * array[at : at + 4]
     jit(combined)(array, at, 3.0, to)
     np.testing.assert_allclose(array, expected, rtol=1e-15)
-
-
-def collected(array, places, at, to):
-    store(array, to, collect(array, places, at) / load(array, to))
-
-
-def test_entries_are_collected_from_all_over_an_array():
-    array, places = np.arange(1.0, 9.0), np.array([9, 7, 0, 7, 2])
-    expected = np.array([8.0, 1.0, 8.0, 3.0]) / array[3:7]
-    jit(collected)(array, places, 1, 3)
-    np.testing.assert_allclose(array, [1, 2, 3, *expected, 8], rtol=1e-15)
 
 
 def all_exceed(array, bound):

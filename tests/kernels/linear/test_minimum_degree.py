@@ -34,11 +34,6 @@ def bits_of(joined):
     return bits
 
 
-def unpacked(bits, n):
-    """Rows of bits as (n, n) of bool."""
-    return np.unpackbits(bits.view(np.uint8), axis=1, bitorder="little")[:, :n].astype(bool)
-
-
 def eliminated(joined, sequence):
     """Columns of the factor (n, n) in that sequence, and the degrees met on the way."""
     left, pattern, degrees = joined.copy(), np.zeros_like(joined), []
@@ -50,15 +45,6 @@ def eliminated(joined, sequence):
         left[np.ix_(around, around)] = True
         left[around, around] = left[v] = left[:, v] = alive[v] = False
     return pattern[sequence], degrees
-
-
-@pytest.mark.parametrize("n", SIZES)
-def test_bits_hold_a_graph(n):
-    joined = random_graph(n, n)
-    np.testing.assert_array_equal(unpacked(bits_of(joined), n), joined)
-    bits = minimum_degree.graph(n)
-    minimum_degree.connect(bits, n - 1, n - 1)
-    assert not bits.any()
 
 
 @pytest.mark.parametrize("kind", [lambda n: random_graph(n, n), grid_graph], ids=["random", "grid"])
@@ -85,17 +71,3 @@ def test_the_next_one_has_the_least_degree_that_is_left(n):
     _, degrees = eliminated(joined, sequence)
     for v, degree in zip(sequence, degrees, strict=True):
         assert degree[v] == degree.min()
-
-
-def test_the_fill_is_far_less_than_without_an_order():
-    joined = grid_graph(144)
-    bits = bits_of(joined)
-    start, _ = minimum_degree.columns(bits, minimum_degree.minimum_degree(bits))
-    plain, _ = eliminated(joined, np.arange(144))
-    assert start[-1] < 0.6 * plain.sum()
-
-
-def test_nothing_to_eliminate():
-    bits = minimum_degree.graph(0)
-    start, row = minimum_degree.columns(bits, minimum_degree.minimum_degree(bits))
-    assert (list(start), row.size) == ([0], 0)

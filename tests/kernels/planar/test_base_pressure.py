@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.planar.base_pressure import force_on_base, greatest_on_patch, sort_along
+from kernels.planar.base_pressure import force_on_base, greatest_on_patch
 from tests.support.designs.scenes import run
 from tests.support.kernels.solving import whole
 from tests.support.kernels.states import SCENES, bent, struck
@@ -53,25 +53,6 @@ def test_no_patch_has_more_force(name, width):
     best = np.isclose(sums, greatest, rtol=1e-9)
     assert np.abs(middles - at)[best].min() < 1e-12
     assert np.abs(centres - at)[best].min() <= 0.5 * width * (1.0 + 1e-9)
-
-
-def test_a_patch_a_little_wider_has_a_little_more_force():
-    """The force is continuous also where the patch is as wide as the distance of two joints."""
-    _, args, x, found, nodes, _ = forces("loose platen")
-    apart = np.diff(np.sort(x[2 * nodes])).max()
-    forces_on = [
-        greatest_on_patch(args.problem, x, found, nodes.copy(), np.zeros((nodes.size, 3)), width)[0]
-        for width in apart * np.linspace(0.99, 1.01, 21)
-    ]
-    assert (np.diff(forces_on) >= 0.0).all()
-    assert np.diff(forces_on).max() < 0.02 * forces_on[0]
-
-
-def test_nodes_are_sorted_by_their_place():
-    x = np.random.default_rng(0).uniform(size=20)
-    nodes = np.arange(10)
-    sort_along(x, nodes)
-    np.testing.assert_array_equal(nodes, np.argsort(x[::2]))
 
 
 @pytest.mark.parametrize("target", [None, 0.2])

@@ -74,9 +74,8 @@ def test_moves_are_as_long_as_lists_may_cover(share):
 def hits(scene, x, dx):
     """Shares at which parts of a scene meet or fold, and shares at which elements are short."""
     terms, high, low = scene.terms, x.size - 1, x.size - 2
-    everything = (
-        near_pairs.find(x, terms.contact, 1.0) if len(terms.contact.edges) else near_pairs.empty()
-    )
+    has_contact = len(terms.contact.edges) > 0
+    everything = near_pairs.find(x, terms.contact, 1.0) if has_contact else near_pairs.empty()
     near = zip(everything.node, terms.contact.edges[everything.edge], strict=True)
     met = [ccd.first_contact(x, dx, p, a, b) for p, (a, b) in near]
     met += [ccd.first_fold(x, dx, a, b, c) for a, b, c in terms.fold.nodes]

@@ -7,9 +7,8 @@ tied to the platen.
 import numpy as np
 import pytest
 
-from sweep.config.case import Case
 from sweep.scene.custom import build_structure
-from tests.support.designs.structures import APART, BEAM, MATERIAL, structure
+from tests.support.designs.structures import BEAM, case_of
 from tests.support.kernels import pressed_plates, solving, states
 
 MOVE = -1e-4  # m
@@ -31,12 +30,7 @@ def of_plates(name):
 
 
 def prescribed():
-    case = Case.of(
-        lattice=dict(kind="custom", structure=structure(**BEAM, **PULLED)),
-        material=MATERIAL,
-        contact=APART,
-        solver=dict(integrator="static"),
-    )
+    case = case_of(BEAM | PULLED, solver=dict(integrator="static"))
     return in_the_plane(build_structure(case))
 
 

@@ -7,39 +7,33 @@ import numpy as np
 import pytest
 
 from kernels.solve import arc_length, outcomes
-from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.grid import expand
 from sweep.config.load import load_config
-from sweep.scene.arc_length import arc_of
 from sweep.scene.custom import build_structure
 from sweep.simulation.simulate import simulate
 from tests.studies.validation.frames import LEE, TRUSS, followed, lee, truss_force
 from tests.support.converged import converged
 from tests.support.designs.scenes import unbalanced
 from tests.support.designs.structures import (
+    APART,
     AXIAL,
     BENDING,
     CLAMPED,
-    MATERIAL,
     MM,
+    ROD,
+    case_of,
     probe,
-    structure,
 )
 from tests.support.kernels.solving import free_of, whole
 
 
-def case_of(parts, arcs=200, contact="none", **solver):
-    return Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=MATERIAL,
-        contact=dict(model=contact),
-        solver=dict(integrator="arc_length", load_steps=arcs, **solver),
-    )
+def arcs_of(parts, arcs=200, contact=APART, **solver):
+    solver |= dict(integrator="arc_length", load_steps=arcs)
+    return case_of(parts, contact=contact, solver=solver)
 
 
 def test_truss_follows_its_closed_form_through_both_limit_points():
-    result = converged(case_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
+    result = converged(arcs_of(TRUSS | {"subdivide": 1}, arc_length=1e-3, element="classical"))
     factor, height = result.history["load_factor"], probe(result, 1, "y_m")
     force = truss_force(height)
     np.testing.assert_allclose(4e-3 * AXIAL * factor, force, atol=1e-9 * AXIAL)
@@ -56,7 +50,7 @@ def test_truss_follows_its_closed_form_through_both_limit_points():
 
 def test_frame_of_lee_snaps_back():
     """Load and sinking each have a greatest value on the way, and the load a lowest."""
-    result = converged(case_of(lee(32)))
+    result = converged(arcs_of(lee(32)))
     factor = result.history["load_factor"]
     sunk = 0.12 - probe(result, 2, "y_m")
     first, lowest, farthest = np.argmax(factor[:100]), np.argmin(factor), np.argmax(sunk[:120])
@@ -94,51 +88,33 @@ def test_points_are_in_balance_and_as_stable_as_they_say():
         "loads": [{"node": 6, "force_N": LEE["loads"][0]["force_N"]}],
         "probes": list(range(11)),
     }
-    case = case_of(parts)
+    case = arcs_of(parts)
     result, scene = converged(case), build_structure(case)
     factor = result.history["load_factor"]
-    free = free_of(scene)
+    free, args, load = free_of(scene), whole(scene, scene.x_rest), scene.terms.coordinates.load
     assert factor.min() < -0.2
     for row in range(0, len(factor), 10):
         x = scene.x_rest.copy()
         for node in range(11):
             at = [probe(result, node, what)[row] for what in ("x_m", "y_m", "rotation_rad")]
             x[[2 * node, 2 * node + 1, 22 + node]] = at
-        left = elastic(scene, x)[free] - factor[row] * scene.terms.coordinates.load[free]
-        assert np.abs(left).max() < 1e-6 * np.abs(scene.terms.coordinates.load).max()
-        hessian = whole(scene, scene.x_rest).hessian(x)[np.ix_(free, free)]
+        left = args.found(x)[1].elastic[free] - factor[row] * load[free]
+        assert np.abs(left).max() < 1e-6 * np.abs(load).max()
+        hessian = args.hessian(x)[np.ix_(free, free)]
         assert result.history["unstable_modes"][row] == np.sum(np.linalg.eigvalsh(hessian) < 0.0)
 
 
-def elastic(scene, x):
-    """Gradient (n,) of the stored energy at ``x``."""
-    return whole(scene, scene.x_rest).found(x)[1].elastic
-
-
 def test_arcs_end_at_the_full_load_or_with_their_number():
-    few = simulate(case_of(lee(8), 5))
+    """Loads grow by a twentieth at most, however far an arc would go along a stiff path."""
+    few = simulate(arcs_of(lee(8), 5))
     assert (few.status, len(few.history["load_factor"])) == ("converged", 6)
     assert few.history["load_factor"][-1] < 0.9
     small = lee(8) | {"loads": [{"node": 2, "force_N": [0.0, -1e-3 * BENDING / 0.12**2]}]}
-    assert list(simulate(case_of(small)).history["load_factor"][[0, -1]]) == [0.0, 1.0]
-
-
-def test_loads_grow_by_a_twentieth_at_most():
-    """However far an arc would go along a path as stiff as this."""
-    pulled = {"nodes_mm": [[0, 0], [100, 0]], "walls": [[0, 1]], "probes": [1]}
-    pulled |= {"supports": [{"node": 0, "fix": CLAMPED}]}
-    result = converged(case_of(pulled | {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}))
-    np.testing.assert_allclose(result.history["load_factor"], np.linspace(0.0, 1.0, 21), atol=1e-5)
-
-
-def test_length_of_an_arc_is_that_of_all_points():
-    """For any mesh it is the root of the mean square of the moves of all points."""
-    for pieces in (4, 16):
-        case = case_of(lee(pieces), arc_length=1e-3)
-        weight = arc_of(build_structure(case), case).weight
-        assert weight.sum() == pytest.approx(2.0)
-        assert weight[2 * 4 + 1] == weight[2 * 4] > 0.0
-    assert case_of(LEE).solver.arc_length == pytest.approx(MM * 120 * 2**0.5 / 200)
+    assert list(simulate(arcs_of(small)).history["load_factor"][[0, -1]]) == [0.0, 1.0]
+    pulled = ROD | {"supports": [{"node": 0, "fix": CLAMPED}]}
+    pulled |= {"loads": [{"node": 1, "force_N": [0.01, 0.0]}]}
+    factor = converged(arcs_of(pulled)).history["load_factor"]
+    np.testing.assert_allclose(factor, np.linspace(0.0, 1.0, 21), atol=1e-5)
 
 
 def test_walls_that_meet_on_the_way_touch():
@@ -154,64 +130,47 @@ def test_walls_that_meet_on_the_way_touch():
         ],
         "probes": [2, 3],
     }
-    result = converged(case_of(clamp, 60, "barrier"))
+    result = converged(arcs_of(clamp, 60, {}))
     assert result.history["load_factor"][-1] == 1.0
     assert result.history["contact_J"][-1] > 0.0
     assert 0.5 * MM < result.history["min_gap_m"][-1] < MM
     assert unbalanced(result.history) < 1e-6
 
 
-def test_interruption_is_told():
-    stop = np.array([1, 0])
-    result = simulate(case_of(lee(8)), stop)
-    assert result.status == "stopped"
-    assert "interrupted" in result.message
-
-
-def test_a_path_that_is_lost_is_told(monkeypatch):
-    monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (outcomes.STALLED, 0))
-    result = simulate(case_of(lee(8)))
-    assert result.status == "stopped"
-    assert "try a smaller solver.arc_length" in result.message
-
-
-def test_lattices_have_no_arcs():
-    with pytest.raises(ValueError, match=r'unless lattice.kind is "custom"'):
-        Case.of(loading=dict(force=1.0), solver=dict(integrator="arc_length"))
-
-
 @pytest.mark.parametrize(
-    ("changes", "sentence"),
+    ("changes", "refused"),
     [
         ({"prescribed": [{"node": 2, "direction": "y", "displacement_mm": -1.0}]}, "prescribed"),
         ({"loads": []}, "no loads"),
         ({"supports": [{"node": 0, "fix": ["x", "y"]}]}, "without resistance"),
     ],
 )
-def test_refusals(changes, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        case_of(LEE | changes)
+def test_refusals(changes, refused):
+    with pytest.raises(ValueError, match=refused):
+        arcs_of(LEE | changes)
 
 
-def test_friction_is_left_out_and_refused_where_it_is_asked_for(tmp_path):
+@pytest.mark.parametrize(("table", "refused"), [
+    ('[contact]\nfriction = 0.2\n[solver]\nintegrator = "arc_length"',
+     'contact.friction = 0.2: .*no effect.* solver.integrator is "arc_length"'),
+    ('[solver]\nintegrator = "static"\narc_length = "2 mm"',
+     'solver.arc_length = "2 mm".* solver.integrator is "static"'),
+])  # fmt: skip
+def test_keys_without_effect_are_refused(tmp_path, table, refused):
     (tmp_path / "lee.json").write_text(json.dumps(LEE))
-    lines = ["[lattice]", 'kind = "custom"', 'file = "lee.json"', "[solver]"]
-    lines += ['integrator = "arc_length"', 'arc_length = "2 mm"', "[contact]"]
     config = tmp_path / "lee.toml"
-    config.write_text("\n".join(lines))
-    (case,) = expand(load_config(config))
-    assert (case.contact.friction, case.solver.arc_length) == (0.0, 2e-3)
-    config.write_text("\n".join([*lines, "friction = 0.2"]))
-    with pytest.raises(ConfigError, match=r'has no effect, as solver.integrator is "arc_length"'):
-        expand(load_config(config))
+    config.write_text(f'[lattice]\nkind = "custom"\nfile = "lee.json"\n{table}')
+    with pytest.raises(ConfigError, match=refused):
+        load_config(config)
 
 
-def test_length_of_arcs_says_nothing_elsewhere(tmp_path):
-    (tmp_path / "lee.json").write_text(json.dumps(LEE))
-    text = '[lattice]\nkind = "custom"\nfile = "lee.json"\n[solver]\nintegrator = "static"\n'
-    (tmp_path / "lee.toml").write_text(f'{text}arc_length = "2 mm"')
-    with pytest.raises(ConfigError, match=r'solver.integrator is "static"'):
-        expand(load_config(tmp_path / "lee.toml"))
+def test_an_interruption_and_a_lost_path_are_told(monkeypatch):
+    interrupted = simulate(arcs_of(lee(8)), np.array([1, 0]))
+    monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (outcomes.STALLED, 0))
+    lost = simulate(arcs_of(lee(8)))
+    assert interrupted.status == lost.status == "stopped"
+    assert "interrupted" in interrupted.message
+    assert "solver.arc_length" in lost.message
 
 
 @pytest.mark.parametrize("move", [np.inf, np.nan])

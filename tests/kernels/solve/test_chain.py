@@ -4,17 +4,22 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
-from kernels.compile.reference import by_reference
+from kernels.compile.kernel import Kernel
 from kernels.solve import arc_length, history, march, newton, outcomes
-from kernels.solve.integrators import BDF2, TRAPEZOIDAL
+from kernels.solve.integrators import TRAPEZOIDAL
 from kernels.solve.problem import FREE, HELD, LED, Coordinates, Step
 from kernels.solve.residual import Tolerance
 from kernels.solve.workspace import make_workspace
-from tests.support.designs.scenes import slopes
-from tests.support.kernels.chain import ROW, Chain, Line, Output
+from tests.support.kernels.chain import ROW, Line, Neighbours, Output
 
 HEIGHT, WIDTH, SPRING, APART = 2.0, 1.5, 0.7, 0.4
 TIGHT = Tolerance(1e-11, 1e-22, 1e-14, 4e-15, 100)
+
+
+@pytest.fixture(autouse=True)
+def plain_python(monkeypatch):
+    """Kernels run as they are written: the chain has no compiled code."""
+    monkeypatch.setattr(Kernel, "__call__", lambda kernel, *args: kernel.__wrapped__(*args))
 
 
 def line(n, load=0.0, driven=False, held=False, friction=0.0, mass=1.0, spring=SPRING):
@@ -36,14 +41,14 @@ def energy(chain, x):
     return wells + 0.5 * chain.spring * np.sum((np.diff(x) - APART) ** 2)
 
 
-def at(x):
-    """State of rest at ``x``, with nothing booked."""
-    return history.at_rest(np.asarray(x, dtype=float), 2)
+def slope(x):
+    """Force (N) with which a particle climbs at ``x``."""
+    return 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
 
 
 def begun(chain, x):
     """State of rest at ``x``; the energy stored there counts as work done."""
-    state = at(x)
+    state = history.at_rest(np.asarray(x, dtype=float), 2)
     wells = HEIGHT * np.sum(((state.x / WIDTH) ** 2 - 1.0) ** 2)
     state.stored[:] = wells, energy(chain, state.x) - wells
     state.book[0].work = state.stored.sum()
@@ -82,18 +87,15 @@ def test_a_led_chain_goes_through_minima():
     outcome, rows, positions = go(chain, state, stage)
     assert outcome == outcomes.CONVERGED
     assert is_balanced(rows)
-    inner, moved = start.x, np.abs(np.diff(positions[:, 1:3], axis=0)).max(axis=1)
-    assert moved.max() > 0.5  # one snaps
+    assert np.abs(np.diff(positions[:, 1:3], axis=0)).max() > 0.5  # one snaps
     for x in positions:
         np.testing.assert_allclose([x[0], x[-1]], [-1.5, x[-1]], rtol=1e-15)
         found = minimize(
             lambda q, x=x: energy(chain, np.array([x[0], *q, x[-1]])), x[1:3], tol=1e-14
         )
         np.testing.assert_allclose(x[1:3], found.x, rtol=0, atol=1e-6)
-        inner = x[1:3]
     assert rows["integrator"][-1] > 1e-3  # the energy released by the snap
     np.testing.assert_allclose(positions[:, -1], np.linspace(-1.2, 4.8, 41)[1:], atol=1e-14)
-    assert inner is not start.x
 
 
 def test_friction_of_a_loaded_particle_is_that_of_where_a_step_starts():
@@ -108,9 +110,8 @@ def test_friction_of_a_loaded_particle_is_that_of_where_a_step_starts():
     sliding = moves > chain.slip
     assert sliding.sum() == 6  # 0.6 N of friction hold it at first
     rubbing = 0.3 * (1.0 + ((x - moves) / WIDTH) ** 2)
-    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
     load = 1.8 * np.arange(1, 9) / 8
-    np.testing.assert_allclose((slope + rubbing)[sliding], load[sliding], rtol=1e-8)
+    np.testing.assert_allclose((slope(x) + rubbing)[sliding], load[sliding], rtol=1e-8)
     paid = 0.5 * (rubbing[1:] + rubbing[:-1]) * moves[1:]  # trapezoids
     np.testing.assert_allclose(np.diff(rows["friction"])[3:], paid[3:], rtol=1e-8)
 
@@ -121,10 +122,9 @@ def test_friction_of_a_led_particle_is_that_of_where_it_is_led():
     stage = march.Stage(8, 1.0, False, 0.0, 0.0, -WIDTH, -0.2 * WIDTH)
     outcome, rows, positions = go(chain, begun(chain, [-WIDTH]), stage)
     x = positions[2:, 0]
-    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
     assert outcome == outcomes.CONVERGED
     rubbing = 0.3 * (1.0 + (x / WIDTH) ** 2)
-    np.testing.assert_allclose(rows["reaction"][2:], slope + rubbing, rtol=1e-8)
+    np.testing.assert_allclose(rows["reaction"][2:], slope(x) + rubbing, rtol=1e-8)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -150,24 +150,11 @@ def test_steps_are_as_long_as_their_accuracy_allows(friction):
     assert counts[0] < counts[1] < counts[2] <= 200
 
 
-def test_steps_are_short_where_a_particle_snaps():
-    chain, driven = line(4, driven=True, held=True), (-1.2, 4.8)
-    start = [-1.5, -1.45, -1.35, driven[0]]
-    stage = march.Stage(128, 1.0, False, 0.0, 0.0, *driven, accuracy=3e-3)
-    outcome, rows, positions = go(chain, begun(chain, start), stage)
-    there = np.flatnonzero(rows["time"] > 0.0)
-    assert outcome == outcomes.CONVERGED
-    assert is_balanced(rows[there])
-    spans, moved = np.diff(there), np.abs(np.diff(positions[there, 1:3], axis=0)).max(axis=1)
-    assert spans.max() == 4
-    assert spans[moved > 0.5].max() <= 2
-
-
 @pytest.mark.parametrize(("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (TRAPEZOIDAL, 2.0)])
 def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
     """With an integrator of order two they are corrected once. The particle slides down a slope."""
     chain, ends = line(1, load=6.0, friction=0.4)._replace(slip=1e-9), []
-    for steps in (100, 200, 3200):
+    for steps in (50, 100, 800):
         state = begun(chain, [-WIDTH])
         state.v[0] = 1.0
         stage = march.Stage(steps, 0.5 / steps, True, 1.0, 1.0, 0.0, 0.0, scheme)
@@ -178,47 +165,11 @@ def test_lagged_forces_keep_the_order_of_the_integrator(scheme, order):
     assert np.log2(coarse / fine) == pytest.approx(order, abs=0.15)
 
 
-def test_several_particles_slide():
-    chain = line(5, driven=True, friction=0.4)
-    state = begun(chain, np.linspace(-1.6, 0.0, 5))
-    outcome, rows, _ = go(chain, state, march.Stage(20, 1.0, False, 0.0, 0.0, 0.0, 3.0))
-    assert outcome == outcomes.CONVERGED
-    assert is_balanced(rows)
-    assert np.all(np.diff(rows["friction"]) > 0.0)
-
-
-@pytest.mark.parametrize(
-    ("scheme", "order"), [(march.BACKWARD_EULER, 1.0), (BDF2, 2.0), (TRAPEZOIDAL, 2.0)]
-)
-def test_the_chain_swings_with_the_order_of_the_integrator(scheme, order):
-    """The reference has steps at least 16 times as short; the book closes in every run."""
-    chain, ends = line(3), {}
-    for steps in (200, 400, 800, 12800):
-        state = begun(chain, [1.6, 1.7, 2.0])
-        stage = march.Stage(steps, 1.0 / steps, True, 0.0, 0.0, 0.0, 0.0, scheme)
-        outcome, rows, positions = go(chain, state, stage)
-        assert outcome == outcomes.CONVERGED
-        assert is_balanced(rows)
-        ends[steps] = positions[-1]
-    errors = [np.abs(ends[steps] - ends[12800]).max() for steps in (200, 400, 800)]
-    np.testing.assert_allclose(slopes(errors), order, atol=0.12)
-
-
-def test_a_step_that_fails_is_halved():
-    chain = line(4, driven=True, held=True)
-    state = begun(chain, [-1.5, -1.45, -1.35, -1.2])
-    few = TIGHT._replace(iterations=5)
-    outcome, rows, _ = go(chain, state, march.Stage(6, 1.0, False, 0.0, 0.0, -1.2, 4.8), few)
-    assert outcome == outcomes.CONVERGED
-    assert state.totals[0].steps > 6
-    assert is_balanced(rows)
-
-
 def test_an_arc_follows_the_slope_of_the_well():
     """One particle, pushed over the hill: load = dE/dx at every point, unstable where it falls."""
     chain = line(1, load=1.0, spring=0.0)
     top = brentq(lambda x: 3.0 * (x / WIDTH) ** 2 - 1.0, 0.0, WIDTH)
-    hill = 4.0 * HEIGHT / WIDTH * (top / WIDTH) * (1.0 - (top / WIDTH) ** 2)
+    hill = -slope(top)
     chain.coordinates.load[0] = 1.5 * hill
     steps = 200
     arc = arc_length.Arc(np.ones(1), 0.08, np.zeros(steps + 1, arc_length.POINT))
@@ -229,8 +180,7 @@ def test_an_arc_follows_the_slope_of_the_well():
     assert outcome == outcomes.CONVERGED
     x, path = out.positions[:written, 0], arc.path[1 : written + 1]
     assert path["factor"][-1] == 1.0
-    slope = 4.0 * HEIGHT * x / WIDTH**2 * ((x / WIDTH) ** 2 - 1.0)
-    np.testing.assert_allclose(1.5 * hill * path["factor"], slope, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(1.5 * hill * path["factor"], slope(x), rtol=0, atol=1e-8)
     np.testing.assert_array_equal(path["unstable"], np.abs(x) < top)
     assert path["factor"].min() == pytest.approx(-1.0 / 1.5, rel=0.01)
     assert np.any(path["unstable"])
@@ -240,16 +190,12 @@ def test_the_residual_is_not_measured_by_an_old_factor():
     """The last point of another step may have been very stiff: any force would be admissible."""
     chain = line(1, load=1.0)
     x0, zero = np.full(1, -WIDTH), np.zeros(1)
-    buffers = chain.make_buffers(np.empty((0, 0)))
-    buffers.diagonal[:] = 1e20
-    neighbours = chain.find_neighbours(x0)
-    problem = Chain(*(by_reference(part) for part in (chain, neighbours, buffers)))
+    problem = chain.assemble(Neighbours(x0), chain.make_buffers(np.empty((0, 0))))
+    problem.buffers.hessian[:] = 1e20
     step = Step(x0, x0.copy(), x0.copy(), 1.0, 1.0, False, 1.0, 0.5, 1.0, 0.0)
     workspace, descent = make_workspace(1, 2), np.zeros(1, newton.DESCENT)[0]
     x, descent.since_factor, workspace.work.dx[:] = x0.copy(), np.inf, zero
-    outcome = newton.minimise(
-        x, problem, step, TIGHT, by_reference(workspace), descent, np.zeros(2, int)
-    )
+    outcome = newton.minimise(x, problem, step, TIGHT, workspace, descent, np.zeros(2, int))
     assert outcome == outcomes.CONVERGED
     assert abs(workspace.evaluation.g[0]) < 1e-10
     assert x[0] > -WIDTH + 0.01

@@ -8,15 +8,13 @@ from tests.studies.verify import MATERIAL
 from tests.support.converged import converged
 
 
-def crushed(contact, **numerics):
-    """Result of a 3 x 3 grid pressed between glued platens."""
-    strain = numerics.pop("strain")
+def crushed(contact, strain, steps, **tables):
+    """Result of a lattice pressed between glued platens."""
     case = Case.of(
-        lattice=dict(wall_thickness=0.6e-3),
-        material=MATERIAL,
+        **dict(lattice=dict(wall_thickness=0.6e-3), material=MATERIAL) | tables,
         loading=dict(mode="displacement", strain=strain, unload=False, platen="glued"),
         contact=contact,
-        solver=numerics,
+        solver=dict(load_steps=steps),
     )
     return simulate(case)
 
@@ -24,7 +22,7 @@ def crushed(contact, **numerics):
 def test_contact_that_nothing_touches_takes_no_iteration():
     """Though its list of pairs is renewed in each of the long steps."""
     models = [dict(model=model) for model in ("barrier", "none")]
-    summary, bare = (crushed(model, strain=0.1, load_steps=10).summary for model in models)
+    summary, bare = (crushed(model, 0.1, 10).summary for model in models)
     assert not summary["touched"]
     assert summary["newton_iterations"] == bare["newton_iterations"]
     assert summary["absorbed_energy_J"] == pytest.approx(bare["absorbed_energy_J"], rel=1e-12)
@@ -33,7 +31,7 @@ def test_contact_that_nothing_touches_takes_no_iteration():
 def test_few_steps_are_enough():
     """Although the normal forces are taken at the start of a step."""
     *coarse, fine = (
-        crushed(dict(friction=0.6), strain=0.5, load_steps=steps).summary["absorbed_energy_J"]
+        crushed(dict(friction=0.6), 0.5, steps).summary["absorbed_energy_J"]
         for steps in (50, 100, 200, 400)
     )
     assert coarse == pytest.approx([fine] * 3, rel=5e-4)
@@ -41,14 +39,10 @@ def test_few_steps_are_enough():
 
 def test_duals_that_mislead_are_forgotten():
     """Stout walls snap: Newton goes on by a hundredth of a step at a time if it keeps them."""
-    case = Case.of(
-        lattice=dict(wall_thickness=1.2e-3, nodes_per_wall=8),
-        material=dict(name="ultimaker_tpu95a"),
-        loading=dict(mode="displacement", strain=0.6, unload=False, platen="glued"),
-        contact=dict(friction=1.0),
-        solver=dict(load_steps=100),
-    )
-    assert simulate(case).status == "converged"
+    stout = dict(wall_thickness=1.2e-3, nodes_per_wall=8)
+    material = dict(name="ultimaker_tpu95a")
+    result = crushed(dict(friction=1.0), 0.6, 100, lattice=stout, material=material)
+    assert result.status == "converged"
 
 
 @pytest.mark.parametrize("friction", [0.1, 0.6])
@@ -56,15 +50,10 @@ def test_walls_of_acute_corners_are_kept_from_crossing(friction):
     """Where sliced honeycombs end on their perimeters, walls fold flat onto them."""
     lattice = dict(slicer="prusa", pattern="honeycomb", infill=0.3, height=12.5e-3)
     loading = dict(mode="displacement", strain=0.6, unload=False, platen="contact")
-    case = Case.of(
-        lattice=lattice,
-        material=dict(name="cheetah"),
-        loading=loading,
-        contact=dict(friction=friction),
-        solver=dict(load_steps=100),
-    )
-    found = converged(case)
-    assert found.summary["max_crossings"] == 0
+    touch, steps = dict(friction=friction), dict(load_steps=100)
+    tables = dict(material=dict(name="cheetah"), contact=touch, solver=steps)
+    case = Case.of(lattice=lattice, loading=loading, **tables)
+    assert converged(case).summary["max_crossings"] == 0
 
 
 def test_a_violent_motion_slides_smoothly():
@@ -75,20 +64,12 @@ def test_a_violent_motion_slides_smoothly():
     """
     case = Case.of(
         lattice=dict(
-            kind="circle",
-            cells_x=1,
-            cells_y=5,
-            width=4.69e-3,
-            height=23.4e-3,
-            depth=1.23e-3,
-            wall_thickness=1.08e-3,
-            nodes_per_wall=3,
-            imperfection=0.0,
+            kind="circle", cells_x=1, cells_y=5, width=4.69e-3, height=23.4e-3, depth=1.23e-3,
+            wall_thickness=1.08e-3, nodes_per_wall=3, imperfection=0.0,
         ),
         material=dict(modulus=83.6e6, density=198.0, poisson=0.0),
         loading=dict(mode="force", force=54.2, release_time=0.163, duration=0.652),
         contact=dict(friction=2.0),
         solver=dict(time_step=0.163, time_limit=60.0, retry=False),
-    )
-    result = converged(case)
-    assert result.summary["newton_iterations"] < 3000
+    )  # fmt: skip
+    assert converged(case).summary["newton_iterations"] < 3000

@@ -16,6 +16,7 @@ from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import UNDAMPED, unbalanced
 from tests.support.kernels.solving import at_rest, floating, go_on, ramp
+from tests.support.kernels.states import nodes
 from tests.support.kernels.terms import touch_of
 
 DT = 5e-5
@@ -53,20 +54,15 @@ def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
     """Nothing in the lattice stirs: v' = (v + a dt) / (1 + drag dt), y' = y + v' dt."""
     damping = dict(model="rayleigh", mass=drag, stiffness=1e-4) if drag else UNDAMPED
     case, scene, state = loose(damping)
-    mass, upwards = (
-        0.5 * scene.terms.coordinates.mass.sum(),
-        slice(1, 2 * len(scene.mesh.points), 2),
-    )
-    scene.terms.coordinates.load[upwards] = -GRAVITY * scene.terms.coordinates.mass[upwards]
+    masses, upwards = scene.terms.coordinates.mass, slice(1, 2 * len(scene.mesh.points), 2)
+    mass = 0.5 * masses.sum()
+    scene.terms.coordinates.load[upwards] = -GRAVITY * masses[upwards]
     outcome, rows = go_on(case, scene, state, ramp(scene, 12, DT, (1.0, 1.0)), force=1e-10)
     assert outcome == outcomes.CONVERGED
-    v, y, speeds, falls = 0.0, 0.0, [], []
-    for _ in range(12):
-        v = (v + GRAVITY * DT) / (1.0 + drag * DT)
-        y += v * DT
-        speeds.append(v)
-        falls.append(y)
-    v, y = np.array(speeds), np.array(falls)
+    v = np.zeros(13)
+    for k in range(12):
+        v[k + 1] = (v[k] + GRAVITY * DT) / (1.0 + drag * DT)
+    v, y = v[1:], np.cumsum(v[1:]) * DT
     np.testing.assert_allclose(state.v[upwards], -v[-1], rtol=1e-8)
     fallen = scene.x_rest.copy()
     fallen[upwards] -= y[-1]
@@ -78,16 +74,6 @@ def test_free_fall_follows_the_recurrence_of_backward_euler(drag):
         ("material", drag * DT * mass * np.cumsum(v**2)),
     ):
         np.testing.assert_allclose(rows[column], expected, rtol=1e-7, atol=1e-20)
-
-
-def nodes(scene, of_all):
-    """The nodes (n, 2) among all coordinates."""
-    return of_all[: 2 * len(scene.mesh.points)].reshape(-1, 2)
-
-
-def parts(state):
-    """All arrays of a state but ``lagged``, which an attempted step changes."""
-    return [*state[:2], *state.rates, *state.gradients, *state[5:]]
 
 
 def momentum(scene, state):
@@ -218,20 +204,6 @@ def test_a_step_that_fails_is_halved_and_the_stage_ends_on_time(speed):
     assert unbalanced(history) < 1e-9
 
 
-def test_halved_steps_take_half_the_time():
-    """For any parts of a step, the platen has moved through each of them at its speed."""
-    case = crush(2, 10.0)
-    scene = build_scene(case)
-    state = at_rest(scene)
-    dt = 0.15 * case.lattice.height / 10.0
-    stage = ramp(scene, 1, dt, travel=(0.0, 10.0 * dt))
-    outcome, _ = go_on(case, scene, state, stage, iterations=6)
-    assert outcome == outcomes.CONVERGED
-    assert state.totals[0].steps > 1
-    assert state.totals[0].time == pytest.approx(dt)
-    assert state.v[-1] == pytest.approx(-10.0, rel=1e-9)
-
-
 def test_steps_grow_again_once_they_succeed():
     """An eighth of a step is needed where the walls buckle, and nowhere else."""
     result = simulate(crush(20, max_iterations=5))
@@ -255,32 +227,26 @@ def test_a_step_that_outlasts_a_collapse_is_minimised_like_a_static_one():
     assert unbalanced(whole.history) < 1e-9
 
 
-def test_a_step_that_fails_at_any_length_leaves_the_state_before_it():
-    case = crush(4)
-    scene = build_scene(case)
-    state = at_rest(scene)
-    travel = 0.05 * case.lattice.height
-    assert go_on(case, scene, state, ramp(scene, 1, travel=(0.0, travel)))[0] == outcomes.CONVERGED
-    kept = [part.copy() for part in parts(state)]
-    stage = ramp(scene, 3, travel=(travel, 3 * travel))
-    outcome, rows = go_on(case, scene, state, stage, iterations=0)
-    assert (outcome, len(rows)) == (outcomes.ITERATIONS, 0)
-    for part, before in zip(parts(state), kept, strict=True):
-        np.testing.assert_array_equal(part, before)
-
-
-def test_an_interruption_keeps_what_is_done():
+@pytest.mark.parametrize("is_interrupted", [False, True])
+def test_a_march_that_ends_early_keeps_what_is_done(is_interrupted):
+    """After an interruption, and after a step that fails at any length."""
     case = crush(10)
     scene = build_scene(case)
     state, control = at_rest(scene), np.zeros(2, dtype=np.int64)
     travel = 0.1 * case.lattice.height
     outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(0.0, travel)), control)
     assert (outcome, len(rows), list(control)) == (outcomes.CONVERGED, 4, [0, 4])
-    kept = [part.copy() for part in parts(state)]
-    control[0] = 1
-    outcome, rows = go_on(case, scene, state, ramp(scene, 4, travel=(travel, 0.0)), control)
-    assert (outcome, len(rows), list(control)) == (outcomes.INTERRUPTED, 0, [1, 4])
-    for part, before in zip(parts(state), kept, strict=True):
+
+    def parts():
+        """All arrays of the state but ``lagged``, which an attempted step changes."""
+        return [*state[:2], *state.rates, *state.gradients, *state[5:]]
+
+    kept, control[0] = [part.copy() for part in parts()], is_interrupted
+    stage, few = ramp(scene, 4, travel=(travel, 0.0)), {} if is_interrupted else {"iterations": 0}
+    outcome, rows = go_on(case, scene, state, stage, control, **few)
+    expected = outcomes.INTERRUPTED if is_interrupted else outcomes.ITERATIONS
+    assert (outcome, len(rows), list(control)) == (expected, 0, [is_interrupted, 4])
+    for part, before in zip(parts(), kept, strict=True):
         np.testing.assert_array_equal(part, before)
 
 

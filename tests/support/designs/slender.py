@@ -12,19 +12,20 @@ PERIODS = {
 """Width and height of a cell over the length of a wall."""
 
 
-def slender(kind, ratio=0.01, **material):
-    """A case of regular cells of walls of a thickness / length."""
-    width, height = PERIODS[kind]
+def slender(kind, ratio=0.01, cells=(2, 2), way="pointy", **material):
+    """A case of regular cells of walls of a thickness / length; ``way``: orientation."""
+    period = PERIODS[kind][::-1] if way == "flat" else PERIODS[kind]
     lattice = {
         "kind": kind,
         "boundary": "periodic",
-        "cells_x": 2,
-        "cells_y": 2,
-        "width": 2 * width * LENGTH,
-        "height": 2 * height * LENGTH,
+        "cells_x": cells[0],
+        "cells_y": cells[1],
+        "width": cells[0] * period[0] * LENGTH,
+        "height": cells[1] * period[1] * LENGTH,
         "depth": DEPTH,
         "wall_thickness": ratio * LENGTH,
     }
+    lattice |= {"orientation": way} if kind == "hex" else {}
     given = {"modulus": MODULUS, "density": 1200.0, "poisson": 0.3, "plane": "stress"} | material
     loading = {"mode": "displacement", "strain": 1e-5, "unload": False}
     return Case.of(

@@ -44,28 +44,22 @@ def structure(**parts):
     return Structure.model_validate_json(json.dumps(whole))
 
 
+def case_of(parts, material=MATERIAL, contact=APART, **tables):
+    """The case of a structure."""
+    lattice = dict(kind="custom", structure=structure(**parts))
+    return Case.of(lattice=lattice, material=material, contact=contact, **tables)
+
+
 def pushed(parts, steps=10, contact=APART, integrator="static", **solver):
     """Result of a structure that is loaded in equal increments, or along arcs."""
-    case = Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=MATERIAL,
-        contact=contact,
-        solver=dict(integrator=integrator, load_steps=steps, **solver),
-    )
-    return converged(case)
+    solver |= dict(integrator=integrator, load_steps=steps)
+    return converged(case_of(parts, contact=contact, solver=solver))
 
 
 def let_go(parts, duration, time_step, contact=APART, damping=UNDAMPED, material=MATERIAL):
     """Result of a structure that moves for a while, s."""
-    case = Case.of(
-        lattice=dict(kind="custom", structure=structure(**parts)),
-        material=material,
-        loading=dict(duration=duration),
-        contact=contact,
-        damping=damping,
-        solver=dict(time_step=time_step),
-    )
-    return converged(case)
+    tables = dict(loading=dict(duration=duration), solver=dict(time_step=time_step))
+    return converged(case_of(parts, material, contact, damping=damping, **tables))
 
 
 def set_off(walls, amplitude, thickness=THICKNESS):

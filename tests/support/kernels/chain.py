@@ -2,31 +2,22 @@
 
     E = sum_i h ((x_i / a)^2 - 1)^2 + sum_i k / 2 (x_{i+1} - x_i - a0)^2 - f . u + E_i + D_f
 
-One unknown a particle, no walls, no plane. Friction with the line is Coulomb's, smoothed as in
-`kernels.terms.friction`; its normal force depends on the place, N = n (1 + (x / a)^2), and lags.
-The Hessian is tridiagonal. The list of neighbours is imaginary: it holds for moves up to `MARGIN`.
+One unknown a particle, no walls, no plane, no compiled code. Friction with the line is Coulomb's,
+smoothed as in `kernels.terms.friction`; its normal force depends on the place, N = n (1 + (x /
+a)^2), and lags. The list of neighbours is imaginary: it holds for moves up to `MARGIN`.
 """
+# ruff: noqa: D102  the verbs are explained in `kernels.solve.problem`
 
 from typing import NamedTuple
 
 import numpy as np
 
-from kernels.arrays import copy, zero
-from kernels.compile.jit import jit_exact, jit_owning
 from kernels.solve.problem import FREE, LED, NEGATIVE, POSITIVE, Coordinates
 
 MARGIN = 0.4  # of a: a particle that has moved farther needs a new list
 WELLS, SPRINGS = range(2)
-ROW = np.dtype(
-    (
-        np.record,
-        [
-            *((name, np.float64) for name in ("time", "work", "kinetic", "wells", "springs")),
-            *((name, np.float64) for name in ("material", "friction", "integrator", "residual")),
-            ("reaction", np.float64),
-        ],
-    )
-)
+FIELDS = ("time", "work", "kinetic", "wells", "springs", "material", "friction", "integrator")
+ROW = np.dtype((np.record, [(name, np.float64) for name in (*FIELDS, "residual", "reaction")]))
 
 
 class Output(NamedTuple):
@@ -37,342 +28,183 @@ class Output(NamedTuple):
 
 
 class Neighbours(NamedTuple):
-    """Positions at which the list was made (n,), and how often a list was made (1,)."""
+    """Positions (n,) at which the list was made."""
 
     anchor: np.ndarray
-    made: np.ndarray
 
 
 class Buffers(NamedTuple):
-    """Lagged normal forces (n,); pivots and off-diagonal (n,) of the factor, diagonal before it;
-    place (1,) of the first negative pivot, -1 if there is none.
+    """Lagged normal forces (n,); Hessian (n, n) and pivots (n,) of the factor; place (1,) of the
+    first negative pivot.
     """
 
     normal: np.ndarray
+    hessian: np.ndarray
     pivot: np.ndarray
-    beside: np.ndarray
-    diagonal: np.ndarray
     place: np.ndarray
 
 
-@jit_exact
-def _well(scene, x):
-    """Return the energy of a particle at ``x`` and its two derivatives."""
-    s = x / scene.width
-    hill = s * s - 1.0
-    return (
-        scene.height * hill * hill,
-        4.0 * scene.height * s * hill / scene.width,
-        4.0 * scene.height * (3.0 * s * s - 1.0) / scene.width**2,
-    )
-
-
-@jit_exact
 def _smoothed(u, slip):
-    """Return |u|, smoothed, and its two derivatives."""
-    size = abs(u)
-    if size >= slip:
-        return size - slip / 3.0, 1.0 if u > 0.0 else -1.0, 0.0
-    s = size / slip
-    return slip * s * s * (1.0 - s / 3.0), u / slip * (2.0 - s), 2.0 / slip * (1.0 - s)
-
-
-@jit_exact
-def begin(problem, step, ahead, scratch):
-    """Nothing is measured from the start of a step."""
-
-
-@jit_exact
-def store(problem, x, step, found):
-    scene = problem.scene
-    found.stored[WELLS], found.stored[SPRINGS] = 0.0, 0.0
-    for i in range(x.size):
-        value, slope, _ = _well(scene, x[i])
-        found.stored[WELLS] += value
-        found.elastic[i] += slope
-        if i + 1 < x.size:
-            stretched = x[i + 1] - x[i] - scene.apart
-            found.stored[SPRINGS] += 0.5 * scene.spring * stretched * stretched
-            found.elastic[i] -= scene.spring * stretched
-            found.elastic[i + 1] += scene.spring * stretched
-
-
-@jit_exact
-def evaluate(problem, x, step, found):
-    coordinates = problem.scene.coordinates
-    for part in (found.elastic, found.friction, found.material):
-        zero(part)
-    for i in range(x.size):
-        found.u[i] = x[i] - step.y[i]
-    store(problem, x, step, found)
-    total = found.stored[WELLS] + found.stored[SPRINGS]
-    for i in range(x.size):
-        force = step.factor * coordinates.load[i]
-        total -= force * found.u[i]
-        found.g[i] = found.elastic[i] - force
-        if step.dynamic:
-            inert = coordinates.mass[i] * (x[i] - step.x_pred[i]) / step.h**2
-            total += 0.5 * inert * (x[i] - step.x_pred[i])
-            found.g[i] += inert
-    sums = found.sums[0]
-    sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
-    return exchange(problem, step, found)
-
-
-@jit_exact
-def commit(problem, x, step, found):
-    """Nothing is remembered."""
-
-
-@jit_exact
-def roll_back(problem, step):
-    """Nothing is kept."""
-
-
-@jit_exact
-def _is_solved(coordinates, i):
-    return coordinates.role[i] == FREE and i != coordinates.driven
-
-
-@jit_exact
-def factor(problem, x, step, found, shift, through):
-    scene, buffers, coordinates = problem.scene, problem.buffers, problem.scene.coordinates
-    met, first, before = POSITIVE, 0.0, 0.0
-    buffers.place[0] = -1
-    for i in range(x.size):
-        stiffness = _well(scene, x[i])[2] + shift
-        for end in (i > 0, i + 1 < x.size):
-            stiffness += scene.spring * end
-        if step.dynamic:
-            stiffness += coordinates.mass[i] / step.h**2
-        if scene.friction > 0.0:
-            stiffness += scene.friction * buffers.normal[i] * _smoothed(found.u[i], scene.slip)[2]
-        buffers.diagonal[i] = stiffness
-    for i in range(x.size):
-        if not _is_solved(coordinates, i):
-            buffers.pivot[i], buffers.beside[i], before = 1.0, 0.0, 0.0
-            continue
-        buffers.beside[i] = -scene.spring / before if before != 0.0 else 0.0
-        buffers.pivot[i] = buffers.diagonal[i] - buffers.beside[i] ** 2 * before
-        before = buffers.pivot[i]
-        if buffers.pivot[i] <= 0.0 and met == POSITIVE:
-            met, first, buffers.place[0] = NEGATIVE, buffers.pivot[i], i
-            if not through:
-                break
-    return met, first
-
-
-@jit_exact
-def solve(problem, b):
-    buffers, coordinates = problem.buffers, problem.scene.coordinates
-    for i in range(b.size):
-        if not _is_solved(coordinates, i):
-            b[i] = 0.0
-        elif buffers.beside[i] != 0.0:
-            b[i] -= buffers.beside[i] * b[i - 1]
-    for i in range(b.size):
-        b[i] /= buffers.pivot[i]
-    for i in range(b.size - 1, 0, -1):
-        if buffers.beside[i] != 0.0:
-            b[i - 1] -= buffers.beside[i] * b[i]
-
-
-@jit_exact
-def descend(problem, direction):
-    buffers = problem.buffers
-    zero(direction)
-    direction[buffers.place[0]] = 1.0
-    for i in range(buffers.place[0], 0, -1):
-        if buffers.beside[i] == 0.0:
-            break
-        direction[i - 1] = -buffers.beside[i] * direction[i]
-
-
-@jit_exact
-def unstable(problem):
-    count = 0
-    for pivot in problem.buffers.pivot:
-        count += pivot < 0.0
-    return count
-
-
-@jit_exact
-def stiffest(problem):
-    most = 0.0
-    for stiffness in problem.buffers.diagonal:
-        most = max(most, abs(stiffness))
-    return most
-
-
-@jit_exact
-def reduce(problem, g, residual):
-    role = problem.scene.coordinates.role
-    for i in range(g.size):
-        residual[i] = g[i] if role[i] == FREE or role[i] == LED else 0.0
-
-
-@jit_exact
-def lead(problem, move, direction):
-    driven = problem.scene.coordinates.driven
-    if driven >= 0:
-        direction[driven] = move
-
-
-@jit_exact
-def pull(problem, move, direction):
-    scene = problem.scene
-    driven = scene.coordinates.driven
-    direction[driven] = problem.buffers.diagonal[driven] * move
-    if driven > 0:
-        direction[driven - 1] -= scene.spring * move
-    if driven + 1 < direction.size:
-        direction[driven + 1] -= scene.spring * move
-
-
-@jit_exact
-def tie(problem, vector):
-    """Nothing follows another."""
-
-
-@jit_exact
-def travel(problem, dx):
-    most = 0.0
-    for move in dx:
-        most = max(most, abs(move))
-    return most
-
-
-@jit_exact
-def step_limit(problem, x, dx, far):
-    """Return a share with which no particle goes farther than half the way to the other well."""
-    return min(1.0, problem.scene.width / far) if far > 0.0 else 1.0
-
-
-@jit_exact
-def covers(problem, x, far):
-    moved = 0.0
-    for i in range(x.size):
-        moved = max(moved, abs(x[i] - problem.neighbours.anchor[i]))
-    return moved + far <= MARGIN * problem.scene.width or (far > 0.0 and moved == 0.0)
-
-
-@jit_exact
-def lag(problem, y):
-    scene, normal = problem.scene, problem.buffers.normal
-    for i in range(y.size):
-        normal[i] = scene.weight * (1.0 + (y[i] / scene.width) ** 2)
-    return scene.friction > 0.0
-
-
-@jit_exact
-def exchange(problem, step, found):
-    scene, sums = problem.scene, found.sums[0]
-    if scene.friction == 0.0:
-        return sums.potential
-    rubbed = 0.0
-    for i in range(found.u.size):
-        value, slope, _ = _smoothed(found.u[i], scene.slip)
-        load = scene.friction * problem.buffers.normal[i]
-        found.g[i] -= found.friction[i]
-        found.friction[i] = load * slope
-        found.g[i] += found.friction[i]
-        rubbed += load * value
-    sums.potential += rubbed - sums.friction
-    sums.friction = rubbed
-    return sums.potential
-
-
-@jit_exact
-def follow(problem, dx, share, step, found):
-    return True
-
-
-@jit_exact
-def forget(problem):
-    """Nothing is carried along."""
-
-
-@jit_exact
-def project(problem, x):
-    return False
-
-
-@jit_exact
-def covers_projection(problem, x):
-    return True
-
-
-@jit_exact
-def write_share(problem, out, k, state, found):
-    """Nothing: a row has only the values at its end."""
-
-
-@jit_exact
-def write(problem, out, k, state, found):
-    row, book, totals = out.rows[k], state.book[0], state.totals[0]
-    row.time, row.work, row.kinetic = totals.time, book.work, book.kinetic
-    row.wells, row.springs = state.stored[WELLS], state.stored[SPRINGS]
-    row.material, row.friction = book.material, book.friction
-    row.integrator, row.residual = book.integrator, book.residual
-    row.reaction = totals.reaction
-    copy(state.x, out.positions[k])
+    """Return |u| (n,), smoothed, and its two derivatives."""
+    size, s = np.abs(u), np.minimum(np.abs(u) / slip, 1.0)
+    near = size < slip
+    value = np.where(near, slip * s * s * (1.0 - s / 3.0), size - slip / 3.0)
+    return value, np.sign(u) * s * (2.0 - s), np.where(near, 2.0 / slip * (1.0 - s), 0.0)
 
 
 class Chain(NamedTuple):
     """The problem."""
 
-    scene: object
+    scene: "Line"
     neighbours: Neighbours
     buffers: Buffers
 
-    begin = begin
-    evaluate = evaluate
-    store = store
-    commit = commit
-    roll_back = roll_back
-    factor = factor
-    solve = solve
-    descend = descend
-    unstable = unstable
-    stiffest = stiffest
-    reduce = reduce
-    lead = lead
-    pull = pull
-    tie = tie
-    travel = travel
-    step_limit = step_limit
-    covers = covers
-    lag = lag
-    exchange = exchange
-    follow = follow
-    forget = forget
-    project = project
-    covers_projection = covers_projection
-    write = write
-    write_share = write_share
+    def begin(self, step, ahead, scratch):
+        """Nothing is measured from the start of a step."""
 
+    def store(self, x, step, found):
+        scene = self.scene
+        well, slope, _ = scene.well(x)
+        stretched = np.diff(x) - scene.apart
+        found.stored[:] = well.sum(), 0.5 * scene.spring * stretched @ stretched
+        found.elastic[:] += slope
+        found.elastic[:-1] -= scene.spring * stretched
+        found.elastic[1:] += scene.spring * stretched
 
-@jit_owning
-def make_buffers(scene, memory):
-    n = scene.coordinates.role.size
-    a = np.zeros((4, n))
-    return Buffers(a[0], a[1], a[2], a[3], np.full(1, -1))
+    def evaluate(self, x, step, found):
+        coordinates = self.scene.coordinates
+        for part in (found.elastic, found.friction, found.material):
+            part[:] = 0.0
+        found.u[:] = x - step.y
+        self.store(x, step, found)
+        force = step.factor * coordinates.load
+        total = found.stored.sum() - force @ found.u
+        found.g[:] = found.elastic - force
+        if step.dynamic:
+            inert = coordinates.mass * (x - step.x_pred) / step.h**2
+            total += 0.5 * inert @ (x - step.x_pred)
+            found.g[:] += inert
+        sums = found.sums[0]
+        sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
+        return self.exchange(step, found)
 
+    def commit(self, x, step, found):
+        """Nothing is remembered."""
 
-@jit_owning
-def find_neighbours(scene, x):
-    return Neighbours(x.copy(), np.ones(1, np.int64))
+    def roll_back(self, step):
+        """Nothing is kept."""
 
+    def solved(self):
+        """Which coordinates (n,) are unknown."""
+        role = self.scene.coordinates.role
+        return (role == FREE) & (np.arange(role.size) != self.scene.coordinates.driven)
 
-@jit_owning
-def renew_neighbours(scene, neighbours, x, far):
-    neighbours.made[0] += 1
-    return Neighbours(x.copy(), neighbours.made)
+    def factor(self, x, step, found, shift, through):
+        scene, buffers, solved = self.scene, self.buffers, self.solved()
+        pivot = buffers.pivot
+        ends = np.r_[0.0, np.full(x.size - 1, scene.spring)]
+        diagonal = scene.well(x)[2] + shift + ends + ends[::-1]
+        if step.dynamic:
+            diagonal += scene.coordinates.mass / step.h**2
+        if scene.friction > 0.0:
+            diagonal += scene.friction * buffers.normal * _smoothed(found.u, scene.slip)[2]
+        buffers.hessian[:] = np.diag(diagonal) - np.diag(ends[1:], 1) - np.diag(ends[1:], -1)
+        met, first, before = POSITIVE, 0.0, np.inf
+        for i in range(x.size):
+            pivot[i] = diagonal[i] - ends[i] ** 2 / before if solved[i] else 1.0
+            before = pivot[i] if solved[i] else np.inf
+            if pivot[i] <= 0.0 and met == POSITIVE:
+                met, first, buffers.place[0] = NEGATIVE, pivot[i], i
+                if not through:
+                    break
+        return met, first
 
+    def solve(self, b):
+        free = np.flatnonzero(self.solved())
+        y = np.linalg.solve(self.buffers.hessian[np.ix_(free, free)], b[free])
+        b[:] = 0.0
+        b[free] = y
 
-@jit_exact
-def assemble(scene, neighbours, buffers):
-    return Chain(scene, neighbours, buffers)
+    def descend(self, direction):
+        failed, hessian = self.buffers.place[0], self.buffers.hessian
+        before = np.flatnonzero(self.solved()[:failed])
+        direction[:] = 0.0
+        direction[failed] = 1.0
+        direction[before] = -np.linalg.solve(
+            hessian[np.ix_(before, before)], hessian[before, failed]
+        )
+
+    def unstable(self):
+        return np.count_nonzero(self.buffers.pivot < 0.0)
+
+    def stiffest(self):
+        return np.abs(np.diag(self.buffers.hessian)).max()
+
+    def reduce(self, g, residual):
+        role = self.scene.coordinates.role
+        residual[:] = np.where((role == FREE) | (role == LED), g, 0.0)
+
+    def lead(self, move, direction):
+        if self.scene.coordinates.driven >= 0:
+            direction[self.scene.coordinates.driven] = move
+
+    def pull(self, move, direction):
+        direction[:] = self.buffers.hessian[:, self.scene.coordinates.driven] * move
+
+    def tie(self, vector):
+        """Nothing follows another."""
+
+    def travel(self, dx):
+        return np.abs(dx).max()
+
+    def step_limit(self, x, dx, far):
+        """Return a share with which no particle goes farther than half the way to the other
+        well.
+        """
+        return min(1.0, self.scene.width / far) if far > 0.0 else 1.0
+
+    def covers(self, x, far):
+        moved = np.abs(x - self.neighbours.anchor).max()
+        return moved + far <= MARGIN * self.scene.width or (far > 0.0 and moved == 0.0)
+
+    def lag(self, y):
+        scene = self.scene
+        self.buffers.normal[:] = scene.weight * (1.0 + (y / scene.width) ** 2)
+        return scene.friction > 0.0
+
+    def exchange(self, step, found):
+        scene, sums = self.scene, found.sums[0]
+        if scene.friction > 0.0:
+            value, slope, _ = _smoothed(found.u, scene.slip)
+            load = scene.friction * self.buffers.normal
+            found.g[:] += load * slope - found.friction
+            found.friction[:] = load * slope
+            sums.potential += load @ value - sums.friction
+            sums.friction = load @ value
+        return sums.potential
+
+    def follow(self, dx, share, step, found):
+        return True
+
+    def forget(self):
+        """Nothing is carried along."""
+
+    def project(self, x):
+        return False
+
+    def covers_projection(self, x):
+        return True
+
+    def write_share(self, out, k, state, found):
+        """Nothing: a row has only the values at its end."""
+
+    def write(self, out, k, state, found):
+        row, book, totals = out.rows[k], state.book[0], state.totals[0]
+        row.time, row.reaction = totals.time, totals.reaction
+        row.wells, row.springs = state.stored[WELLS], state.stored[SPRINGS]
+        for name in ("work", "kinetic", "material", "friction", "integrator", "residual"):
+            row[name] = book[name]
+        out.positions[k] = state.x
 
 
 class Line(NamedTuple):
@@ -391,7 +223,22 @@ class Line(NamedTuple):
     weight: float
     slip: float
 
-    make_buffers = make_buffers
-    find_neighbours = find_neighbours
-    renew_neighbours = renew_neighbours
-    assemble = assemble
+    def well(self, x):
+        """Return the energies of particles at ``x`` (n,) and their two derivatives."""
+        s = x / self.width
+        hill = s * s - 1.0
+        slope = 4.0 * self.height * s * hill / self.width
+        return self.height * hill**2, slope, 4.0 * self.height * (3.0 * s * s - 1.0) / self.width**2
+
+    def make_buffers(self, memory):
+        n = self.coordinates.role.size
+        return Buffers(np.zeros(n), np.zeros((n, n)), np.zeros(n), np.full(1, -1))
+
+    def find_neighbours(self, x):
+        return Neighbours(x.copy())
+
+    def renew_neighbours(self, neighbours, x, far):
+        return Neighbours(x.copy())
+
+    def assemble(self, neighbours, buffers):
+        return Chain(self, neighbours, buffers)

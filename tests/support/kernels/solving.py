@@ -228,11 +228,15 @@ def ramp(scene, steps, dt=np.inf, factor=(0.0, 0.0), travel=(0.0, 0.0)):
     return march.Stage(steps, duration, dynamic, *factor, high - travel[0], high - travel[1])
 
 
-def go_on(case, scene, state, stage, control=RUN, **tolerance):
-    """March ``state`` through a stage; return the outcome and the rows written."""
+def go_on(case, scene, state, stage, control=RUN, frames=None, **tolerance):
+    """March ``state`` through a stage; return the outcome and the rows written.
+
+    frames (steps, n): filled with the shapes.
+    """
+    frames = np.zeros((0, state.x.size)) if frames is None else frames
     out = Output(
-        np.zeros(stage.steps, ROW), np.full(stage.steps, -1),
-        np.zeros((0, state.x.size)), scene.bottom, scene.top, scene.base,
+        np.zeros(stage.steps, ROW), np.where(len(frames), np.arange(stage.steps), -1),
+        frames, scene.bottom, scene.top, scene.base,
         scene.probes, np.zeros((stage.steps, 2, scene.probes.size)), scene.standing,
         np.zeros((scene.standing.size, 3)), 5e-3,
     )  # fmt: skip

@@ -5,7 +5,8 @@ import numpy as np
 from kernels.linear.pivots import ROUNDED
 from kernels.linear.supernodal import factor as ldlt
 from kernels.linear.supernodal.analysis import analyse
-from kernels.linear.supernodal.matrix import place, rounded_up
+from kernels.linear.supernodal.matrix import place
+from kernels.linear.supernodal.solution import solve
 
 
 def random_blocks(rng, nb, share=0.1):
@@ -15,17 +16,20 @@ def random_blocks(rng, nb, share=0.1):
     return rng.integers(1, 7, nb), np.vstack([joined, chain]), rng.uniform(size=(nb, 3))
 
 
+def _spans(sizes):
+    """Slices of the unknowns of blocks."""
+    return [slice(end - size, end) for end, size in zip(np.cumsum(sizes), sizes, strict=True)]
+
+
 def random_dense(rng, sizes, pairs):
-    """Random symmetric array with the pattern of these blocks, and the blocks' slices."""
-    ends = np.cumsum(sizes)
-    spans = [slice(end - size, end) for end, size in zip(ends, sizes, strict=True)]
-    full = np.zeros((ends[-1], ends[-1]))
+    """Random symmetric array with the pattern of these blocks."""
+    spans, full = _spans(sizes), np.zeros((sum(sizes),) * 2)
     for i, j in [(i, i) for i in range(len(sizes))] + [tuple(pair) for pair in pairs]:
         full[spans[i], spans[j]] = rng.uniform(-1, 1, (sizes[i], sizes[j]))
         full[spans[j], spans[i]] = full[spans[i], spans[j]].T
     for span in spans:
         full[span, span] = np.tril(full[span, span]) + np.tril(full[span, span], -1).T
-    return full, spans
+    return full
 
 
 def dominant(full):
@@ -33,21 +37,15 @@ def dominant(full):
     return full + np.diag(np.abs(full).sum(axis=1) - np.diag(full) + 0.1)
 
 
-def add(matrix, i, j, block):
-    """Add ``block``, rows by unknown of block i, columns by unknown of block j, to block (i, j)."""
-    at, down, across = place(matrix, i, j)
-    assert at >= 0
-    for (r, c), value in np.ndenumerate(block):
-        matrix.values[at + r * down + c * across] += value
-
-
-def assembled(sizes, pairs, points, full, spans):
+def assembled(sizes, pairs, points, full):
     """A `Matrix` with the entries of the array ``full``."""
-    matrix = analyse(sizes, np.ascontiguousarray(pairs), points)
-    for i in range(len(sizes)):
-        add(matrix, i, i, full[spans[i], spans[i]])
-    for i, j in {(max(i, j), min(i, j)) for i, j in pairs if i != j}:
-        add(matrix, i, j, full[spans[i], spans[j]])
+    matrix, spans = analyse(sizes, np.ascontiguousarray(pairs), points), _spans(sizes)
+    coupled = {(max(i, j), min(i, j)) for i, j in pairs} | {(i, i) for i in range(len(sizes))}
+    for i, j in coupled:
+        at, down, across = place(matrix, i, j)
+        assert at >= 0
+        for (r, c), value in np.ndenumerate(full[spans[i], spans[j]]):
+            matrix.values[at + r * down + c * across] += value
     return matrix
 
 
@@ -58,16 +56,8 @@ def factored(matrix, rounded=ROUNDED, shift=0.0, weights=None, scale=1.0):
     return ldlt.factor(matrix, np.full(n, scale), weights, shift, rounded)
 
 
-def lower(matrix):
-    """The factor L (n, n), by place."""
-    n = matrix.home.size
-    full = np.eye(n)
-    for s in range(matrix.column.size - 1):
-        first, last = matrix.column[s], matrix.column[s + 1]
-        rows = matrix.row[matrix.lower[s] : matrix.lower[s + 1]]
-        wide = rounded_up(last - first, 4)
-        tiles = matrix.tiles[matrix.tile[s] : matrix.tile[s + 1]].reshape(-1, wide, 12)
-        panel = tiles.transpose(0, 2, 1).reshape(-1, wide)[:, : last - first]
-        full[first:last, first:last] += np.tril(panel[: last - first], -1)
-        full[rows, first:last] = panel[rounded_up(last - first, 12) :][: len(rows)]
-    return full
+def solved(matrix, b):
+    """Solution (n,) for the right side ``b`` (n,) after `factored`."""
+    x = b.copy()
+    solve(matrix, x)
+    return x

@@ -29,27 +29,24 @@ def test_walls_are_condensed_unless_something_touches_them(support, coupled, rig
     np.testing.assert_array_equal(kind, expected)
 
 
+@pytest.mark.parametrize("wall", [4, None], ids=["inside a condensed wall", "joints apart"])
 @pytest.mark.parametrize("support", ["floating", "clamped"])
-def test_a_node_of_a_condensed_wall_has_no_room_for_a_contact(support):
+def test_a_contact_has_room_where_it_was_announced(support, wall):
     of = web(MIXED)
-    inner = int(of.edges[of.start[4] + 3, 1])
-    coupled = np.array([[inner, 5, 5]])
+    node = 3 if wall is None else int(of.edges[of.start[wall] + 3, 1])
+    coupled = np.array([[node, 5, 5]])
     for given, missing in ((coupled[:0], 1), (coupled, 0)):
         problem = Problem(of, supported(of, support), given)
-        problem.contacts = [([inner, 5], np.eye(6)[:, ::-1] + 1.0)]
+        problem.contacts = [([node, 5], np.eye(6)[:, ::-1] + 1.0)]
         problem.factor()
         assert problem.found.matrix.missing[0] == missing
     assert problem.is_factored(np.ones(problem.n))
 
 
-def test_joints_without_a_common_wall_have_no_room_for_a_contact():
-    of = web(MIXED)
-    for given, missing in (([], 1), ([[5, 3, 3]], 0)):
-        coupled = np.array(given, dtype=np.int64).reshape(-1, 3)
-        problem = Problem(of, supported(of, "floating"), coupled)
-        problem.contacts = [([5, 3], np.eye(6) + 1.0)]
-        problem.factor()
-        assert problem.found.matrix.missing[0] == missing
+def test_only_the_last_bundle_of_walls_of_a_kind_is_incomplete():
+    of = web(3)
+    bundles = Problem(of, layout_of(of), couplings(of, "some open")).found.bundles
+    np.testing.assert_array_equal(bundles.size, [4, 2, 2])
 
 
 def test_a_frame_of_more_than_128_blocks():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.linear.condensed import system
+from kernels.linear.pivots import SOFT
 from tests.support.kernels.frames import frame, layout_of
 from tests.support.kernels.terms import by_home
 from tests.support.kernels.webs import (
@@ -24,20 +25,12 @@ from tests.support.kernels.webs import (
 def test_factor_and_solve(support, coupled, pieces):
     of = web(pieces)
     problem = Problem(of, supported(of, support), couplings(of, coupled))
-    assert problem.factor() == (False, 0.0)
-    assert problem.found.matrix.missing[0] == 0
-    assert problem.is_factored(np.random.default_rng(1).uniform(-1, 1, problem.n))
-
-
-@pytest.mark.parametrize("coupled", COUPLINGS)
-@pytest.mark.parametrize("support", SUPPORTS)
-def test_it_can_be_factored_again(support, coupled):
-    of = web(MIXED)
-    problem = Problem(of, supported(of, support), couplings(of, coupled))
-    for seed in range(3):
-        problem.stiffness = random_stiffness(of, np.random.default_rng(seed))
-        assert not problem.factor()[0]
-        assert problem.is_factored(np.random.default_rng(seed).uniform(-1, 1, problem.n))
+    for seed in range(2):  # the second time in place of the first
+        rng = np.random.default_rng(seed)
+        problem.stiffness = random_stiffness(of, rng)
+        assert problem.factor() == (False, 0.0)
+        assert problem.found.matrix.missing[0] == 0
+        assert problem.is_factored(rng.uniform(-1, 1, problem.n))
 
 
 def weakened(problem, c):
@@ -72,22 +65,6 @@ def test_descent_along_a_negative_pivot(seed, support, coupled):
         problem.diagonal[c] = kept
 
 
-def test_a_negative_pivot_inside_a_condensed_wall_names_the_wall():
-    of = web(MIXED)
-    problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
-    for wall in (1, 3, 4):
-        node = of.edges[of.start[wall], 1]
-        kept = problem.diagonal[2 * node + 1]
-        weakened(problem, 2 * node + 1)
-        failed, pivot = problem.factor()
-        assert (failed, *problem.found.place[0]) == (True, wall, 1)
-        assert pivot < 0.0
-        problem.diagonal[2 * node + 1] = kept
-    weakened(problem, 2 * 4)
-    assert problem.factor()[0]
-    assert problem.found.place[0]["wall"] == -1
-
-
 @pytest.mark.parametrize("pieces", [3, MIXED])
 def test_of_several_walls_with_a_negative_pivot_the_first_is_named(pieces):
     """The first wall is named in whatever bundles the walls are."""
@@ -100,6 +77,28 @@ def test_of_several_walls_with_a_negative_pivot_the_first_is_named(pieces):
         d = np.zeros(problem.n)
         system.descend(problem.found, problem.layout, d)
         assert d @ problem.dense() @ d == pytest.approx(problem.factor()[1], rel=1e-8)
+
+
+def test_nan_inside_a_condensed_wall_fails():
+    of = web(MIXED)
+    problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
+    problem.stiffness.own[0, of.start[1]] = np.nan
+    failed, pivot = problem.factor()
+    assert failed
+    assert np.isnan(pivot)
+
+
+def test_what_has_no_stiffness_inside_a_wall_gets_a_share_of_the_scale():
+    of = web(MIXED)
+    problem = Problem(of, supported(of, "clamped"), couplings(of, "condensed"))
+    for part in problem.stiffness:
+        part[:, of.start[1] : of.start[2]] = 0.0
+    node, b = of.edges[of.start[1], 1], np.zeros(problem.n)
+    loose = [2 * node, 2 * node + 1, 2 * len(of.points) + node]
+    problem.diagonal[loose], b[loose] = [3.0, 0.0, 0.0], 6.0
+    assert problem.factor() == (False, 0.0)
+    little = 6.0 / SOFT / np.array(problem.layout.scale)[1:]
+    np.testing.assert_allclose(problem.solve(b)[loose], [2.0, *little])
 
 
 @pytest.mark.parametrize("coupled", ["condensed", "some open", "all open", "in contact"])

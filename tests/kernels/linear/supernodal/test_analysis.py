@@ -7,7 +7,6 @@ from kernels.linear import minimum_degree
 from kernels.linear.supernodal.analysis import analyse
 from kernels.linear.supernodal.dissection import neighbours
 from kernels.linear.supernodal.symbolic import columns
-from tests.support.kernels.supernodes import random_blocks
 from tests.support.kernels.wall_graph import folded, lattice_of_plates, near_pairs
 
 
@@ -15,41 +14,6 @@ def stored(matrix):
     """Entries of the lower half of all panels."""
     w, r = np.diff(matrix.column), np.diff(matrix.lower)
     return (w * (w + 1) // 2 + w * r).sum()
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_numbers_agree(seed):
-    rng = np.random.default_rng(seed)
-    sizes, pairs, points = random_blocks(rng, 50, 0.05)
-    matrix = analyse(sizes, pairs, points)
-    n = sizes.sum()
-    np.testing.assert_array_equal(matrix.unknown[matrix.home], np.arange(n))
-    for i in range(50):
-        span = np.arange(matrix.first[i], matrix.first[i + 1])
-        np.testing.assert_array_equal(
-            matrix.home[span], matrix.begin[matrix.place[i]] + span - span[0]
-        )
-    for s in range(len(matrix.column) - 1):
-        for q in range(matrix.below[s], matrix.below[s + 1]):
-            at = matrix.lower[s] + matrix.offset[q]
-            assert matrix.row[at] == matrix.begin[matrix.rows[q]]
-
-
-def test_updates_that_wait_do_not_overlap():
-    sizes, pairs, points = lattice_of_plates(1, 4, 6)
-    matrix = analyse(sizes, pairs, points)
-    ns = len(matrix.column) - 1
-    parent = np.full(ns, ns)
-    for s in range(ns):
-        parent[matrix.child[matrix.child_start[s] : matrix.child_start[s + 1]]] = s
-    r = np.diff(matrix.lower)
-    room = (r + 11) // 12 * 12 * ((r + 3) // 4 * 4)
-    for s in range(ns):
-        for t in range(s):
-            if parent[t] >= s:
-                apart = matrix.update[s] >= matrix.update[t] + room[t]
-                assert apart or matrix.update[s] + room[s] <= matrix.update[t]
-    assert np.max(matrix.update + room) == matrix.updates.size
 
 
 @pytest.mark.parametrize(("cells", "most"), [(1, 0.29e6), (3, 2.1e6)])

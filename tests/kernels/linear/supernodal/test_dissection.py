@@ -5,25 +5,7 @@ import pytest
 
 from kernels.linear.supernodal.dissection import SMALLEST, dissect, neighbours
 from kernels.linear.supernodal.symbolic import columns
-from tests.support.kernels.supernodes import random_blocks
 from tests.support.kernels.wall_graph import lattice_of_plates
-
-
-@pytest.mark.parametrize("n", [1, 2, 9, 60, 200])
-@pytest.mark.parametrize("seed", range(3))
-def test_every_block_is_eliminated_once(seed, n):
-    rng = np.random.default_rng(seed)
-    sizes, pairs, points = random_blocks(rng, n, 1.5 / n)
-    order = dissect(*neighbours(n, pairs), sizes, points)
-    np.testing.assert_array_equal(np.sort(order), np.arange(n))
-
-
-def test_neighbours():
-    pairs = np.array([(0, 2), (2, 0), (1, 2), (2, 2), (2, 4)])
-    start, near = neighbours(5, pairs)
-    found = [set(near[start[i] : start[i + 1]]) for i in range(5)]
-    assert found == [{2}, {2}, {0, 1, 4}, set(), {2}]
-    assert len(near) == 6
 
 
 @pytest.mark.parametrize("axis", range(3))

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from kernels.linear.supernodal.solution import descend, solve
+from kernels.linear.supernodal.solution import descend
 from tests.support.kernels.supernodes import (
     assembled,
     dominant,
     factored,
     random_blocks,
     random_dense,
+    solved,
 )
-from tests.support.kernels.wall_graph import lattice_of_plates
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])
@@ -19,12 +19,11 @@ from tests.support.kernels.wall_graph import lattice_of_plates
 def test_descent_along_the_first_negative_pivot(seed, scale):
     rng = np.random.default_rng(seed)
     sizes, pairs, points = random_blocks(rng, 30, 0.05)
-    full, spans = random_dense(rng, sizes, pairs)
-    full = dominant(full)
+    full = dominant(random_dense(rng, sizes, pairs))
     bad = rng.integers(0, len(full))
     full[bad, bad] -= np.abs(full[bad]).sum() + rng.uniform(0.01, 3)
     full *= scale
-    matrix = assembled(sizes, pairs, points, full, spans)
+    matrix = assembled(sizes, pairs, points, full)
     failed, pivot = factored(matrix, scale=scale)
     of = matrix.unknown
     minors = [np.linalg.eigvalsh(full[np.ix_(of[:k], of[:k])])[0] for k in range(1, len(of) + 1)]
@@ -37,45 +36,12 @@ def test_descent_along_the_first_negative_pivot(seed, scale):
     assert not d[of[matrix.home[failed] + 1 :]].any()
 
 
-@pytest.mark.parametrize("size", range(1, 7))
-def test_one_block(size):
-    rng = np.random.default_rng(size)
-    full, spans = random_dense(rng, [size], [])
-    full = dominant(full)
-    pairs = np.empty((0, 2), int)
-    matrix = assembled(np.array([size]), pairs, np.zeros((1, 3)), full, spans)
-    assert factored(matrix) == (-1, 0.0)
-    b = rng.uniform(-1, 1, size)
-    x = b.copy()
-    solve(matrix, x)
-    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=1e-13)
-
-
-def test_a_right_side_beside_the_first_unknown_of_a_lattice():
-    """Most supernodes have no part in such a solution; they are passed over."""
-    rng = np.random.default_rng(0)
-    sizes, pairs, points = lattice_of_plates(1, 3, 3)
-    full, spans = random_dense(rng, sizes, pairs)
-    full = dominant(full)
-    matrix = assembled(sizes, pairs, points, full, spans)
-    factored(matrix)
-    for unknown in (matrix.unknown[0], matrix.unknown[-1]):
-        b = np.zeros(len(full))
-        b[unknown] = 1.0
-        x = b.copy()
-        solve(matrix, x)
-        np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=0, atol=1e-13)
-
-
 def test_parts_that_do_not_couple():
     rng = np.random.default_rng(4)
     sizes = rng.integers(1, 7, 30)
     pairs = np.array([(i, i + 2) for i in range(28)] + [(5, 5)])
-    full, spans = random_dense(rng, sizes, pairs[:-1])
-    full = dominant(full)
-    matrix = assembled(sizes, pairs, rng.uniform(size=(30, 3)), full, spans)
+    full = dominant(random_dense(rng, sizes, pairs[:-1]))
+    matrix = assembled(sizes, pairs, rng.uniform(size=(30, 3)), full)
     assert factored(matrix) == (-1, 0.0)
     b = rng.uniform(-1, 1, len(full))
-    x = b.copy()
-    solve(matrix, x)
-    np.testing.assert_allclose(x, np.linalg.solve(full, b), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(solved(matrix, b), np.linalg.solve(full, b), rtol=0, atol=1e-13)
