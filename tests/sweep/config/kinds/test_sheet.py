@@ -27,11 +27,6 @@ def test_whole_steps_of_the_surface_fit_the_height(kind, way):
     assert made.footprint[1] == pytest.approx(cut.along * lattice.period)
 
 
-def test_two_periods_fit_by_default():
-    lattice = case({"direction": "out_of_plane"}, depth=12 * MM).lattice
-    assert (lattice.period, lattice.cells_y) == (pytest.approx(6 * MM), 2)
-
-
 def test_a_mass_sets_the_thickness():
     lattice = case(mass=1e-4, height=12 * MM).lattice
     density = case().material.density
@@ -54,8 +49,8 @@ def test_walls_are_shells_whichever_way_it_is_pressed():
         made = case({"direction": way, "platen": "clamped"})
         assert made.shells
         assert (made.loading.mode, made.damping.model) == ("displacement", "none")
-        assert made.solver.load_steps == 100
-        assert made.lattice.imperfection_seed == 0
+        assert (made.solver.load_steps, made.lattice.imperfection_seed) == (100, 0)
+        assert (made.lattice.period, made.lattice.cells_y) == (pytest.approx(made.height / 2), 2)
 
 
 REFUSED = [
@@ -81,25 +76,18 @@ def test_what_a_sheet_does_not_have_is_refused(lattice, loading, words):
     assert words in str(refused.value)
 
 
-def test_keys_of_upright_walls_do_not_count():
+def test_keys_of_upright_walls_and_of_drawn_ones_do_not_count():
     way = {"direction": "out_of_plane", "platen": "contact"}
     assert case(way, layers=4, symmetry="quarter").case_id == case(way).case_id
-
-
-def test_the_period_is_fixed_even_without_friction():
-    loose = Case.of(
-        lattice={"kind": "gyroid"},
-        loading={"mode": "displacement", "platen": "contact"},
-        contact={"friction": 0.0},
-    )
-    assert not loose.widens
-
-
-def test_keys_of_drawn_lattices_are_refused():
     for key, value in {"cells_x": 3, "perimeters": 2, "sides": "free"}.items():
         with pytest.raises(RefusedError):
             case(**{key: value})
     assert case(sides="periodic") == case()
+
+
+def test_the_period_is_fixed_even_without_friction():
+    loading = {"mode": "displacement", "platen": "contact"}
+    assert not case(loading).changed(contact={"friction": 0.0}).widens
 
 
 @pytest.mark.parametrize(
