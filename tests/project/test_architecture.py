@@ -94,6 +94,7 @@ TESTED_ELSEWHERE = {
     "sweep.config.kinds.direction": "sweep/config/kinds/test_upright.py",
     "sweep.config.kinds.impact": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.lattice": "sweep/config/test_changes.py",
+    "sweep.config.kinds.material": "sweep/config/kinds/test_memory.py",
     "sweep.config.kinds.table": "sweep/config/test_case.py",
     "sweep.cli.question": "sweep/cli/test_verbs.py",
     "sweep.cli.refusals": "sweep/cli/test_verbs.py",

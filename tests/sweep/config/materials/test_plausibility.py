@@ -49,13 +49,11 @@ def test_shipped_curves_are_plausible(name):
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    ("text", "words"),
     [
-        ('modulus = "19 Pa"\ndensity = "1200 kg/m^3"', ["1 kPa to 1000 GPa", "in MPa?"]),
+        ('density = "1200 kg/m^3"\nmodulus = "19 Pa"', ["1 kPa to 1000 GPa", "in MPa?"]),
         ('modulus = "19 MPa"\ndensity = "1.2 kg/m^3"', ["25,000 kg/m3", "in g/cm3?"]),
     ],
 )
-def test_configs_are_checked(refused, line, words):
-    key = "material.modulus" if "19 Pa" in line else "material.density"
-    value = "19 Pa" if "19 Pa" in line else "1.2 kg/m^3"
-    assert refused(f"[material]\n{line}", f'{key} = "{value}"', *words)
+def test_configs_are_checked(last_refused, text, words):
+    assert last_refused(f"[material]\n{text}", *words)

@@ -13,21 +13,15 @@ def structure(**parts):
 
 
 @pytest.mark.parametrize(
-    ("key", "read", "one", "each", "count"),
+    ("key", "read", "one", "each"),
     [
-        ("wall_thickness_mm", "thickness_mm", 0.5, (0.5, 0.7), 2),
-        ("subdivide", "pieces", 3, (3, 1), 2),
-        (
-            "initial_velocity_mm_s",
-            "velocity_mm_s",
-            (1.0, 2.0),
-            ((1.0, 2.0),) * 2 + ((0.0, 0.0),),
-            3,
-        ),
+        ("wall_thickness_mm", "thickness_mm", 0.5, (0.5, 0.7)),
+        ("subdivide", "pieces", 3, (3, 1)),
+        ("initial_velocity_mm_s", "velocity_mm_s", (1.0, 2.0), ((1.0, 2.0),) * 2 + ((0.0, 0.0),)),
     ],
 )
-def test_one_value_stands_for_each(key, read, one, each, count):
-    assert getattr(structure(**{key: one}), read) == (one,) * count
+def test_one_value_stands_for_each(key, read, one, each):
+    assert getattr(structure(**{key: one}), read) == (one,) * len(each)
     assert getattr(structure(**{key: each}), read) == each
 
 
