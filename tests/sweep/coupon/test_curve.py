@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from sweep.coupon.curve import Loading, tension
+from sweep.coupon.curve import Loading
 from sweep.coupon.legs import turns
 from sweep.coupon.record import Coupon
-from sweep.scene.material import stress_law
 from tests.support.materials.coupons import RATE, coupon, ninjaflex
 
 MEMORY = {"loss": 0.4}
@@ -53,17 +52,6 @@ def test_puck_has_its_own_compression_and_a_derived_tension():
     assert strain == pytest.approx(-strain[::-1])
     assert np.all(np.diff(stress) > 0.0)
     assert model == pytest.approx(test.stress, abs=1e-2 * np.abs(test.stress).max())
-
-
-def test_tension_from_compression_undoes_compression_from_tension():
-    """In part, as both are the same mean of two rules."""
-    strain = np.linspace(0.01, 0.5, 50)
-    law = stress_law(ninjaflex())
-    found = tension(strain, -law.at(-strain))
-    for most, within in {0.1: 0.05, 0.3: 0.2}.items():
-        near = strain < most
-        assert found[near] == pytest.approx(law.at(strain)[near], rel=within)
-    assert tension(strain, strain)[0] == pytest.approx(0.01, rel=0.02)
 
 
 def test_stress_that_does_not_rise_is_made_to():

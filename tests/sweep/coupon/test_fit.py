@@ -36,10 +36,9 @@ def test_a_larger_second_cycle_tells_beta(noise, within):
     assert found.memory == pytest.approx(GROWING, rel=within)
 
 
-@pytest.mark.parametrize("noise", [0.0, 0.01])
 @pytest.mark.parametrize("memory", [{}, {"loss": 0.35}, {"softening_r": 2.0, "softening_m": 2e5}])
-def test_what_a_material_does_not_do_is_left_out(memory, noise):
-    found = fit(coupon(0.5, 0.03, 0.5, noise=noise, **memory))
+def test_what_a_material_does_not_do_is_left_out(memory):
+    found = fit(coupon(0.5, 0.03, 0.5, noise=0.01, **memory))
     beta = {"softening_beta": BETA} if "softening_r" in memory else {}
     assert found.memory == pytest.approx(memory | beta, rel=0.03)
 
@@ -73,14 +72,14 @@ def test_unloading_above_loading_is_refused(sign):
     test = coupon(0.5, 0.05, 0.5, loss=0.2)
     again = np.interp(test.strain, test.strain[:201], test.stress[:201])
     way_back = (np.arange(test.time.size) > 200) & (np.arange(test.time.size) < 400)
-    for factor, refused in ((1.1, True), (1.0, False)):
+
+    def record(factor):
         stress = np.where(way_back, factor * again, test.stress)
-        above = Coupon("above", test.time, sign * test.strain, sign * stress)
-        if refused:
-            with pytest.raises(CouponError, match=r"above the loading, by 9\.9 % of its work"):
-                fit(above)
-        else:
-            assert fit(above).misfit > 0.0
+        return Coupon("above", test.time, sign * test.strain, sign * stress)
+
+    assert fit(record(1.0)).misfit > 0.0
+    with pytest.raises(CouponError, match=r"above the loading, by 9\.9 % of its work"):
+        fit(record(1.1))
 
 
 def test_a_record_that_begins_with_an_unloading_is_refused():

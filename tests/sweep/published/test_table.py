@@ -36,16 +36,15 @@ def test_measured_values_have_ranges(text, expected):
 @pytest.mark.parametrize(
     ("changes", "wrong"),
     [
-        ({"per": "0"}, "line 2: per = 0; allowed: a number above 0"),
+        ({"per": "0"}, "per = 0; allowed: a number above 0"),
         ({"per": "J"}, "per = J, low = 1, high = 2; allowed: numbers"),
-        ({"measured": "about 3"}, "measured: about 3 is no number; allowed: "),
+        ({"measured": "about 3"}, "# measured: about 3 is no number; allowed: "),
     ],
 )
 def test_values_that_cannot_be_used_are_refused(tmp_path, changes, wrong):
     write_table(tmp_path / "t.csv", [replace(ROW, **changes)])
-    with pytest.raises(PublishedError, match=r"t\.csv, line 2") as refusal:
+    with pytest.raises(PublishedError, match=rf"t\.csv, line 2: {wrong}"):
         read_table(tmp_path / "t.csv")
-    assert wrong in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -54,16 +53,13 @@ def test_values_that_cannot_be_used_are_refused(tmp_path, changes, wrong):
         ("a,b\n", "heads a,b; needed: name,source"),
         (",".join(HEADS) + "\na,b\n", "line 2: 2 values; needed: 16"),
         (",".join(HEADS) + 2 * ("\na" + 15 * ",1") + "\n", "name a in two rows"),
+        (None, "cannot be read"),
     ],
 )
 def test_other_tables_are_refused(tmp_path, text, wrong):
-    (tmp_path / "t.csv").write_text(text)
+    if text is not None:
+        (tmp_path / "t.csv").write_text(text)
     with pytest.raises(PublishedError, match=wrong):
-        read_table(tmp_path / "t.csv")
-
-
-def test_a_missing_table_is_refused(tmp_path):
-    with pytest.raises(PublishedError, match="cannot be read"):
         read_table(tmp_path / "t.csv")
 
 
