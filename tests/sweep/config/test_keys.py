@@ -2,7 +2,6 @@
 
 import pytest
 
-from sweep.config.grid import expand
 from sweep.config.keys import QUANTITIES, case_keys, nearest, table_keys
 from sweep.design.infill import families
 from sweep.design.surfaces.names import SHEETS
@@ -13,18 +12,12 @@ def test_every_unit_of_the_keys_is_described():
     assert units <= set(QUANTITIES)
 
 
-def test_load_steps_has_two_names(load):
-    (case,) = expand(load('[loading]\nmode = "displacement"\nload_steps = 50'))
-    assert case.solver.load_steps == 50
-
-
 KINDS = [f'"{word}"' for word in (*families(), *SHEETS, "custom", "drawn")]
 
 
 @pytest.mark.parametrize(
     ("text", "known"),
     [
-        ('[loading]\nmode = "shake"', ['"displacement" ("crush"), ', '"impact", ', '"custom"']),
         ('[lattice]\nkind = "heptagon"', ['"hex" ("honeycomb"), ', '"kagome" ("stars"), ', *KINDS]),
         ('[solver]\nintegrator = "bdf3"', ['"bdf2", "newmark", "static" or "arc_length"']),
     ],

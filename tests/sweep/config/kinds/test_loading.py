@@ -4,7 +4,6 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
-from sweep.config.materials.material_file import locate, read_record
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -24,13 +23,6 @@ PUSHED = [{}, {"force": 5.0}, {"duration": 0.3, "strain": None}, {"platen": "con
 )
 def test_keys_of_a_platen_say_the_mode_which_else_is_a_force(mode, given):
     assert Case.of(loading=given) == Case.of(loading=dict(mode=mode, **given))
-
-
-def test_material_by_name_takes_the_numbers_of_its_record():
-    record = read_record(locate("cheetah"))
-    assert material_with(name="cheetah").modulus == record.modulus
-    softer = material_with(name="cheetah", modulus=70e6)
-    assert (softer.modulus, softer.density) == (70e6, record.density)
 
 
 MEASURED = "# loss: 0.3 (0.2 .. 0.4)\n# softening_r: 2\n# softening_m_Pa: 1e5\n"
@@ -58,12 +50,6 @@ def test_uncertain_are_the_numbers_of_the_record_that_are_used(own_record):
     from_origin = str(own_record(MEASURED.replace("stress_Pa\n", "stress_Pa\n0,0\n")))
     assert material_with(name=from_origin).uncertain == (poisson, rules)
     assert material_with(modulus=12e6, density=1190.0).uncertain == ()
-
-
-def test_linear_material_holds_no_curve():
-    assert material_with(stretch="linear").curve_strain == ()
-    by_numbers = material_with(modulus=12e6, density=1190.0)
-    assert (by_numbers.stretch, by_numbers.poisson, by_numbers.curve_strain) == ("linear", 0.48, ())
 
 
 @pytest.mark.parametrize(

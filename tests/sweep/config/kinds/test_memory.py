@@ -5,29 +5,13 @@ Keys of materials that relax: `test_relaxation`.
 
 import pytest
 
-from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 from sweep.config.materials.material_file import REFERENCE_TIME
 from tests.support.designs.tables import material_with
 
-CRUSH = dict(mode="displacement", strain=0.5)
 SOFT = {"softening_r": 2.0, "softening_m": 1e5}
 NUMBERS = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
 PLASTIC = NUMBERS | {"yield_stress": 50e6}
-
-
-def test_every_part_of_a_memory_is_part_of_the_id():
-    materials = [{}, {"loss": 0.4}, {"loss": 0.3}, {"loss": 0.4, "reference_time": 2.0}]
-    materials += [SOFT, SOFT | {"softening_beta": 0.2}]
-    materials += [{"bend": "fibres"}, {"bend": "fibres", "fibres": 9}]
-    materials += [
-        NUMBERS,
-        PLASTIC,
-        PLASTIC | {"hardening": 1e7},
-        PLASTIC | {"fracture_strain": 0.1},
-    ]
-    ids = {Case.of(material=given, loading=CRUSH).case_id for given in materials}
-    assert len(ids) == len(materials)
 
 
 def test_numbers_have_a_reference_time_too():

@@ -118,15 +118,6 @@ def test_a_crush_with_memory_takes_its_time():
     assert settled(material_with(), quasi_static=True, speed=0.1) == (True, None)
 
 
-def test_losses_and_strain_rates_may_vary(load):
-    text = '[loading]\nstrain = 0.3\n[grid]\nmaterial.loss = [0.2, "40 %"]\n'
-    cases = expand(load(text + 'loading.strain_rate = ["1 1/s", "2 1/s"]'))
-    assert [tuple(case.axes.values()) for case in cases] == [
-        *((0.2, 1.0), (0.2, 2.0), (0.4, 1.0), (0.4, 2.0)),
-    ]
-    assert len({case.case_id for case in cases}) == 4
-
-
 def test_a_material_with_memory_has_no_other_damping_unless_asked():
     loss, push = material_with(loss=0.3), dict(force=5.0)
     assert Case.of(loading=push).damping.model == "rayleigh"

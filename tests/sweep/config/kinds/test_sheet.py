@@ -3,7 +3,6 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.table import RefusedError
 from sweep.design.surfaces.names import SHEETS
 
@@ -35,15 +34,6 @@ def test_a_mass_sets_the_thickness():
     assert again.lattice == lattice
 
 
-def test_the_values_it_follows_from_make_it_again():
-    for way in ("in_plane", "out_of_plane"):
-        made = case({"direction": way}, cell_size=5 * MM, wall_thickness=0.5 * MM)
-        again = made.changed()
-        assert isinstance(again.lattice, Sheet)
-        assert again.case_id == made.case_id
-        assert Case.from_json(made.to_json()).case_id == made.case_id
-
-
 def test_walls_are_shells_whichever_way_it_is_pressed():
     for way in ("in_plane", "out_of_plane"):
         made = case({"direction": way, "platen": "clamped"})
@@ -53,27 +43,29 @@ def test_walls_are_shells_whichever_way_it_is_pressed():
         assert (made.lattice.period, made.lattice.cells_y) == (pytest.approx(made.height / 2), 2)
 
 
-REFUSED = [
-    ({"wall_thickness": 2 * MM}, {}, "below a fifth of the period"),
-    ({"cell_size": 200 * MM}, {}, "at most 0.08333 m where 0.0125 m are pressed"),
-    ({"nodes_per_wall": 20}, {}, "1 to 11"),
-    ({"nodes_per_wall": 0}, {}, "1 to 11"),
-    ({"cell_size": 0.1 * MM, "wall_thickness": 0.01 * MM}, {}, "at most 20,000 quads"),
-    ({"imperfection": 5.0}, {}, "at most 1, in wall thicknesses"),
-    ({"mass": 0.02}, {}, "lattice.mass"),
-    ({"mass": 1e-4, "wall_thickness": 0.1 * MM}, {}, "give one of them"),
-    ({}, {"mode": "force"}, '"displacement" or "impact" if lattice.kind is "gyroid"'),
-    ({}, {"platen": "sliding"}, '"glued", "clamped" or "contact" if lattice.kind is "gyroid"'),
-    ({}, {"striker": "round", "mode": "impact"}, '"flat" if lattice.kind is "gyroid"'),
-    ({}, {"mode": "impact", "target_mass": 1.0}, 'none if lattice.kind is "gyroid"'),
-]
+SHEET = 'if lattice.kind is "gyroid"'
 
 
-@pytest.mark.parametrize(("lattice", "loading", "words"), REFUSED)
-def test_what_a_sheet_does_not_have_is_refused(lattice, loading, words):
-    with pytest.raises(RefusedError, match="allowed") as refused:
-        case(loading, **lattice)
-    assert words in str(refused.value)
+@pytest.mark.parametrize(
+    ("lattice", "words"),
+    [
+        ({"wall_thickness": 2 * MM}, "below a fifth of the period"),
+        ({"cell_size": 200 * MM}, "at most 0.08333 m where 0.0125 m are pressed"),
+        ({"nodes_per_wall": 20}, "1 to 11"),
+        ({"nodes_per_wall": 0}, "1 to 11"),
+        ({"cell_size": 0.1 * MM, "wall_thickness": 0.01 * MM}, "at most 20,000 quads"),
+        ({"imperfection": 5.0}, "at most 1, in wall thicknesses"),
+        ({"mass": 0.02}, "lattice.mass = .*; allowed"),
+        ({"mass": 1e-4, "wall_thickness": 0.1 * MM}, "give one of them"),
+        ({"loading": {"mode": "force"}}, f'"displacement" or "impact" {SHEET}'),
+        ({"loading": {"platen": "sliding"}}, f'"glued", "clamped" or "contact" {SHEET}'),
+        ({"loading": {"striker": "round", "mode": "impact"}}, f'"flat" {SHEET}'),
+        ({"loading": {"mode": "impact", "target_mass": 1.0}}, f"none {SHEET}"),
+    ],
+)
+def test_what_a_sheet_does_not_have_is_refused(lattice, words):
+    with pytest.raises(RefusedError, match=words):
+        case(**lattice)
 
 
 def test_keys_of_upright_walls_and_of_drawn_ones_do_not_count():

@@ -49,14 +49,6 @@ def test_names_of_keys_and_patterns_are_the_slicers(load):
     assert case.lattice.geometry.sliced.pattern == "stars"
 
 
-def test_what_is_printed_tells_designs_apart():
-    designs = [{}, {"infill": 0.21}, {"fill_angle": 0.5}, {"slicer": "cura"}, {"perimeters": 3}]
-    designs += [{"pattern": "stars"}, {"layer_height": 0.15e-3}]
-    assert len({Case.of(lattice=sliced(**lattice)).case_id for lattice in designs}) == len(designs)
-    labelled = sliced(nozzle=0.5e-3, line_width=0.45e-3, printable=True)
-    assert Case.of(lattice=labelled).case_id == Case.of(lattice=sliced(line_width=0.45e-3)).case_id
-
-
 @pytest.mark.parametrize("pattern", ["grid", "triangles", "stars", "honeycomb"])
 def test_a_mass_is_that_which_is_extruded(pattern):
     """At any density of the material."""

@@ -5,7 +5,6 @@ from math import pi
 import pytest
 
 from sweep.config.case import Case
-from tests.support.designs.cases import pressed
 
 MOST = "at most 1,000,000 steps"
 
@@ -35,13 +34,6 @@ def test_a_step_by_default_is_called_one(refused):
     assert refused('[loading]\nduration = "1000 s"', key, MOST)
 
 
-def test_a_speed_brings_time_back():
-    case = pressed(speed=1e-3, strain=0.4)
-    assert (case.solver.integrator, case.solver.load_steps) == ("backward_euler", 200)
-    assert case.solver.time_step == pytest.approx(5e-3 / 1e-3 / 200)
-    assert case.damping.model == "rayleigh"
-
-
 def usual_step(**loading):
     """The usual step of an impact on 12.5 x 12.5 x 12 mm of 15 MPa."""
     material = {"modulus": 15e6, "density": 1200.0}
@@ -56,22 +48,6 @@ def test_steps_of_an_impact_are_a_share_of_its_contact():
         assert usual_step(striker_speed=speed) == pytest.approx(contact / 20)
     assert usual_step(striker_speed=0.01, striker_mass=0.2) == pytest.approx(contact / 10)
     assert usual_step(striker_speed=1e-3, striker_mass=5e-4) == pytest.approx(125.0 / 1e6)
-
-
-@pytest.mark.parametrize(
-    ("given", "integrator", "step_error"),
-    [
-        ({}, "bdf2", 12.5e-7),
-        ({"step_error": 1e-6}, "bdf2", 1e-6),
-        ({"time_step": 1e-4}, "backward_euler", None),
-        ({"integrator": "newmark"}, "newmark", None),
-    ],
-)
-def test_steps_of_a_dead_load_follow_its_error_unless_they_are_given(given, integrator, step_error):
-    solver = Case.of(loading={"mode": "force"}, solver=given).solver
-    assert solver.integrator == integrator
-    assert solver.time_step == 1e-4
-    assert solver.step_error == (step_error and pytest.approx(step_error))
 
 
 def test_time_step_under_a_speed_makes_a_whole_number_of_steps():

@@ -46,7 +46,7 @@ def test_equal_strikers_have_equal_ids_and_others_others():
     assert len({usual, *(struck(striker="round", **keys).case_id for keys in (at, ribs))}) == 3
 
 
-def test_a_case_with_a_striker_is_read_back():
+def test_a_flat_striker_drops_the_keys_of_others():
     case = struck("impact", **EDGE, base="ribs", base_span=9e-3)
     assert Case.from_json(case.to_json()) == case
     assert case.changed(loading={"striker": "flat"}).loading.striker_angle is None

@@ -6,7 +6,6 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.grid import expand
-from sweep.config.kinds.table import TABLES
 
 ALONG = '[loading]\ndirection = "out_of_plane"\n'
 ONLY = 'if loading.direction is "out_of_plane"'
@@ -21,52 +20,10 @@ def along(lattice=None, **loading):
 def test_a_crush_along_the_cells_presses_the_depth():
     case = along(dict(height=9e-3, depth=20e-3))
     assert (case.loading.mode, case.loading.platen) == ("displacement", "glued")
-    assert case.loading.stroke == pytest.approx(0.6 * 20e-3)
-    assert case.height == 20e-3
+    assert (case.height, case.loading.stroke) == (20e-3, pytest.approx(0.6 * 20e-3))
     assert case.footprint == pytest.approx((13.3e-3, 9.8e-3))
-
-
-def test_the_plane_has_its_own_height_and_footprint():
-    case = Case.of(lattice=dict(height=9e-3, depth=20e-3), loading=dict(mode="displacement"))
-    assert case.height == 9e-3
-    assert case.footprint == pytest.approx((13.3e-3, 20e-3))
-
-
-def test_a_wall_has_six_quads_and_layers_as_high():
-    """A wall of 4 mm has quads of 0.667 mm, or as long as it is thick; 12 mm have 18 of them."""
-    box = dict(width=12e-3, height=12e-3)
-    for keys, nodes, layers in (
-        (dict(wall_thickness=0.4e-3), 5, 18),
-        (dict(wall_thickness=0.4e-3, nodes_per_wall=3), 3, 12),
-        (dict(wall_thickness=0.8e-3), 5, 15),
-    ):
-        lattice = along(box | keys).lattice
-        assert (lattice.nodes_per_wall, lattice.layers) == (nodes, layers)
-
-
-def test_a_resolved_case_stays_as_it_is():
-    case = along()
-    again = Case.of(**{name: getattr(case, name) for name in TABLES})
-    assert (again, again.case_id) == (case, case.case_id)
-
-
-def test_layers_that_are_given_and_found_are_the_same_case():
-    assert along(dict(layers=14)).case_id == along().case_id != along(dict(layers=9)).case_id
-
-
-def test_each_draw_of_the_imperfection_is_a_case_unless_there_is_none():
-    ids = {along(dict(imperfection_seed=seed)).case_id for seed in (None, 0, 1)}
-    assert len(ids) == 3
-    straight = {along(dict(imperfection=0.0, imperfection_seed=s)).case_id for s in (None, 1)}
-    assert len(straight) == 1
-
-
-def test_what_only_the_other_direction_uses_does_not_count():
-    pressed = dict(mode="displacement")
-    turned = dict(layers=7, symmetry="quarter", imperfection_seed=3)
-    assert Case.of(lattice=turned, loading=pressed).case_id == Case.of(loading=pressed).case_id
-    sheet = Case.of(material=dict(plane="stress"), loading=along().loading)
-    assert sheet.case_id == along().case_id
+    plane = case.changed(loading=dict(direction="in_plane"))
+    assert (plane.height, plane.footprint) == (9e-3, pytest.approx((13.3e-3, 20e-3)))
 
 
 PERIODIC, QUARTER = 'sides = "periodic"\n', 'symmetry = "quarter"'
@@ -98,19 +55,18 @@ def test_what_does_not_go_along_the_cells_is_refused(last_refused, text, words):
     assert last_refused(ALONG + text, *words)
 
 
+SLICED = '[lattice]\nslicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 2'
+BY_FORCE = 'loading.mode = "force", as loading.force is given'
+OF_PLA = 'material.yield_stress = 4.5e+07 Pa in the file of "pla"'
+
+
 @pytest.mark.parametrize(
     ("text", "key", "words"),
     [
-        ('force = "3 N"', 'loading.mode = "force", as loading.force is given', f'"impact" {ONLY}'),
+        ('force = "3 N"', BY_FORCE, f'"impact" {ONLY}'),
         (f'[lattice]\n{PERIODIC}kind = "hex"', "lattice.cells_y = 3 by default", "an even number"),
-        (
-            '[lattice]\nslicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 2',
-            *('lattice.slicer = "prusa"', f"none {ONLY}"),
-        ),
-        (
-            '[material]\nname = "pla"',
-            *('material.yield_stress = 4.5e+07 Pa in the file of "pla"', f"none {ONLY}"),
-        ),
+        (SLICED, 'lattice.slicer = "prusa"', f"none {ONLY}"),
+        ('[material]\nname = "pla"', OF_PLA, f"none {ONLY}"),
     ],
 )
 def test_what_follows_from_other_keys_is_refused_with_these(refused, text, key, words):

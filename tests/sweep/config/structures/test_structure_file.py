@@ -7,6 +7,7 @@ import pytest
 from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
 from sweep.config.load import load_config
+from sweep.config.structures.structure import Structure
 
 GOOD = {"nodes_mm": [[0, 0], [10, 0], [10, 5]], "walls": [[0, 1], [1, 2]]}
 FIXED = [{"node": 0, "fix": ["x", "y", "rotation"]}]
@@ -61,6 +62,21 @@ def lines(tmp_path):
         return []
 
     return said
+
+
+@pytest.mark.parametrize(
+    ("key", "read", "one", "each"),
+    [
+        ("wall_thickness_mm", "thickness_mm", 0.5, (0.5, 0.7)),
+        ("subdivide", "pieces", 3, (3, 1)),
+        ("initial_velocity_mm_s", "velocity_mm_s", (1.0, 2.0), ((1.0, 2.0),) * 2 + ((0.0, 0.0),)),
+    ],
+)
+def test_one_value_stands_for_each(key, read, one, each):
+    walls = {"nodes_mm": ((0.0, -2.0), (3.0, 1.0), (-4.0, 0.0)), "walls": ((0, 1), (1, 2))}
+    made = Structure.model_validate(walls | {key: one})
+    assert (getattr(made, read), made.size_mm) == ((one,) * len(each), (7.0, 3.0))
+    assert getattr(Structure.model_validate(walls | {key: each}), read) == each
 
 
 def test_a_sound_file_is_read(lines):
