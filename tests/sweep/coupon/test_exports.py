@@ -121,9 +121,3 @@ def test_a_test_whose_file_says_that_it_is_pressed_is_not_asked_for(tmp_path, ro
     found = read_coupon(stored(tmp_path, "puck", content), Answers(**sizes))
     assert found.sign == -1.0
     assert found.notes[-1] == "pressed, as the file says, not its signs"
-
-
-def test_a_position_and_a_preload_are_one_question(tmp_path):
-    way = [ROWS.time, ROWS.displacement - 794.864, ROWS.force + 5.0]
-    with pytest.raises(CouponError, match=r"needed: --zero first or --zero line: .* 9 %"):
-        read_coupon(stored(tmp_path, "strip", text(OURS, way)), Answers(**SIZES))

@@ -90,31 +90,3 @@ def test_preload_is_shifted_as_the_user_says_with_a_sentence(tmp_path):
     line = read_coupon(path, Answers(zero="line"))
     assert line.stress[1:] == pytest.approx(1e7 * line.strain[1:], rel=1e-6)
     assert (line.strain[0], line.stress[0]) == (0.0, 0.0)
-
-
-@pytest.mark.parametrize(
-    ("answers", "wrong"),
-    [
-        ({"gauge": 8e-3}, "--gauge has no effect, .* strain"),
-        ({"units": {"force": "N"}}, "--units force has no effect"),
-        ({"columns": {"stress": "load"}}, "--columns load: no such column; its heads: time"),
-    ],
-)
-def test_options_without_effect_are_refused(tmp_path, answers, wrong):
-    with pytest.raises(CouponError, match=wrong):
-        read_coupon(written(tmp_path, TEST), Answers(**answers))
-
-
-@pytest.mark.parametrize(
-    ("content", "wrong"),
-    [
-        ("", "no rows of numbers; needed: columns such as time_s"),
-        (f"{READY}\n" + "0,1\n" * 30, "--columns stress=..., or force"),
-        ("stress_Pa\n" + "1\n" * 30, "no rows of numbers"),
-    ],
-)
-def test_what_is_no_record_is_refused(tmp_path, content, wrong):
-    path = tmp_path / "own.csv"
-    path.write_text(content)
-    with pytest.raises(CouponError, match=wrong):
-        read_coupon(path)
