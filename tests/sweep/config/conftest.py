@@ -1,5 +1,7 @@
 """Shared by the tests of configs."""
 
+import re
+
 import pytest
 
 from sweep.config.faults import ConfigError
@@ -39,5 +41,18 @@ def refused(lines):
         assert line.startswith((f"{key}: ", f"{key} is missing; needed: "))
         assert [word for word in words if word not in line.removeprefix(key)] == []
         return line
+
+    return line_of
+
+
+@pytest.fixture
+def last_refused(refused):
+    """Return the one line of a config whose last line is refused; it must contain some words."""
+
+    def line_of(config, *words):
+        table = re.findall(r"^\[+(\w+)\]+$", config, re.MULTILINE)[-1]
+        key = config.splitlines()[-1]
+        prefix = {"grid": "[grid] ", "zip": "[[zip]] ", "exclude": "[[exclude]] "}
+        return refused(config, prefix.get(table, f"{table}.") + key, *words)
 
     return line_of

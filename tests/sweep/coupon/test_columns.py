@@ -20,20 +20,20 @@ def table(*heads, **values):
 @pytest.mark.parametrize(
     ("heads", "quantities"),
     [
-        (["time/s", "displacement/mm", "force/N"], "time displacement force"),
-        (["Prüfzeit/s", "Standardweg/mm", "Standardkraft/N"], "time displacement force"),
-        (["Temps/s", "Course standard/mm", "Force/kN"], "time displacement force"),
-        (["Tiempo/s", "Deformación/%", "Tensión/MPa"], "time strain stress"),
-        (["t/s", "Extension/%", "Tensile stress/MPa"], "time strain stress"),
-        (["时间/s", "位移/mm", "力/kN"], "time displacement force"),
-        (["時間/s", "ひずみ/%", "応力/MPa"], "time strain stress"),
-        (["Time/s", "True strain/%", "Strain rate/1/s", "Width/mm"], "time"),
-        (["/s", "/mm", "/N"], "time displacement force"),
-        (["TestTime/Sec", "XDisplacement/um", "LoadCell/mN"], "time displacement force"),
+        ("time/s displacement/mm force/N", "time displacement force"),
+        ("Prüfzeit/s Standardweg/mm Standardkraft/N", "time displacement force"),
+        ("Temps/s Course_standard/mm Force/kN", "time displacement force"),
+        ("Tiempo/s Deformación/% Tensión/MPa", "time strain stress"),
+        ("t/s Extension/% Tensile_stress/MPa", "time strain stress"),
+        ("时间/s 位移/mm 力/kN", "time displacement force"),
+        ("時間/s ひずみ/% 応力/MPa", "time strain stress"),
+        ("Time/s True_strain/% Strain_rate/1/s Width/mm", "time"),
+        ("/s /mm /N", "time displacement force"),
+        ("TestTime/Sec XDisplacement/um LoadCell/mN", "time displacement force"),
     ],
 )
 def test_words_and_units_say_what_a_column_is(heads, quantities):
-    found = columns_of(table(*heads), {}, {})
+    found = columns_of(table(*(head.replace("_", " ") for head in heads.split())), {}, {})
     assert [*found.values] == quantities.split()
     assert found.questions == []
 
@@ -45,28 +45,31 @@ def test_columns_are_in_si():
     assert columns_of(table("strain", "x/s"), {}, {}).values["strain"][-1] == 1.0
 
 
-def test_of_several_columns_the_user_is_asked_unless_they_are_the_same():
-    heads = ("Extension/mm", "Tensile extension/um", "Load/N", "Time/s")
-    same = columns_of(table(*heads, c1=1e3 * UP + 7.0), {}, {})
-    assert same.values["displacement"][-1] == 1e-3
-    holes = np.where(UP < 0.1, np.nan, 1e3 * UP)
-    assert columns_of(table(*heads, c1=holes), {}, {}).undecided == set()
-    apart = np.where(UP < 0.5, np.nan, UP)
-    lost = np.where(UP < 0.5, UP, np.nan)
-    assert columns_of(table(*heads, c0=lost, c1=apart), {}, {}).undecided == {"displacement"}
-    other = columns_of(table(*heads), {}, {})
-    assert other.undecided == {"displacement"}
-    (question,) = other.questions
-    assert question.startswith(
-        '--columns displacement="Extension" or displacement="Tensile extension"'
-    )
-    chosen = columns_of(table(*heads), {"displacement": "tensile EXTENSION"}, {})
+HEADS = ("Extension/mm", "Tensile extension/um", "Load/N", "Time/s")
+HALVES = dict(c0=np.where(UP < 0.5, UP, np.nan), c1=np.where(UP < 0.5, np.nan, UP))
+
+
+@pytest.mark.parametrize(
+    ("columns", "undecided"),
+    [
+        ({"c1": 1e3 * UP + 7.0}, set()),
+        ({"c1": np.where(UP < 0.1, np.nan, 1e3 * UP)}, set()),
+        (HALVES, {"displacement"}),
+        ({"c0": 0.0 * UP}, set()),
+    ],
+)
+def test_of_columns_that_are_the_same_or_constant_one_counts(columns, undecided):
+    assert columns_of(table(*HEADS, **columns), {}, {}).undecided == undecided
+
+
+def test_of_several_columns_the_user_is_asked():
+    (question,) = columns_of(table(*HEADS), {}, {}).questions
+    wanted = '--columns displacement="Extension" or displacement="Tensile extension"'
+    assert question.startswith(wanted)
+    chosen = columns_of(table(*HEADS), {"displacement": "tensile EXTENSION"}, {})
     assert chosen.values["displacement"][-1] == pytest.approx(2e-6)
-    assert (
-        columns_of(table("Load/N", "Load/N", c1=UP**2), {}, {})
-        .questions[0]
-        .startswith('--columns force="1" or force="2"')
-    )
+    (question,) = columns_of(table("Load/N", "Load/N", c1=UP**2), {}, {}).questions[:1]
+    assert question.startswith('--columns force="1" or force="2"')
 
 
 def test_of_tests_side_by_side_one_answer_chooses_the_test():
@@ -79,18 +82,11 @@ def test_of_tests_side_by_side_one_answer_chooses_the_test():
     assert ends == pytest.approx([4.0, 5.0, 6e-3])
 
 
-def test_constant_columns_are_no_candidates():
-    found = columns_of(table("Force/N", "Force 2/N", c1=0.0 * UP), {}, {})
-    assert found.questions == []
-
-
 def test_units_that_are_not_known_are_asked_for_at_once():
     heads = ("Time", "Strain", "Stress/bananas")
     (question,) = columns_of(table(*heads), {}, {}).questions
-    assert question == (
-        "--units time=s strain=% stress=MPa, or other units: none are known of Time, Strain, "
-        "Stress [bananas]"
-    )
+    assert question.startswith("--units time=s strain=% stress=MPa, or other units: none are known")
+    assert question.endswith("Time, Strain, Stress [bananas]")
     assert columns_of(table("Load/N", "Load cell/V"), {}, {}).undecided == set()
     given = columns_of(table(*heads), {"stress": "3"}, {"time": "s", "strain": "%", "stress": "Pa"})
     assert [*given.values] == ["time", "strain", "stress"]

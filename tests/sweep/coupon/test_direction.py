@@ -42,11 +42,21 @@ def test_stiffness_that_grows_is_no_printed_strip():
         rows = shown >= STRAIN
         assert "grows by" in doubt(STRAIN[rows], GROWING[rows], None, to_scale=shown < 0.4)
         assert doubt(STRAIN[rows], FALLING[rows], None, to_scale=True) is None
-    assert doubt(STRAIN, GROWING, "pulled", to_scale=True) is None
-    assert doubt(STRAIN, GROWING, "pressed", to_scale=True) is None
-    assert "words of pulling" in doubt(-STRAIN, -GROWING, "pulled", to_scale=True)
-    assert doubt(-STRAIN, GROWING, "pulled", to_scale=True) is None
-    assert doubt(-STRAIN, -GROWING, None, to_scale=True) is None
     far = np.linspace(0.0, 5.0, 501)
     stiff_at_last = 6e6 * (1.0 + far - (1.0 + far) ** -2) + 1e6 * far**4
     assert doubt(far, stiff_at_last, None, to_scale=True) is None
+
+
+@pytest.mark.parametrize(
+    ("signs", "test", "words"),
+    [
+        ((1, 1), "pulled", None),
+        ((1, 1), "pressed", None),
+        ((-1, -1), "pulled", "words of pulling"),
+        ((-1, 1), "pulled", None),
+        ((-1, -1), None, None),
+    ],
+)
+def test_words_and_signs_say_the_direction(signs, test, words):
+    found = doubt(signs[0] * STRAIN, signs[1] * GROWING, test, to_scale=True)
+    assert words in found if words else found is None

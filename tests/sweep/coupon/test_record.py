@@ -33,8 +33,6 @@ def test_displacements_and_forces_need_the_size(tmp_path):
     assert found.stress == pytest.approx(TEST.stress)
     with pytest.raises(CouponError, match=r"coupon.csv: needed: --gauge .*displacement \[mm\]$"):
         read_coupon(path, Answers(area=8e-6))
-    with pytest.raises(CouponError, match=r"needed: --area .*force \[N\]$"):
-        read_coupon(path, Answers(gauge=33e-3))
     with pytest.raises(CouponError, match=r"needed, all in one command:\n  --gauge .*\n  --area "):
         read_coupon(path)
 
@@ -55,46 +53,22 @@ def test_test_of_a_file_is_what_the_user_says(tmp_path):
         assert found.stress == pytest.approx(sign * TEST.stress)
 
 
+READY = "time_s,strain,stress_Pa"
+
+
 @pytest.mark.parametrize(
     ("heads", "scales", "wrong"),
     [
-        ("time_s,strain,stress_Pa", (1, 1, 1e-6), "needed: --units stress=MPa if it is in MPa: a"),
-        ("time_s,strain,stress_Pa", (1, 1, 1e-3), "needed: --units stress=kPa if it is in kPa: a"),
-        ("time_s,strain,stress_Pa", (1, 1, 1e6), "modulus of .* GPa; .*size of the specimen right"),
-        ("time_s,strain,stress_Pa", (1, 100, 1), "needed: --units strain=% .* 30 would be 3000 %"),
-        ("time_s,strain,stress_Pa", (1, 0.1, 1), "up to 0.03; needed: at least 0.04"),
-        ("time_s,strain,stress_Pa", (1, -4, -1), "a strain of -1 or less"),
-        ("time_s,strain,stress_Pa", (-1, 1, 1), "time does not increase from row 1 to row 2"),
+        (READY, (1, 1, 1e-6), "needed: --units stress=MPa if it is in MPa: a"),
+        (READY, (1, 1, 0), r"--columns stress=..., or force.*: time, strain, stress \(constant\)"),
+        (READY, (0, 1, 1), "--columns time=..."),
         ("day,strain,stress_Pa", (1, 1, 1), "--speed .*, or --columns time=...; its heads: day, "),
         ("time_s,e,stress_Pa", (1, 1, 1), "--columns strain=..., or displacement=... with --gaug"),
-        ("strain,stress_Pa", (1, 1, 1), "rows have 3 values, but there are 2 heads; needed: as"),
-        ("Time,Strain,Stress", (1, 1, 1), "--units time=s strain=% stress=MPa, or other units"),
-        (
-            *("time_s,strain,stress_Pa", (1, 1, 0)),
-            r"--columns stress=..., or force.*: time, strain, stress \(constant\)",
-        ),
     ],
 )
 def test_what_has_other_units_or_columns_is_refused(tmp_path, heads, scales, wrong):
     with pytest.raises(CouponError, match=rf"coupon.csv: .*{wrong}"):
         read_coupon(written(tmp_path, TEST, heads, scales))
-
-
-@pytest.mark.parametrize(
-    ("test", "wrong"),
-    [
-        (changed(time=0.0 * TEST.time), "--columns time=..."),
-        (changed(stress=TEST.stress * np.nan), "--columns stress=..., or force"),
-        (changed(stress=TEST.stress + 1e6), "needed: --zero first or --zero line: .* begins with"),
-        (
-            Coupon("short", *(getattr(TEST, name)[:19] for name in NAMES)),
-            "19 rows of numbers: too few",
-        ),
-    ],
-)
-def test_what_is_no_test_is_refused(tmp_path, test, wrong):
-    with pytest.raises(CouponError, match=wrong):
-        read_coupon(written(tmp_path, test))
 
 
 @pytest.mark.parametrize("name", ["strain", "stress"])
@@ -107,6 +81,8 @@ def test_a_chosen_column_of_one_number_is_refused(tmp_path, name):
 
 def test_preload_is_shifted_as_the_user_says_with_a_sentence(tmp_path):
     path = written(tmp_path, changed(strain=TEST.strain + 0.01, stress=TEST.stress + 1e6))
+    with pytest.raises(CouponError, match=r"needed: --zero first or --zero line: .* begins with"):
+        read_coupon(path)
     found = read_coupon(path, Answers(zero="first"))
     assert found.strain == pytest.approx(TEST.strain, abs=1e-9)
     assert found.stress == pytest.approx(TEST.stress, abs=1.0)
@@ -114,26 +90,3 @@ def test_preload_is_shifted_as_the_user_says_with_a_sentence(tmp_path):
     line = read_coupon(path, Answers(zero="line"))
     assert line.stress[1:] == pytest.approx(1e7 * line.strain[1:], rel=1e-6)
     assert (line.strain[0], line.stress[0]) == (0.0, 0.0)
-
-
-def test_options_without_effect_and_files_that_are_none_are_refused(tmp_path):
-    path = written(tmp_path, TEST)
-    for answers, wrong in (
-        (Answers(area=8e-6), "--area has no effect, .* stress"),
-        (Answers(gauge=8e-3), "--gauge has no effect, .* strain"),
-        (Answers(speed=8e-3), "--speed has no effect, .* time"),
-        (Answers(units={"force": "N"}), "--units force has no effect"),
-        (Answers(columns={"stress": "load"}), "--columns load: no such column; its heads: time"),
-    ):
-        with pytest.raises(CouponError, match=wrong):
-            read_coupon(path, answers)
-    with pytest.raises(CouponError, match="No such file"):
-        read_coupon(tmp_path / "none.csv")
-    for content, wrong in (
-        ("", "no rows of numbers; needed: columns such as time_s"),
-        ("time_s,strain,stress_Pa\n" + "0,1\n" * 30, "--columns stress=..., or force"),
-        ("stress_Pa\n" + "1\n" * 30, "no rows of numbers"),
-    ):
-        path.write_text(content)
-        with pytest.raises(CouponError, match=wrong):
-            read_coupon(path)

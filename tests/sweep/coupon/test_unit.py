@@ -6,49 +6,38 @@ from sweep.coupon.unit import is_unit, size_in_si, unit_in_head
 
 
 @pytest.mark.parametrize(
-    ("head", "found"),
+    ("head", "name", "unit"),
     [
-        ("Load (kN)", ("Load", "kN")),
-        ("Force [ kN ]", ("Force", "kN")),
-        ("C_1_Temps[s]", ("C_1_Temps", "s")),
-        ("Weg / mm", ("Weg", "mm")),
-        ("Kraft in N", ("Kraft", "N")),
-        ("Time, s", ("Time", "s")),
-        ("stress_N/mm²", ("stress", "N/mm²")),
-        ("strain_percent", ("strain", "percent")),
-        ("AVE 2 (%)", ("AVE 2", "%")),
-        ("Compressive strain (Extension)", ("Compressive strain (Extension)", "")),
-        ("Strain 1", ("Strain 1", "")),
-        ("strain", ("strain", "")),
-        ("", ("", "")),
+        ("Load (kN)", "Load", "kN"),
+        ("Force [ kN ]", "Force", "kN"),
+        ("Weg / mm", "Weg", "mm"),
+        ("Kraft in N", "Kraft", "N"),
+        ("Time, s", "Time", "s"),
+        ("stress_N/mm²", "stress", "N/mm²"),
+        ("strain_percent", "strain", "percent"),
+        ("AVE 2 (%)", "AVE 2", "%"),
+        ("Compressive strain (Extension)", "Compressive strain (Extension)", ""),
+        ("Strain 1", "Strain 1", ""),
+        ("", "", ""),
     ],
 )
-def test_a_head_is_parted_from_its_unit(head, found):
-    assert unit_in_head(head) == found
+def test_a_head_is_parted_from_its_unit(head, name, unit):
+    assert unit_in_head(head) == (name, unit)
 
 
-@pytest.mark.parametrize(
-    ("unit", "quantity", "size"),
-    [
-        ("KN", "force", 1e3),
-        ("lbs", "force", 4.4482216152605),
-        ("kg", "force", 9.80665),
-        ("N/mm2", "stress", 1e6),
-        ("MPA", "stress", 1e6),
-        ("mm/mm", "strain", 1.0),
-        ("-", "strain", 1.0),
-        ("%", "strain", 0.01),
-        ("sec", "time", 1.0),
-        ("Sec", "time", 1.0),
-        ("MM", "displacement", 1e-3),
-        ("min", "time", 60.0),
-        ("in", "displacement", 0.0254),
-        ("mm", "force", None),
-        ("°C", "strain", None),
-    ],
-)
-def test_sizes_of_units(unit, quantity, size):
-    assert size_in_si(unit, quantity) == pytest.approx(size)
+SIZES = {
+    "force": {"KN": 1e3, "lbs": 4.4482216152605, "kg": 9.80665, "mm": None},
+    "stress": {"N/mm2": 1e6, "MPA": 1e6},
+    "strain": {"mm/mm": 1.0, "-": 1.0, "%": 0.01, "°C": None},
+    "time": {"sec": 1.0, "Sec": 1.0, "min": 60.0},
+    "displacement": {"MM": 1e-3, "in": 0.0254},
+}
+
+
+@pytest.mark.parametrize("quantity", SIZES)
+def test_sizes_of_units(quantity):
+    for unit, size in SIZES[quantity].items():
+        assert size_in_si(unit, quantity) == pytest.approx(size), unit
 
 
 def test_what_is_a_unit():

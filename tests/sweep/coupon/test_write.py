@@ -42,17 +42,13 @@ def test_material_is_read_with_what_was_fitted(own_record, both):
 
 
 def test_ranges_are_standard_errors_within_what_a_file_may_state(own_record, both):
-    record = read(own_record, both)
-    low, high = record.ranges["loss"]
+    low, high = read(own_record, both).ranges["loss"]
     assert (high - low) / 2.0 == pytest.approx(both.errors["loss"], rel=0.05)
-    wide = replace(
-        both, errors={"modulus": 3.0, "loss": 9.0, "softening_r": 9.0, "softening_m": 9e9}
-    )
-    record = read(own_record, wide)
-    assert 0.0 < record.ranges["loss"][0] < 0.01 < record.ranges["loss"][1] == 0.8
-    assert 1.0 < record.ranges["softening_r"][0] < 1.02
-    assert record.ranges["softening_m"][0] > 0.0
-    assert record.ranges["modulus"][0] > 0.0
+    errors = {"modulus": 3.0, "loss": 9.0, "softening_r": 9.0, "softening_m": 9e9}
+    ranges = read(own_record, replace(both, errors=errors)).ranges
+    assert 0.0 < ranges["loss"][0] < 0.01 < ranges["loss"][1] == 0.8
+    assert 1.0 < ranges["softening_r"][0] < 1.02
+    assert min(ranges["softening_m"][0], ranges["modulus"][0]) > 0.0
     sure = replace(both, errors={"modulus": 0.0})
     assert {"modulus", "loss", "softening_r"}.isdisjoint(read(own_record, sure).ranges)
 
@@ -81,10 +77,7 @@ def test_what_was_found_is_told(own_record, both):
     words = "\n".join(lines)
     assert re.search(r"loss            0.35 ± 0.00\d+, without softening", words)
     assert re.search(r"r 2.5 ± 0.0\d+, m 0.3 ± 0.00\d+ MPa, beta 0.1, which is assumed", words)
-    assert lines[0] == (
-        "first loading   to a strain of 0.5: the curve, of 2 loadings; loss and softening are of "
-        "all of them"
-    )
+    assert lines[0].startswith("first loading   to a strain of 0.5: the curve, of 2 loadings; loss")
     assert lines[-1] == fit_sentence(both)
     assert "within 0.0" in lines[-1]
 
@@ -103,26 +96,27 @@ def test_what_is_unusual_is_a_warning(own_record, scales, noise, wrong):
     test = coupon(0.5, noise=noise)
     columns = (scale * getattr(test, name) for scale, name in zip(scales, NAMES, strict=True))
     found = fit(Coupon("odd", *columns))
-    warnings = [
-        line for line in sentences_on_fit(found, read(own_record, found)) if "Warning" in line
-    ]
+    lines = sentences_on_fit(found, read(own_record, found))
+    warnings = [line for line in lines if "Warning" in line]
     assert len(warnings) == (wrong is not None)
     assert wrong is None or re.search(wrong, warnings[0])
 
 
 @pytest.mark.parametrize(
-    ("ends", "line"),
+    ("ends", "lines"),
     [
-        ((0.5,), "loss            not known, as "),
-        ((0.5, 0.0), "softening       not known, as "),
-        ((0.5, 0.0, 0.5), "loss            none: "),
-        ((0.5, 0.0, 0.5), "softening       none: "),
-        ((0.5, 0.0, 0.5, 0.0), "lost work       0 % and 0 % of "),
+        ((0.5,), ["loss            not known, as "]),
+        ((0.5, 0.0), ["softening       not known, as "]),
+        (
+            (0.5, 0.0, 0.5, 0.0),
+            ["loss            none: ", "softening       none: ", "0 % and 0 % of "],
+        ),
     ],
 )
-def test_what_is_not_known_is_told(own_record, ends, line):
+def test_what_is_not_known_is_told(own_record, ends, lines):
     found = fit(coupon(*ends))
-    assert line in "\n".join(sentences_on_fit(found, read(own_record, found)))
+    words = "\n".join(sentences_on_fit(found, read(own_record, found)))
+    assert [line for line in lines if line not in words] == []
 
 
 STRAIN = np.array([0.05, 0.1, 0.2, 0.3, 0.4])
@@ -137,13 +131,10 @@ def test_a_rubber_is_told_with_the_range_of_other_rules():
     assert ends.endswith("to 3.05 MPa (nominal).")
 
 
-def test_what_is_no_rubber_is_told():
+def test_what_is_no_rubber_is_told_and_a_short_record_is_compared_at_its_end():
     yields = np.sign(BOTH_WAYS) * 1e6 * np.minimum(np.abs(BOTH_WAYS), 0.1) + 1e4 * BOTH_WAYS
     rule, _ = tension_lines(BOTH_WAYS, yields)
     assert rule.endswith("no rubber (Mooney and Rivlin) follows that.")
-
-
-def test_a_short_record_is_compared_at_its_end():
     part = BOTH_WAYS[np.abs(BOTH_WAYS) < 0.15]
     *_, ends = tension_lines(part, Rubber(4e6, 0.0).at(part))
     assert ends.startswith("#   At 10 % strain 1.09 MPa; ")

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from sweep.design.box import gradient, infill_walls, opening
-from sweep.design.drawing import extent
 from sweep.design.infill import families, trait
 from sweep.design.lattice import build_network
 from sweep.design.network import relative_density
@@ -49,15 +48,11 @@ def test_grading_is_linear_and_keeps_the_mean(kind, ratio):
     assert (below + slope) / below == pytest.approx(ratio)
 
 
-def test_square_cells_are_known_without_drawing():
-    closed, drawn = trait("square", "opening"), lattice_of("diamond", cells=(4, 4)).opening
-    assert closed(5e-3, 4.5e-3) == 4.5e-3
+def test_cells_are_as_wide_open_as_their_walls_are_apart():
+    """Square cells are known without drawing; diamonds by Pythagoras; sides of hexagons."""
+    assert trait("square", "opening")(5e-3, 4.5e-3) == 4.5e-3
+    drawn = lattice_of("diamond", cells=(4, 4)).opening
     assert drawn == pytest.approx(5e-3 * 4.5e-3 / np.hypot(5e-3, 4.5e-3), rel=1e-5)
-    low, high = extent("hex", "pointy", (3, 3))
-    np.testing.assert_allclose(high - low, [3.5 * 3**0.5, 5.0], rtol=1e-12)
-
-
-def test_a_regular_hexagon_is_as_wide_open_as_its_sides_are_apart():
     side = 4e-3
     lattice = lattice_of("hex", width=3.5 * 3**0.5 * side, height=5 * side)
     assert opening(lattice.geometry) == pytest.approx(3**0.5 * side, rel=1e-5)

@@ -5,13 +5,10 @@ import pytest
 
 from sweep.design.drawing import (
     Sketch,
-    clusters,
     counts,
     joints_and_walls,
     on_outline,
-    pitch,
     sample,
-    segments_of,
     sketch,
     welded,
 )
@@ -39,11 +36,6 @@ def test_an_outline_goes_all_round_and_nothing_lies_outside(kind, way):
             assert lengths[on].sum() == pytest.approx(box[1 - axis], rel=1e-12)
 
 
-def test_values_that_are_nearly_equal_are_one():
-    values, which = clusters(np.array([3.0, 1.0, 1.0 + 1e-12, 2.0]), 1e-9)
-    assert (values.tolist(), which.tolist()) == ([1.0, 2.0, 3.0], [2, 0, 0, 1])
-
-
 def test_segments_that_meet_share_a_joint_and_doubles_are_one():
     line = np.array(
         [[[0.0, 0.0], [0.0, 1.0]], [[1e-12, 1.0], [2.0, 1.0]], [[2.0, 1.0], [0.0, 1.0]]]
@@ -51,21 +43,6 @@ def test_segments_that_meet_share_a_joint_and_doubles_are_one():
     points, walls = welded(line, 1e-9)
     np.testing.assert_allclose(points, [[0.0, 0.0], [0.0, 1.0], [2.0, 1.0]], atol=1e-11)
     assert walls.tolist() == [[1, 2], [0, 1]]  # the level one first
-
-
-def test_polylines_fall_into_pieces():
-    lines = np.array([[[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]]])
-    pieces = [[[0.0, 0.0], [1.0, 2.0]], [[1.0, 2.0], [3.0, 3.0]]]
-    assert segments_of([lines]).tolist() == pieces
-
-
-@pytest.mark.parametrize(
-    ("kind", "wanted"),
-    [("square", [1.0, 1.0]), ("hex", [3**0.5, 1.5]), ("kagome", [2.0, 3**0.5])],
-)
-def test_pitch_of_regular_cells(kind, wanted):
-    width, height = pitch(kind, "pointy")
-    assert width / height == pytest.approx(wanted[0] / wanted[1])
 
 
 def test_a_sample_has_cells_of_the_same_size():

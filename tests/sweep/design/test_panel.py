@@ -19,20 +19,18 @@ def test_row_is_the_one_nearest_in_length(length, count):
             assert off <= abs(other * (ONE[0] + BESIDE) - BESIDE - 1e-3 * length)
 
 
-@pytest.mark.parametrize(("depth", "count"), [(4.0, 0), (14.0, 1), (25.0, 3), (34.0, 3)])
-def test_depth_has_no_gaps_and_a_half_counts(depth, count):
-    found = panel_of((12.6e-3, 1e-3 * depth), *ONE)
+@pytest.mark.parametrize(
+    ("direction", "gap", "depth", "count"),
+    [
+        *(("in_plane", 0.0, depth, count) for depth, count in ((4.0, 0), (14.0, 1), (25.0, 3))),
+        *(("out_of_plane", BESIDE, depth, count) for depth, count in ((4.6, 0), (4.9, 1))),
+        *(("out_of_plane", BESIDE, depth, count) for depth, count in ((15.1, 1), (15.3, 2))),
+    ],
+)
+def test_only_what_is_pressed_along_its_cells_has_gaps_behind(direction, gap, depth, count):
+    found = panel_of((12.6e-3, 1e-3 * depth), *ONE, BEHIND[direction])
     assert (found.across, found.behind) == (1, count)
-    assert found.depth == pytest.approx(1e-2 * count)
-
-
-@pytest.mark.parametrize(("depth", "count"), [(4.6, 0), (4.9, 1), (15.1, 1), (15.3, 2), (30.8, 3)])
-def test_what_is_pressed_along_its_cells_has_gaps_both_ways(depth, count):
-    """N specimens are n 10.4 mm - 0.4 mm long."""
-    found = panel_of((12.6e-3, 1e-3 * depth), *ONE, BEHIND["out_of_plane"])
-    assert (found.across, found.behind) == (1, count)
-    assert found.depth == pytest.approx(1.04e-2 * count - BESIDE)
-    assert BEHIND["in_plane"] == 0.0
+    assert found.depth == pytest.approx((ONE[1] + gap) * count - gap)
 
 
 def test_columns_as_numbers():

@@ -48,9 +48,6 @@ def test_quads_of_a_wall_are_as_wished_unless_it_is_too_thick():
     assert quads_along(plan, 6).tolist() == [6, 2]
     assert quads_along(plan, 20).tolist() == [12, 2]
     assert quads_along(plan, np.array([3, 1])).tolist() == [3, 1]
-
-
-def test_a_wall_shorter_than_thick_has_one_quad():
     assert quads_along(plan_of(network([[0, 0], [0.2, 0]], [[0, 1]])), 6).tolist() == [1]
 
 
@@ -59,9 +56,8 @@ def test_layers_are_as_high_as_quads_are_long():
     along = np.array([6, 2])  # quads of 1 mm
     assert layers_of(plan, along, 9.3e-3) == 9
     assert layers_of(plan, along, 0.1e-3) == 1
-    assert (
-        layers_of(plan_of(network([[0, 0], [6, 0]], [[0, 1]], 0.9e-3)), np.array([12]), 4e-3) == 4
-    )
+    thick = plan_of(network([[0, 0], [6, 0]], [[0, 1]], 0.9e-3))
+    assert layers_of(thick, np.array([12]), 4e-3) == 4
 
 
 @pytest.mark.parametrize("cells", [1, 3])
@@ -109,18 +105,17 @@ def test_half_a_wall_has_half_the_quads():
     assert set(quads_along(quarter, 6)[~cut]) == {6}
 
 
-FAULTS = {
-    ("square", 2): "joints lie on its middle planes",
-    ("hex", 3): "not symmetric about its middle",
-    ("triangle", 3): "joints lie on its middle planes",
-}
-
-
-@pytest.mark.parametrize("drawing", FAULTS)
-def test_what_has_no_quarter_says_why(drawing):
-    plan = drawn(*drawing)
-    assert FAULTS[drawing] in mirror_fault(plan)
-    with pytest.raises(ValueError, match=FAULTS[drawing]):
+@pytest.mark.parametrize(
+    ("kind", "cells", "fault"),
+    [
+        ("square", 2, "joints lie on its middle planes"),
+        ("hex", 3, "not symmetric about its middle"),
+    ],
+)
+def test_what_has_no_quarter_says_why(kind, cells, fault):
+    plan = drawn(kind, cells)
+    assert fault in mirror_fault(plan)
+    with pytest.raises(ValueError, match=fault):
         plan_of(plan, quarter=True)
 
 
@@ -135,7 +130,4 @@ def test_odd_circuits_do_not_buckle_symmetrically():
     points = [[0, 0], [4, 0], [4, 4], [0, 4], [1, -1], [3, -1], [1, 5], [3, 5]]
     walls = [[0, 4], [4, 5], [5, 1], [1, 2], [0, 3], [3, 6], [6, 7], [7, 2]]
     walls += [[0, 5], [1, 4], [3, 7], [2, 6]]
-    assert (
-        mirror_fault(network(points, walls)) == "its walls do not buckle symmetrically about"
-        " its middle"
-    )
+    assert "do not buckle symmetrically" in mirror_fault(network(points, walls))

@@ -27,23 +27,13 @@ def written(folder, travel, force):
         ("energy_to_50_J_per_m3", 0.5 * 10.0 * 5e-3 / 1e-6),
     ],
 )
-def test_force_that_rises_with_travel(tmp_path, measure, expected):
-    """F = 2 N/mm x, recorded beyond the simulated stroke of 6 mm."""
-    travel = np.linspace(0.0, 8.0, 81)
-    file = written(tmp_path, travel, 2.0 * travel)
-    assert measure_of(file, measure, SPECIMEN) == pytest.approx(expected, rel=1e-6)
-
-
-@pytest.mark.parametrize("rows", [11, 14, 80])
-def test_a_stroke_may_end_between_two_rows(tmp_path, rows):
-    """F = 2 N/mm x, recorded up to 8 mm; the simulated stroke is 4 mm, to 40 %."""
+@pytest.mark.parametrize("rows", [14, 81])
+def test_force_that_rises_with_travel(tmp_path, rows, measure, expected):
+    """F = 2 N/mm x, recorded beyond the simulated stroke, which may end between two rows."""
     travel = np.linspace(0.0, 8.0, rows)
     file = written(tmp_path, travel, 2.0 * travel)
-    specimen = pd.Series({**SPECIMEN, "stroke_m": 4e-3})
-    energy, peak, plateau = 0.5 * 8.0 * 4e-3, 8.0, 6.0 / 1e-4
-    assert measure_of(file, "absorbed_energy_J", specimen) == pytest.approx(energy, rel=1e-9)
-    assert measure_of(file, "peak_force_N", specimen) == pytest.approx(peak, rel=1e-9)
-    assert measure_of(file, "plateau_stress_iso_Pa", specimen) == pytest.approx(plateau, rel=0.02)
+    within = 1e-6 if rows == 81 or "absorbed" in measure or "peak" in measure else 0.02
+    assert measure_of(file, measure, SPECIMEN) == pytest.approx(expected, rel=within)
 
 
 def test_travel_counts_from_the_first_row(tmp_path):

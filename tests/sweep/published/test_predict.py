@@ -37,9 +37,9 @@ def row(tmp_path):
 
 def results(cases, values, status="converged"):
     """A summary of cases with these energies (J)."""
+    ids = [case.case_id for case in cases]
     about = {"status": status, "message": "smaller steps", "mass_g": 2.0}
-    return pd.DataFrame({"case_id": [case.case_id for case in cases], "absorbed_energy_J": values,
-                         **about})  # fmt: skip
+    return pd.DataFrame({"case_id": ids, "absorbed_energy_J": values} | about)
 
 
 def predicted_of(row, table):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from sweep.published.quantity import split_quantity
 from sweep.published.table import (
     HEADS,
     OURS,
@@ -36,16 +37,15 @@ def test_measured_values_have_ranges(text, expected):
 @pytest.mark.parametrize(
     ("changes", "wrong"),
     [
-        ({"per": "0"}, "line 2: per = 0; allowed: a number above 0"),
+        ({"per": "0"}, "per = 0; allowed: a number above 0"),
         ({"per": "J"}, "per = J, low = 1, high = 2; allowed: numbers"),
-        ({"measured": "about 3"}, "measured: about 3 is no number; allowed: "),
+        ({"measured": "about 3"}, "# measured: about 3 is no number; allowed: "),
     ],
 )
 def test_values_that_cannot_be_used_are_refused(tmp_path, changes, wrong):
     write_table(tmp_path / "t.csv", [replace(ROW, **changes)])
-    with pytest.raises(PublishedError, match=r"t\.csv, line 2") as refusal:
+    with pytest.raises(PublishedError, match=rf"t\.csv, line 2: {wrong}"):
         read_table(tmp_path / "t.csv")
-    assert wrong in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -54,16 +54,13 @@ def test_values_that_cannot_be_used_are_refused(tmp_path, changes, wrong):
         ("a,b\n", "heads a,b; needed: name,source"),
         (",".join(HEADS) + "\na,b\n", "line 2: 2 values; needed: 16"),
         (",".join(HEADS) + 2 * ("\na" + 15 * ",1") + "\n", "name a in two rows"),
+        (None, "cannot be read"),
     ],
 )
 def test_other_tables_are_refused(tmp_path, text, wrong):
-    (tmp_path / "t.csv").write_text(text)
+    if text is not None:
+        (tmp_path / "t.csv").write_text(text)
     with pytest.raises(PublishedError, match=wrong):
-        read_table(tmp_path / "t.csv")
-
-
-def test_a_missing_table_is_refused(tmp_path):
-    with pytest.raises(PublishedError, match="cannot be read"):
         read_table(tmp_path / "t.csv")
 
 
@@ -80,3 +77,34 @@ def test_words_find_rows():
     assert found == ["ding plateau", "ding energy"]
     assert ROW.is_meant("2024")
     assert not ROW.is_meant("2025")
+
+
+@pytest.mark.parametrize(
+    ("text", "units", "number", "unit", "per"),
+    [
+        ("0.12 +- 0.018 J", "J", "0.12 +- 0.018", "J", 1.0),
+        ("120 mJ", "J", "120", "mJ", 1e-3),
+        ("0.078 .. 0.081 MPa", "Pa", "0.078 .. 0.081", "MPa", 1e6),
+        ("3 (2 .. 4) kJ/m^3", "J/m^3", "3 (2 .. 4)", "kJ/m^3", 1e3),
+        ("38 %", "1", "38", "%", 0.01),
+        ("0.7", "1", "0.7", "", 1.0),
+    ],
+)
+def test_number_and_unit_are_parted(text, units, number, unit, per):
+    assert split_quantity(text, units) == (number, unit, pytest.approx(per))
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("0.12", 'a bare number; needed: a unit, such as "J"'),
+        ("0.12 N", "a unit of another kind"),
+        ("much", "no number"),
+        ("1 +- J", "no number"),
+    ],
+)
+def test_others_are_refused_with_what_is_allowed(text, wrong):
+    with pytest.raises(PublishedError, match=f"--measured {text.replace('+', '.')}: ") as refusal:
+        split_quantity(text, "J")
+    assert wrong in str(refusal.value)
+    assert "allowed: " in str(refusal.value)

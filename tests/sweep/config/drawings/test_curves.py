@@ -56,13 +56,6 @@ def circle(centre, radius, pieces=32):
 LINES = np.array([[[0.0, 0.0], [10.0, 0.0]], [[10.0, 0.0], [10.0, 8.0]]])
 
 
-def test_small_circles_around_ends_mark_joints():
-    marks = [circle(at, 1.5) for at in ([0.0, 0.0], [10.0, 0.0], [10.0, 8.0])]
-    ends, notes = without_marks(np.concatenate([marks[0], LINES, *marks[1:]]))
-    assert ends.tolist() == LINES.tolist()
-    assert notes == ["3 x small circle around the end of a line, a mark of a joint"]
-
-
 @pytest.mark.parametrize(
     "ring",
     [

@@ -22,21 +22,19 @@ def test_a_file_is_read_again_when_it_changes(tmp_path):
     assert len(read_drawing(path).network.walls) == 21
 
 
+PIECES = "0,0,9,0\n0,0,0,9\n3,3,4,4\n"
+WALLS = HEADS.strip() + ",thickness\n0,0,9,9,0\n0,0,0,9,1\n"
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        (
-            HEADS + "0,0,9,0\n0,0,0,9\n3,3,4,4\n",
-            "in 2 pieces: nothing holds the walls at 3, 3 of its units from",
-        ),
-        (
-            "x1_in,y1_in,x2_in,y2_in\n0,0,9,0\n0,0,0,9\n3,3,4,4\n",
-            "nothing holds the walls at 76.2, 76.2 mm from",
-        ),
+        (HEADS + PIECES, "in 2 pieces: nothing holds the walls at 3, 3 of its units from"),
+        ("x1_in,y1_in,x2_in,y2_in\n" + PIECES, "nothing holds the walls at 76.2, 76.2 mm from"),
         (HEADS + "0,0,9,0\n", "its lines span 9 x 0 of its units"),
         (HEADS, "has 0 lines"),
         (HEADS + "0,0,1e300,1\n", "reaches farther than 1e"),
-        (HEADS.strip() + ",thickness\n0,0,9,9,0\n0,0,0,9,1\n", "a wall of thickness 0"),
+        (WALLS, "a wall of thickness 0"),
         (HEADS + "0,0,9,9\n" * 200, "has 200 lines"),
         (" " * (MOST_BYTES + 1), "larger than 8 MB"),
     ],
@@ -48,15 +46,17 @@ def test_what_is_no_lattice_is_refused(tmp_path, monkeypatch, text, told):
         read_drawing(tmp_path / "a.csv")
 
 
-def test_what_is_no_file_of_a_drawing_is_refused(tmp_path):
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("a.stl", "not the name of a drawing"),
+        ("folder.svg", "not a file"),
+        ("b.csv", "No such file"),
+        ("\0.csv", "no path"),
+    ],
+)
+def test_what_is_no_file_of_a_drawing_is_refused(tmp_path, name, told):
     (tmp_path / "a.stl").touch()
     (tmp_path / "folder.svg").mkdir()
-    told = {
-        "a.stl": "not the name of a drawing",
-        "folder.svg": "not a file",
-        "b.csv": "No such file",
-        "\0.csv": "no path",
-    }
-    for name, text in told.items():
-        with pytest.raises(StructureError, match=rf"{text}.*; needed: the path of a \.svg, \.dxf"):
-            read_drawing(tmp_path / name)
+    with pytest.raises(StructureError, match=rf"{told}.*; needed: the path of a \.svg, \.dxf"):
+        read_drawing(tmp_path / name)

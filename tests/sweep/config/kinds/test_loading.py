@@ -3,11 +3,7 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError
-from sweep.config.grid import expand
 from sweep.config.kinds.table import RefusedError
-from sweep.config.materials.material_file import locate, read_record
-from tests.support.designs.cases import pressed
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -16,29 +12,17 @@ def test_a_material_of_numbers_needs_a_density(refused):
     assert refused('[material]\nmodulus = "12 MPa"', "material.density", "no name")
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        *({"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}),
-        *({"quasi_static": True}, {"unload": False}, {"cycles": 2}, {"hold_time": 2.0}),
-    ],
-)
-def test_keys_of_a_platen_say_the_mode(given):
-    assert Case.of(loading=given) == pressed(**given)
+STRAINED = [{"strain": 0.5}, {"stroke": 5e-3}, {"speed": 1e-3}, {"quasi_static": True}]
+STRAINED += [{"unload": False}, {"cycles": 2}, {"hold_time": 2.0}]
+PUSHED = [{}, {"force": 5.0}, {"duration": 0.3, "strain": None}, {"platen": "contact"}]
 
 
 @pytest.mark.parametrize(
-    "given", [{}, {"force": 5.0}, {"duration": 0.3, "strain": None}, {"platen": "contact"}]
+    ("mode", "given"),
+    [*(("displacement", keys) for keys in STRAINED), *(("force", keys) for keys in PUSHED)],
 )
-def test_without_them_the_mode_is_a_force(given):
-    assert Case.of(loading=given) == Case.of(loading=dict(mode="force", **given))
-
-
-def test_material_by_name_takes_the_numbers_of_its_record():
-    record = read_record(locate("cheetah"))
-    assert material_with(name="cheetah").modulus == record.modulus
-    softer = material_with(name="cheetah", modulus=70e6)
-    assert (softer.modulus, softer.density) == (70e6, record.density)
+def test_keys_of_a_platen_say_the_mode_which_else_is_a_force(mode, given):
+    assert Case.of(loading=given) == Case.of(loading=dict(mode=mode, **given))
 
 
 MEASURED = "# loss: 0.3 (0.2 .. 0.4)\n# softening_r: 2\n# softening_m_Pa: 1e5\n"
@@ -68,43 +52,23 @@ def test_uncertain_are_the_numbers_of_the_record_that_are_used(own_record):
     assert material_with(modulus=12e6, density=1190.0).uncertain == ()
 
 
-def test_linear_material_holds_no_curve():
-    assert material_with(stretch="linear").curve_strain == ()
-    by_numbers = material_with(modulus=12e6, density=1190.0)
-    assert (by_numbers.stretch, by_numbers.poisson, by_numbers.curve_strain) == ("linear", 0.48, ())
-
-
 @pytest.mark.parametrize(
-    ("make", "message"),
+    ("keys", "message"),
     [
-        (lambda: material_with(name="chetah"), "allowed: .*cheetah, "),
-        (
-            lambda: material_with(memory="measured"),
-            'allowed: "none", as ninjaflex states neither loss',
-        ),
-        (lambda: material_with(modulus=1e6, density=1e3, memory="measured"), "as no name is given"),
+        ({"name": "chetah"}, "allowed: .*cheetah, "),
+        ({"memory": "measured"}, 'allowed: "none", as ninjaflex states neither loss'),
+        ({"modulus": 1e6, "density": 1e3, "memory": "measured"}, "as no name is given"),
     ],
 )
-def test_refused(make, message):
+def test_refused(keys, message):
     with pytest.raises(ValueError, match=message):
-        make()
+        material_with(**keys)
 
 
-def test_mode_is_inferred_in_a_sweep_too(load):
-    cases = expand(load("[grid]\nloading.strain = [0.3, 0.5]"))
-    assert [(case.loading.mode, case.loading.strain) for case in cases] == [
-        ("displacement", 0.3),
-        ("displacement", 0.5),
-    ]
-
-
-def test_keys_of_both_modes_need_the_mode(load):
-    with pytest.raises(ConfigError) as caught:
-        load('[loading]\nstrain = 0.5\n[grid]\nloading.force = ["3 N", "4 N"]')
-    assert str(caught.value) == (
-        'loading.mode is missing; needed: "force" or "displacement", as loading.force needs the'
-        " one and loading.strain the other (2 of 2 combinations)"
-    )
+def test_keys_of_both_modes_need_the_mode(refused):
+    text = '[loading]\nstrain = 0.5\n[grid]\nloading.force = ["3 N", "4 N"]'
+    needed = 'needed: "force" or "displacement", as loading.force needs the one and loading.strain'
+    assert refused(text, "loading.mode", needed, "(2 of 2 combinations)")
 
 
 def test_duration_is_a_key_of_loads_and_of_strikers():

@@ -5,30 +5,13 @@ Keys of materials that relax: `test_relaxation`.
 
 import pytest
 
-from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 from sweep.config.materials.material_file import REFERENCE_TIME
 from tests.support.designs.tables import material_with
 
-CRUSH = dict(mode="displacement", strain=0.5)
 SOFT = {"softening_r": 2.0, "softening_m": 1e5}
 NUMBERS = {"modulus": 2e9, "density": 1240.0, "poisson": 0.35}
 PLASTIC = NUMBERS | {"yield_stress": 50e6}
-
-
-def test_every_part_of_a_memory_is_part_of_the_id():
-    materials = [
-        *({}, {"loss": 0.4}, {"loss": 0.3}, {"loss": 0.4, "reference_time": 2.0}),
-        *(
-            SOFT,
-            SOFT | {"softening_beta": 0.2},
-            {"bend": "fibres"},
-            {"bend": "fibres", "fibres": 9},
-        ),
-        *(NUMBERS, PLASTIC, PLASTIC | {"hardening": 1e7}, PLASTIC | {"fracture_strain": 0.1}),
-    ]
-    ids = {Case.of(material=given, loading=CRUSH).case_id for given in materials}
-    assert len(ids) == len(materials)
 
 
 def test_numbers_have_a_reference_time_too():
@@ -45,10 +28,6 @@ def test_numbers_have_a_reference_time_too():
         ('softening_r = 2.0\nsoftening_m = "1 MPa"\nbend = "linear"', '"section" or "fibres"'),
         ("fibres = 7", 'has no effect, as material.bend is "section"'),
         ("fracture_strain = 0.1", "has no effect, as material.yield_stress is not given"),
-        (
-            'modulus = "2 GPa"\ndensity = "1240 kg/m^3"\nyield_stress = "50 MPa"\nloss = 0.2',
-            "none if loss is given",
-        ),
     ],
 )
 def test_what_contradicts_or_has_no_effect_is_refused(lines, text, line):
@@ -56,22 +35,16 @@ def test_what_contradicts_or_has_no_effect_is_refused(lines, text, line):
     assert line in told
 
 
-def test_a_measured_memory_that_the_config_replaces_is_refused(load, lines, tmp_path):
+def test_a_measured_memory_that_the_config_replaces_is_refused(load, last_refused, tmp_path):
     curve = "strain,stress_Pa\n0.01,1e5\n0.05,4e5\n0.5,1.2e6\n1,2e6\n"
-    (tmp_path / "mine.csv").write_text(
-        f"# density_kg_m3: 1100\n# poisson: 0.4\n# loss: 0.3\n{curve}"
-    )
-    asked = '[material]\nname = "mine.csv"\nmemory = "measured"\n'
+    head = "# density_kg_m3: 1100\n# poisson: 0.4\n"
+    (tmp_path / "mine.csv").write_text(f"{head}# loss: 0.3\n{curve}")
+    named, asked = '[material]\nname = "mine.csv"\n', 'memory = "measured"'
     for given in ("loss = 0.2", 'relaxation = [{time = "1 s", share = 0.1}]'):
-        (line,) = lines(asked + given)
-        assert line == (
-            'material.memory = "measured": has no effect, as the config itself gives what the file '
-            "of the material states"
-        )
-    softer = f'{asked}loss = 0.2\n[grid]\nmaterial.name = ["mine.csv", "softer.csv"]'
-    text = "# density_kg_m3: 1100\n# poisson: 0.4\n# softening_r: 2\n# softening_m_Pa: 1e6\n"
-    (tmp_path / "softer.csv").write_text(text + curve)
-    assert len(load(softer).cases) == 2
+        assert last_refused(f"{named}{given}\n{asked}", "no effect, as the config itself gives")
+    (tmp_path / "softer.csv").write_text(f"{head}# softening_r: 2\n# softening_m_Pa: 1e6\n{curve}")
+    softer = f'{asked}\nloss = 0.2\n[grid]\nmaterial.name = ["mine.csv", "softer.csv"]'
+    assert len(load(named + softer).cases) == 2
 
 
 def test_a_material_that_yields_bends_through_fibres():

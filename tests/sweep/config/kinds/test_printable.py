@@ -9,6 +9,7 @@ from sweep.config.kinds.printable import what_does_not_print
 from tests.support.designs.structures import ROD, structure
 from tests.support.designs.tables import lattice_with
 
+MANY = {"cells_x": 12, "cells_y": 12, "wall_thickness": 0.5e-3}
 KEPT = (
     '[lattice]\nprintable = true\n[grid]\n"lattice.wall_thickness" = ["0.4 mm", "0.6 mm", "0.8 mm"]'
 )
@@ -20,15 +21,10 @@ KEPT = (
         ({}, ""),
         ({"wall_thickness": 0.79e-3}, ""),
         ({"wall_thickness": 0.6e-3}, "walls of 1.5 lines of 0.4 mm"),
-        ({"wall_thickness": 0.2e-3}, "walls of 0.5 lines of 0.4 mm"),
         ({"wall_thickness": 0.6e-3, "nozzle": 0.6e-3}, ""),
-        ({"nozzle": 0.6e-3}, "walls of 1.33 lines of 0.6 mm"),
         ({"perimeters": 1, "line_width": 0.5e-3}, "walls of 1.6 lines of 0.5 mm"),
         ({"grading": 2.0}, "walls of 1.33 to 2.67 lines of 0.4 mm"),
-        (
-            {"cells_x": 12, "cells_y": 12, "wall_thickness": 0.5e-3, "nozzle": 0.6e-3},
-            "walls of 0.833 lines and gaps of 0.9 lines of 0.6 mm",
-        ),
+        (MANY | {"nozzle": 0.6e-3}, "walls of 0.833 lines and gaps of 0.9 lines of 0.6 mm"),
         ({"slicer": "prusa", "pattern": "grid", "infill": 0.2}, ""),
         ({"slicer": "prusa", "pattern": "stars", "infill": 0.48}, "gaps of 0.98 lines of 0.45 mm"),
     ],
@@ -53,12 +49,10 @@ def test_a_grid_keeps_what_prints_and_counts_the_rest(load):
     assert load(KEPT.replace("true", "false")).left_out.impossible == 0
 
 
-def test_a_single_case_that_does_not_print_is_refused(refused):
-    text = '[lattice]\nprintable = true\nwall_thickness = "0.6 mm"'
-    assert refused(text, "lattice.printable = true", "false", "1.5 lines of 0.4 mm")
-
-
-def test_a_grid_of_which_nothing_prints_is_refused(lines):
+def test_what_does_not_print_is_refused_if_nothing_else_is_left(lines):
+    (line,) = lines('[lattice]\nprintable = true\nwall_thickness = "0.6 mm"')
+    assert line.startswith("lattice.printable = true: does not fit; allowed: false")
+    assert "1.5 lines of 0.4 mm" in line
     (line,) = lines(KEPT.replace('"0.4 mm", "0.6 mm", "0.8 mm"', '"0.5 mm", "0.6 mm"'))
     assert line.endswith("walls of 1.25 lines of 0.4 mm (2 of 2 combinations)")
 

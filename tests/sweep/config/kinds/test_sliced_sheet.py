@@ -29,11 +29,13 @@ def sheet(**lattice):
     ],
 )
 def test_the_share_is_the_nearest_whose_period_fits(slicer, pattern, line, period):
-    made = sheet(slicer=slicer, pattern=pattern)
+    values = {"slicer": slicer, "pattern": pattern}
+    made = sheet(**values)
     assert made.infill == pytest.approx(0.15, rel=0.06)
     assert made.period == pytest.approx(period * line / made.infill, rel=1e-12)
-    again = sheet(slicer=slicer, pattern=pattern, infill=made.infill)
-    assert again.infill == pytest.approx(made.infill, rel=1e-12)
+    assert sheet(**values, infill=made.infill).infill == pytest.approx(made.infill, rel=1e-12)
+    case = Case.of(lattice=values | {"infill": 0.2}, loading={"mode": "displacement"})
+    assert Case.from_json(case.to_json()).case_id == case.case_id
 
 
 @pytest.mark.parametrize(("pattern", "filled"), [("gyroid", 0.955), ("tpmsd", 1.0186)])
@@ -51,13 +53,6 @@ def test_the_fill_angle_turns_a_panel_that_is_pressed_across(degrees, turned):
     assert made.width == pytest.approx(made.period * (sqrt(2) if turned else 1))
     lattice = {"slicer": "orca", "pattern": "gyroid", "infill": 0.15, "fill_angle": 0.3}
     assert not Case.of(lattice=lattice, loading={"direction": "out_of_plane"}).lattice.turned
-
-
-@pytest.mark.parametrize("slicer", ["prusa", "orca", "cura"])
-def test_a_stored_case_is_read_again(slicer):
-    lattice = {"slicer": slicer, "pattern": "gyroid", "infill": 0.2}
-    made = Case.of(lattice=lattice, loading={"mode": "displacement"})
-    assert Case.from_json(made.to_json()).case_id == made.case_id
 
 
 def test_several_lines_make_a_thicker_wall_at_the_same_share():
@@ -81,9 +76,8 @@ def test_several_lines_make_a_thicker_wall_at_the_same_share():
     ],
 )
 def test_what_a_slicer_does_not_print_is_refused(values, words):
-    with pytest.raises(RefusedError) as refused:
+    with pytest.raises(RefusedError, match=words):
         sheet(**values)
-    assert words in str(refused.value)
 
 
 def test_the_sides_of_a_block_are_refused_beside_its_share():
@@ -131,6 +125,5 @@ def test_a_block_is_its_perimeters_and_the_sheet_between_them():
     ],
 )
 def test_a_block_that_does_not_fit_is_refused(values, words):
-    with pytest.raises(RefusedError) as refused:
+    with pytest.raises(RefusedError, match=words):
         block(**values)
-    assert words in str(refused.value)

@@ -9,30 +9,24 @@ import pytest
 from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 
-UNFIT = {
-    '[lattice]\nwall_thickness = "2.5 mm"': ('lattice.wall_thickness = "2.5 mm"', "2.083 mm"),
-    "[lattice]\ncells = 20": ("lattice.wall_thickness = 0.8 mm by default", "0.3125 mm"),
-    '[lattice]\ncells = 300\nwidth = "3 m"\nheight = "3 m"': (
-        *("lattice.cells = 300", "at most 50,000", "451,801 here"),
-    ),
-    "[lattice]\ncells_y = 4\nnodes_per_wall = 999\ncells_x = 6": (
-        *("lattice.nodes_per_wall = 999", "at most 50,000", "57,977 here"),
-    ),
-    '[lattice]\nwidth = "40 mm"\nheight = "0.01 mm"': (
-        *('lattice.width = "40 mm"', "from 1e-05 mm to 10 mm"),
-    ),
-    '[lattice]\nheight = "30 m"': ('lattice.height = "30 m"', "from 1.25e-05 m to 12.5 m"),
-}
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('wall_thickness = "2.5 mm"', "2.083 mm"),
+        ('width = "3 m"\nheight = "3 m"\ncells = 300', "at most 50,000"),
+        ("cells_y = 4\ncells_x = 6\nnodes_per_wall = 999", "at most 50,000"),
+        ('height = "0.01 mm"\nwidth = "40 mm"', "from 1e-05 mm to 10 mm"),
+        ('height = "30 m"', "from 1.25e-05 m to 12.5 m"),
+        ('mass = "9 g"\ncells = 6\nnodes_per_wall = 999', "at most 50,000"),  # not the mass
+    ],
+)
+def test_what_does_not_fit_is_refused(last_refused, text, words):
+    assert last_refused(f"[lattice]\n{text}", words)
 
 
-@pytest.mark.parametrize("text", UNFIT)
-def test_what_does_not_fit_is_refused(refused, text):
-    assert refused(text, *UNFIT[text])
-
-
-def test_of_a_lattice_that_is_refused_no_mass_is_told(lines):
-    (line,) = lines('[lattice]\ncells = 6\nnodes_per_wall = 999\nmass = "9 g"')
-    assert line.startswith("lattice.nodes_per_wall = 999: does not fit; allowed: at most 50,000")
+def test_a_default_that_does_not_fit_is_called_one(refused):
+    assert refused("[lattice]\ncells = 20", "lattice.wall_thickness = 0.8 mm by default", "0.3125")
 
 
 EVEN = "= 3; allowed: an even number if lattice.{} is"
@@ -59,20 +53,12 @@ def test_rows_repeat_without_end_and_not_twice():
         Case.of(lattice={"boundary": "periodic", "sides": "periodic"}, loading={"strain": 0.5})
 
 
-def test_rows_need_not_repeat_where_only_sides_do():
-    for kind, cells in (("hex", 3), ("kagome", 1)):
-        made = Case.of(
-            lattice={
-                "sides": "periodic",
-                "kind": kind,
-                "cells_x": cells,
-                "cells_y": 3,
-                "width": 4e-3,
-            }
-            | {"wall_thickness": 0.2e-3},
-            loading={"strain": 0.5},
-        ).lattice
-        assert made.outer_size == (4e-3, pytest.approx(12.7e-3))
+@pytest.mark.parametrize(("kind", "columns"), [("hex", 3), ("kagome", 1)])
+def test_rows_need_not_repeat_where_only_sides_do(kind, columns):
+    cells = {"kind": kind, "cells_x": columns, "cells_y": 3}
+    lattice = cells | {"sides": "periodic", "width": 4e-3, "wall_thickness": 0.2e-3}
+    made = Case.of(lattice=lattice, loading={"strain": 0.5}).lattice
+    assert made.outer_size == (4e-3, pytest.approx(12.7e-3))
 
 
 @pytest.mark.parametrize(

@@ -15,13 +15,6 @@ from sweep.simulation.simulate import simulate
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
-
-def test_a_stated_modulus_wins(own_record):
-    path = own_record("# modulus_Pa: 3e6\n" + HEADER + "0.01,2e4\n0.05,1e5\n")
-    assert read_record(path).modulus == 3e6
-    assert material_with(name=str(path)).name == "own"
-
-
 CURVE = "0.01,1e5\n0.1,9e5\n"
 
 
@@ -50,10 +43,7 @@ def test_a_stretch_is_one_more_than_a_strain(own_record):
         (HEADER.replace("1200", "1.2") + CURVE, "density: 1.2 .* in g/cm3. write # density_g_cm3"),
         ("# modulus_Pa: 17 .. 21\n" + HEADER + CURVE, "modulus: 17 .* write # modulus_MPa"),
         ("# density_g_cm3: 1.2\n" + HEADER + CURVE, "density is stated twice; needed: once"),
-        (
-            "# loss: 38\n" + HEADER + CURVE,
-            "# loss: 38; allowed: above 0, at most 0.8; 38 % is 0.38",
-        ),
+        ("# loss: 38\n" + HEADER + CURVE, "# loss: 38; allowed: .*at most 0.8; 38 % is 0.38"),
         ("# loss: 0.3 (0.2 .. 0.9)\n" + HEADER + CURVE, "# loss: 0.9; allowed: above 0, at most"),
         ("# softening_r: 1\n# softening_m_Pa: 1e5\n" + HEADER + CURVE, "# softening_r: 1; allo"),
     ],
@@ -75,21 +65,12 @@ def test_heads_may_name_their_unit(own_record):
     assert record.ranges == {"density": (1190.0, 1220.0), "modulus": (17e6, 21e6)}
 
 
-DATA_SHEET = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (0.2, 2.2e6), (0.4, 2.9e6), (0.8, 4e6)]
-
-
-@pytest.mark.parametrize(
-    ("heads", "sizes", "density"),
-    [
-        ("strain,stress_Pa", (1.0, 1.0), "density_kg_m3: 1200"),
-        ("strain_percent,stress_MPa", (0.01, 1e6), "density_g_cm3: 1.2"),
-    ],
-)
-def test_a_lattice_absorbs_the_same_in_the_units_of_a_data_sheet(own_record, heads, sizes, density):
-    pairs = [*DATA_SHEET, (1.5, 6e6)]
-    rows = "".join(f"{e / sizes[0]:.9g},{s / sizes[1]:.9g}\n" for e, s in pairs)
-    path = own_record(f"# {density}\n# poisson: 0.48\n{heads}\n{rows}")
-    result = simulate(Case.of(material={"name": str(path)}, loading={"mode": "displacement"}))
+def test_a_lattice_absorbs_the_same_in_the_units_of_a_data_sheet(own_record):
+    points = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (0.2, 2.2e6), (0.4, 2.9e6), (0.8, 4e6)]
+    rows = "".join(f"{100.0 * e:.9g},{s / 1e6:.9g}\n" for e, s in [*points, (1.5, 6e6)])
+    head = "# density_g_cm3: 1.2\n# poisson: 0.48\nstrain_percent,stress_MPa\n"
+    material = {"name": str(own_record(head + rows))}
+    result = simulate(Case.of(material=material, loading={"mode": "displacement"}))
     energy, mass = (result.summary[key] for key in ("absorbed_energy_until_packed_J", "mass_g"))
     assert energy / mass == pytest.approx(0.109, abs=0.001)
 
@@ -120,6 +101,20 @@ def test_own_file_is_looked_for_in_its_folder_and_shipped_ones_are_not(tmp_path)
 PLASTIC = "# density_kg_m3: 1200\n# poisson: 0.35\n# modulus_Pa: 2e9\n# yield_stress_Pa: 4e7\n"
 
 
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
+        (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
+        (PLASTIC + "# fracture_strain: 2.5\n", "# fracture_strain: 2.5; .* 1; 2.5 % is 0.025"),
+        ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
+    ],
+)
+def test_unusable_plastics_are_refused_by_name(own_record, text, message):
+    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
+        read_record(own_record(text))
+
+
 def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record):
     path = own_record(PLASTIC + "# hardening_Pa: 1e7\n# fracture_strain: 0.05\n")
     material = material_with(name=str(path))
@@ -129,20 +124,3 @@ def test_a_material_with_a_yield_stress_yields_unless_told_otherwise(own_record)
     assert material.curve_strain == ()
     other = material_with(name=str(path), yield_stress=3e7, bend="section")
     assert (other.yield_stress, other.hardening, other.fibres) == (3e7, 1e7, None)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (PLASTIC + "strain,stress_Pa\n0.1,1e6\n", "yields has no curve"),
-        (PLASTIC.replace("# modulus_Pa: 2e9\n", ""), "yields needs the line # modulus_Pa"),
-        (
-            PLASTIC + "# fracture_strain: 2.5\n",
-            "# fracture_strain: 2.5; allowed: above 0, at most 1; 2.5 % is 0.025",
-        ),
-        ("# fracture_strain: 0.1\n" + HEADER + "0.1,1e6\n", "fracture_strain needs the line # y"),
-    ],
-)
-def test_unusable_plastics_are_refused_by_name(own_record, text, message):
-    with pytest.raises(RecordError, match=f"own.csv: .*{message}"):
-        read_record(own_record(text))

@@ -29,18 +29,15 @@ def test_a_number_may_have_a_range(text, number):
     assert stated([f"# modulus_Pa: {text}"]) == {"modulus": number}
 
 
-@pytest.mark.parametrize(
-    ("text", "wrong"),
-    [
-        ("about 12", "no number"),
-        ("1.2 g/cm3", "no number"),
-        ("0.4 (0.45 .. 0.48)", "no range"),
-        ("0.48 (0.48 .. 0.45)", "no range"),
-        ("2 .. 2", "no range"),
-    ],
-)
-def test_other_texts_are_refused(text, wrong):
-    with pytest.raises(ValueError, match=rf"# poisson: .* is {wrong}; allowed: .*1\.1 \.\. 1\.4"):
+@pytest.mark.parametrize("text", ["about 12", "1.2 g/cm3"])
+def test_what_is_no_number_is_refused(text):
+    with pytest.raises(ValueError, match=r"# poisson: .* is no number; allowed: .*1\.1 \.\. 1\.4"):
+        stated([f"# poisson: {text}"])
+
+
+@pytest.mark.parametrize("text", ["0.4 (0.45 .. 0.48)", "0.48 (0.48 .. 0.45)", "2 .. 2"])
+def test_what_is_no_range_is_refused(text):
+    with pytest.raises(ValueError, match=r"# poisson: .* is no range; allowed: "):
         stated([f"# poisson: {text}"])
 
 

@@ -10,28 +10,23 @@ from tests.support.materials.records import RUBBERS
 @pytest.mark.parametrize(
     ("key", "value", "unit"),
     [
-        ("modulus", 19.0, "MPa"),
-        ("curve_modulus", 3039.0, "MPa"),
-        ("curve_modulus", 19e3, "kPa"),
-        ("yield_stress", 45.0, "MPa"),
-        ("density", 1.2, "g/cm3"),
-        ("density", 1.2e6, None),
-        ("modulus", 19e12, None),
+        *(
+            ("modulus", 19.0, "MPa"),
+            ("curve_modulus", 3039.0, "MPa"),
+            ("yield_stress", 45.0, "MPa"),
+        ),
+        *(("curve_modulus", 19e3, "kPa"), ("density", 1.2, "g/cm3")),
+        *(("density", 1.2e6, None), ("modulus", 19e12, None)),
     ],
 )
 def test_implausible_numbers_come_with_the_unit_that_was_meant(key, value, unit):
-    why = suspicion(key, value)
-    assert why is not None
     assert unit_meant(key, value) == unit
-    assert (f"is it in {unit}?" in why) == (unit is not None)
+    assert (f"is it in {unit}?" in suspicion(key, value)) == (unit is not None)
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [("modulus", 19e3), ("modulus", 2e11), ("density", 300.0), ("density", 8e3), ("loss", 1e9)],
-)
-def test_plausible_numbers_pass(key, value):
-    assert suspicion(key, value) is None
+def test_plausible_numbers_pass():
+    numbers = {"modulus": [19e3, 2e11], "density": [300.0, 8e3], "loss": [1e9]}
+    assert {suspicion(key, value) for key in numbers for value in numbers[key]} == {None}
 
 
 def test_strains_in_percent_are_far_or_begin_far():
@@ -49,13 +44,11 @@ def test_shipped_curves_are_plausible(name):
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    ("text", "words"),
     [
-        ('modulus = "19 Pa"\ndensity = "1200 kg/m^3"', ["1 kPa to 1000 GPa", "in MPa?"]),
+        ('density = "1200 kg/m^3"\nmodulus = "19 Pa"', ["1 kPa to 1000 GPa", "in MPa?"]),
         ('modulus = "19 MPa"\ndensity = "1.2 kg/m^3"', ["25,000 kg/m3", "in g/cm3?"]),
     ],
 )
-def test_configs_are_checked(refused, line, words):
-    key = "material.modulus" if "19 Pa" in line else "material.density"
-    value = "19 Pa" if "19 Pa" in line else "1.2 kg/m^3"
-    assert refused(f"[material]\n{line}", f'{key} = "{value}"', *words)
+def test_configs_are_checked(last_refused, text, words):
+    assert last_refused(f"[material]\n{text}", *words)

@@ -26,26 +26,15 @@ def test_hints_name_keys_that_there_are_and_are_none_themselves():
     assert not {f"{key.split('.')[0]}.{word}" for word, (key, _) in KEYS.items()} & known.keys()
 
 
-@pytest.mark.parametrize("word", ["hex", "honeycomb", "Honeycomb"])
-def test_honeycomb_is_hex(load, word):
-    (case,) = expand(load(f'[lattice]\nkind = "{word}"'))
-    assert case.lattice.kind == "hex"
-
-
 def test_words_are_understood_in_every_table(load):
-    text = """
-    [lattice]
-    width = "25 mm"
-    height = "25 mm"
-    [grid]
-    lattice.kind = ["grid", "stars", "auxetic"]
-    loading.mode = ["crush", "drop"]
-    [[exclude]]
-    lattice.kind = "re-entrant"
-    """
+    text = (
+        '[lattice]\nwidth = "25 mm"\nheight = "25 mm"\n[grid]\n'
+        'lattice.kind = ["grid", "Honeycomb", "auxetic"]\nloading.mode = ["crush", "drop"]\n'
+        '[[exclude]]\nlattice.kind = "re-entrant"'
+    )
     kinds = [(case.lattice.kind, case.loading.mode) for case in expand(load(text))]
     modes = ["displacement", "impact"]
-    assert kinds == [(kind, mode) for kind in ("square", "kagome") for mode in modes]
+    assert kinds == [(kind, mode) for kind in ("square", "hex") for mode in modes]
 
 
 def test_a_drop_is_an_impact_that_can_be_excluded(load):
@@ -54,52 +43,40 @@ def test_a_drop_is_an_impact_that_can_be_excluded(load):
     assert (case.loading.mode, case.loading.gravity) == ("impact", False)
 
 
-def test_other_words_for_the_choices_are_named(lines):
-    (line,) = lines('[loading]\nmode = "crash"')
-    assert 'allowed: "force" ("dead load"), ' in line
-    assert line.endswith('; the nearest is "crush"')
-
-
-def test_other_values_are_left_for_the_key_to_refuse(lines):
-    assert present_choice("lattice.kind", 3) == 3
-    assert present_choice("material.name", "grid") == "grid"
-    (line,) = lines('[lattice]\nkind = "gird"')
-    assert 'kind = "gird": unknown choice; allowed: "brick"' in line
-    assert line.endswith('; the nearest is "grid"')
-
-
-def test_misspelled_sheets_are_found(lines):
-    (line,) = lines('[lattice]\nkind = "gyriod"')
-    assert line.endswith('; the nearest is "gyroid"')
-    (line,) = lines('[lattice]\nslicer = "orca"\npattern = "tmpsd"\ninfill = "20 %"')
-    assert line.endswith('; the nearest is "tpmsd"')
+ORCA = 'slicer = "orca"\ninfill = "20 %"\n'
 
 
 @pytest.mark.parametrize(
-    ("table", "told"),
+    ("text", "told"),
     [
         (
-            '[loading]\nfall_height = "0.5 m"',
-            'loading.fall_height = "0.5 m": unknown key; the nearest is loading.drop_height',
+            '[loading]\nmode = "crash"',
+            ['"force" ("dead load"), ', '; the nearest is "crush"'],
         ),
         (
+            '[lattice]\nkind = "gird"',
+            ['allowed: "brick"', '; the nearest is "grid"'],
+        ),
+        ('[lattice]\nkind = "gyriod"', ['; the nearest is "gyroid"']),
+        (f'[lattice]\n{ORCA}pattern = "tmpsd"', ['; the nearest is "tpmsd"']),
+        ('[loading]\nfall_height = "0.5 m"', ["unknown key; the nearest is loading.drop_height"]),
+        (
             '[lattice]\ninfill_pattern = "hex"',
-            'lattice.infill_pattern = "hex": unknown key; the nearest is lattice.pattern: '
-            "with lattice.slicer; without a slicer, lattice.kind",
+            ["lattice.pattern: with lattice.slicer"],
         ),
         (
             '[material]\nfile = "own.csv"',
-            'material.file = "own.csv": unknown key; the nearest is material.name: of one that is '
-            "shipped, or the path of a .csv file",
-        ),
-        (
-            "[lattice]\nwall_thicknes = 1",
-            "lattice.wall_thicknes = 1: unknown key; the nearest is lattice.wall_thickness",
+            ["material.name: of one that is"],
         ),
     ],
 )
-def test_key_that_a_user_may_think_of_is_answered_with_the_one_there_is(lines, table, told):
-    assert lines(table) == [told]
+def test_what_a_user_may_think_of_is_answered_with_what_there_is(last_refused, text, told):
+    assert last_refused(text, *told)
+
+
+def test_other_values_are_left_for_the_key_to_refuse():
+    assert present_choice("lattice.kind", 3) == 3
+    assert present_choice("material.name", "grid") == "grid"
 
 
 def test_hint_that_does_not_belong_to_the_known_keys_is_not_given():
@@ -109,8 +86,10 @@ def test_hint_that_does_not_belong_to_the_known_keys_is_not_given():
 @pytest.mark.parametrize(
     ("word", "slicer"),
     [
-        *(("PrusaSlicer", "prusa"), ("superslicer", "prusa"), ("Prusa", "prusa")),
-        *(("OrcaSlicer", "orca"), ("bambu", "orca"), ("Bambu Studio", "orca"), ("Cura", "cura")),
+        ("PrusaSlicer", "prusa"),
+        ("superslicer", "prusa"),
+        ("Bambu Studio", "orca"),
+        ("Cura", "cura"),
     ],
 )
 def test_slicers_by_the_names_that_people_use(load, word, slicer):

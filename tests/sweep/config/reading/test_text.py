@@ -19,6 +19,7 @@ HEADER = b"# density_kg_m3: 1000\n# poisson: 0.4\nstrain,stress_Pa\n"
         ("name = 1".encode("utf-16"), "not UTF-8 text; needed: a TOML file"),
         (b"a = " + b"[" * 5000, "not TOML"),
         (b"a = " + b"9" * 5000, "not TOML"),
+        (None, "sweep.toml: cannot be read (No such file"),
         (b'[lattice]\nkind = "custom"\nfile = "a\\u0000.json"', "not the path of a file; needed"),
         (b'[lattice]\nkind = "custom"\nfile = "none.json"', "cannot be read (No such file or"),
         (b'[material]\nname = "a\\u0000.csv"', "unknown material"),
@@ -26,24 +27,22 @@ HEADER = b"# density_kg_m3: 1000\n# poisson: 0.4\nstrain,stress_Pa\n"
 )
 def test_configs(content, why, tmp_path):
     path = tmp_path / "sweep.toml"
-    path.write_bytes(content)
+    if content is not None:
+        path.write_bytes(content)
     with pytest.raises(ConfigError) as refusal:
         load_config(path)
     assert why in str(refusal.value)
     assert not any(word in str(refusal.value) for word in LIBRARY)
 
 
-READERS = (read_record, read_coupon, read_structure)
+ABSENT = "cannot be read (No such file or directory); needed: a"
+LONG = "a value of more than 131,072 characters"
 FILES = [
-    *((read, None, "cannot be read (No such file or directory); needed: a") for read in READERS),
-    *(
-        (read, "1".encode("utf-16"), "not UTF-8 text; needed: a")
-        for read in (READERS[0], READERS[2])
-    ),
+    *((read, None, ABSENT) for read in (read_record, read_coupon, read_structure)),
+    *((read, "1".encode("utf-16"), "not UTF-8 text; ") for read in (read_record, read_structure)),
     (read_coupon, b"PK\x03\x04 of a workbook", "a workbook; needed: a csv file (in the spreadsh"),
     (read_coupon, b"\x81\x00 and so on", "no text; needed: a csv file"),
-    (read_record, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
-    (read_coupon, HEADER + b"1" * 200000, "a value of more than 131,072 characters"),
+    *((read, HEADER + b"1" * 200000, LONG) for read in (read_record, read_coupon)),
     (read_structure, b"[" * 10**5, "not JSON"),
     (read_structure, b'{"walls": ' + b"9" * 5000 + b"}", "not JSON"),
     (read_structure, b'{\n"walls": }', "not JSON at line 2, column 10"),

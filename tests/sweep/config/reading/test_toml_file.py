@@ -4,16 +4,13 @@ import time
 
 import pytest
 
-from sweep.config.faults import ConfigError
-from sweep.config.load import load_config
-
 
 def test_not_toml(lines, tmp_path):
     (line,) = lines("hello world")
     assert line.startswith(f"{tmp_path / 'sweep.toml'}: not TOML (Expected '='")
 
 
-@pytest.mark.parametrize("text", ["", "\n  \n", "# [lattice]\n"])
+@pytest.mark.parametrize("text", ["", "\n # [lattice]\n"])
 def test_an_empty_file_is_not_the_default_crush(lines, tmp_path, text):
     (line,) = lines(text)
     assert line.startswith(f"{tmp_path / 'sweep.toml'}: an empty config; ")
@@ -35,15 +32,3 @@ def test_line_at_which_the_parser_gives_up_is_told_at_once(lines, text, told):
     assert time.process_time() - started < 1.0
     assert told in line
     assert len(line.split("line ")[-1]) <= 64
-
-
-def test_missing_file(tmp_path):
-    with pytest.raises(ConfigError, match=r"no\.toml: cannot be read \(No such file"):
-        load_config(tmp_path / "no.toml")
-
-
-def test_not_text(tmp_path):
-    path = tmp_path / "sweep.toml"
-    path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(ConfigError, match="not UTF-8 text; needed: a TOML file"):
-        load_config(path)

@@ -7,72 +7,44 @@ import pytest
 from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
 from sweep.config.load import load_config
+from sweep.config.structures.structure import Structure
 
 GOOD = {"nodes_mm": [[0, 0], [10, 0], [10, 5]], "walls": [[0, 1], [1, 2]]}
 FIXED = [{"node": 0, "fix": ["x", "y", "rotation"]}]
 
-APART = ("has no length", "two nodes apart")
-POSITIVE = "greater than 0"
-
-WRONG = {
-    "unknown key": ({"wals": []}, "wals", "the nearest is walls"),
-    "unknown key of nodes": ({"nodes": []}, "nodes", "the nearest is nodes_mm"),
-    "unknown key inside": (
-        *({"supports": [{"node": 0, "fixed": ["x"]}]}, "supports[0].fixed", "the nearest is fix"),
-    ),
-    "no such node": ({"probes": [0, 3]}, "probes[1] = 3", "no such node", "0 to 2"),
-    "no such end": ({"walls": [[0, 1], [1, 7]]}, "walls[1][1] = 7", "no such node", "0 to 2"),
-    "wrong way": (
-        *({"supports": [{"node": 0, "fix": ["z"]}]}, 'supports[0].fix[0] = "z"'),
-        "'x', 'y' or 'rotation'",
-    ),
-    "thickness": ({"wall_thickness_mm": 0}, "wall_thickness_mm = 0", POSITIVE),
-    "thickness in a list": (
-        *({"wall_thickness_mm": [1.0, -1.0]}, "wall_thickness_mm[1] = -1.0", POSITIVE),
-    ),
-    "length of a list": ({"subdivide": [4]}, "subdivide = [4]", "1 values", "one value", "2 here"),
-    "empty list": (
-        *({"initial_velocity_mm_s": []}, "initial_velocity_mm_s = []", "0 values", "3 here"),
-    ),
-    "text for a number": ({"depth_mm": "10 mm"}, 'depth_mm = "10 mm"', "a valid number"),
-    "rest angles": ({"rest_angles": "round"}, 'rest_angles = "round"', "'as_drawn'"),
-    "wall without length": ({"walls": [[0, 1], [1, 2], [2, 2]]}, "walls[2] = [2, 2]", *APART),
-    "spring without length": (
-        *({"springs": [{"nodes": [1, 1], "stiffness_N_mm": 1}]}, "springs[0].nodes = [1, 1]"),
-        *APART,
-    ),
-    "floor above a wall": (
-        *({"floor_y_mm": 1}, "floor_y_mm = 1.0", "node 0 is -1 mm", "at most -0.4 here"),
-    ),
-    "floor within a wall": (
+APART = "has no length"
+MOVED = {"node": 0, "direction": "x"}
+LOAD = {"loads": [{"node": 1, "moment_Nmm": 2}]}
+SQUARE = {"nodes_mm": [[0, 0], [10, 0], [10, 5], [0, 5]]}
+WRONG = [
+    ({"wals": []}, "wals", "the nearest is walls"),
+    ({"nodes": []}, "nodes", "the nearest is nodes_mm"),
+    ({"supports": [{"node": 0, "fixed": ["x"]}]}, "supports[0].fixed", "the nearest is fix"),
+    ({"supports": [{"node": 0, "fix": ["z"]}]}, 'supports[0].fix[0] = "z"', "'x', 'y' or 'rotat"),
+    ({"walls": [[0, 1], [1, 7]]}, "walls[1][1] = 7", "no such node; allowed: 0 to 2"),
+    ({"walls": [[0, 1], [1, 2], [2, 2]]}, "walls[2] = [2, 2]", APART),
+    ({"walls": [[0, 1], [1, 2], [1, 0]]}, "walls[2] = [1, 0]", "upon wall 0"),
+    ({"springs": [{"nodes": [1, 1], "stiffness_N_mm": 1}]}, "springs[0].nodes = [1, 1]", APART),
+    ({"wall_thickness_mm": [1.0, -1.0]}, "wall_thickness_mm[1] = -1.0", "greater than 0"),
+    ({"subdivide": [4]}, "subdivide = [4]", "1 values; allowed: one value, or"),
+    ({"initial_velocity_mm_s": []}, "initial_velocity_mm_s = []", "3 here"),
+    ({"depth_mm": "10 mm"}, 'depth_mm = "10 mm"', "a valid number"),
+    ({"rest_angles": "round"}, 'rest_angles = "round"', "'as_drawn'"),
+    ({"floor_y_mm": 1}, "floor_y_mm = 1.0", "node 0 is -1 mm above it"),
+    (
         {"floor_y_mm": -0.7, "wall_thickness_mm": [1.0, 2.0]},
-        *("floor_y_mm = -0.7", "node 1 is 0.7 mm", "wall 1 mm", "at most -1 here"),
+        *("floor_y_mm = -0.7", "node 1 is 0.7 mm"),
     ),
-    "same wall twice": ({"walls": [[0, 1], [1, 2], [1, 0]]}, "walls[2] = [1, 0]", "upon wall 0"),
-    "crossing": (
-        {"nodes_mm": [[0, 0], [10, 0], [10, 5], [0, 5]], "walls": [[0, 2], [1, 2], [1, 3]]},
-        *("walls[2] = [1, 3]", "meets wall 0"),
-    ),
-    "loose node": (
-        {"nodes_mm": [[0, 0], [10, 0], [10, 5], [99, 9]]},
-        *("nodes_mm[3] = [99.0, 9.0]", "nodes of walls"),
-    ),
-    "two pieces": (
-        {"nodes_mm": [[0, 0], [10, 0], [10, 5], [0, 5]], "walls": [[0, 1], [2, 3]]},
-        *("walls[1] = [2, 3]", "not connected with wall 0", "one piece"),
-    ),
-    "led and held": (
-        {"supports": FIXED, "prescribed": [{"node": 0, "direction": "x", "displacement_mm": 1}]},
+    (SQUARE | {"walls": [[0, 2], [1, 2], [1, 3]]}, "walls[2] = [1, 3]", "meets wall 0"),
+    (SQUARE | {"walls": [[0, 1], [2, 3]]}, "walls[1] = [2, 3]", "not connected with wall 0"),
+    (SQUARE, "nodes_mm[3] = [0.0, 5.0]", "nodes of walls"),
+    (
+        {"supports": FIXED, "prescribed": [MOVED | {"displacement_mm": 1}]},
         *('prescribed[0].direction = "x"', "one support or one prescribed move"),
     ),
-    "angle of a move": (
-        {"prescribed": [{"node": 0, "direction": "x", "angle_rad": 1}]},
-        *('prescribed[0].direction = "x"', "displacement_mm", "no angle_rad"),
-    ),
-    "moment at a pin": (
-        *({"pins": [1], "loads": [{"node": 1, "moment_Nmm": 2}]}, "pins[0] = 1", "no rotation"),
-    ),
-}
+    ({"prescribed": [MOVED | {"angle_rad": 1}]}, 'prescribed[0].direction = "x"', "no angle_rad"),
+    ({"pins": [1]} | LOAD, "pins[0] = 1", "no rotation"),
+]
 
 
 @pytest.fixture
@@ -92,14 +64,30 @@ def lines(tmp_path):
     return said
 
 
+@pytest.mark.parametrize(
+    ("key", "read", "one", "each"),
+    [
+        ("wall_thickness_mm", "thickness_mm", 0.5, (0.5, 0.7)),
+        ("subdivide", "pieces", 3, (3, 1)),
+        ("initial_velocity_mm_s", "velocity_mm_s", (1.0, 2.0), ((1.0, 2.0),) * 2 + ((0.0, 0.0),)),
+    ],
+)
+def test_one_value_stands_for_each(key, read, one, each):
+    walls = {"nodes_mm": ((0.0, -2.0), (3.0, 1.0), (-4.0, 0.0)), "walls": ((0, 1), (1, 2))}
+    made = Structure.model_validate(walls | {key: one})
+    assert (getattr(made, read), made.size_mm) == ((one,) * len(each), (7.0, 3.0))
+    assert getattr(Structure.model_validate(walls | {key: each}), read) == each
+
+
 def test_a_sound_file_is_read(lines):
     assert lines(GOOD) == []
 
 
-@pytest.mark.parametrize("what", WRONG)
-def test_a_mistake_is_a_line(refused, what):
-    parts, key, *words = WRONG[what]
-    assert refused(GOOD | parts, f'lattice.file = "own.json": {key}', *words)
+@pytest.mark.parametrize(("parts", "key", "words"), WRONG)
+def test_a_mistake_is_a_line(lines, parts, key, words):
+    (line,) = lines(GOOD | parts)
+    assert line.startswith(f'lattice.file = "own.json": {key}: ')
+    assert words in line
 
 
 def test_all_mistakes_are_told(lines):
@@ -121,27 +109,18 @@ def test_what_is_no_structure(lines, text, wanted):
     assert line.startswith(f'lattice.file = "own.json": {wanted}')
 
 
-STATIC = '[solver]\nintegrator = "static"'
-
-
 @pytest.mark.parametrize(
-    ("parts", "loose"),
+    ("supports", "loose"),
     [
-        ({}, "node 1 can move in y"),
-        ({"supports": [{"node": 0, "fix": ["x", "y"]}]}, "node 1 can move in y"),
-        ({"supports": FIXED, "pins": [1]}, "node 2 can move in x"),
-        ({"supports": FIXED}, ""),
-        ({"supports": [{"node": 0, "fix": ["x", "y"]}, {"node": 2, "fix": ["y"]}]}, ""),
+        (FIXED, ""),
+        ([{"node": 0, "fix": ["x", "y"]}], "supports: node 1 can move in y without resistance"),
     ],
 )
-def test_a_mechanism_has_no_equilibrium(lines, parts, loose):
-    found = lines(GOOD | parts, STATIC)
-    wanted = (
-        'solver.integrator = "static": does not fit; allowed: "backward_euler", "bdf2" or'
-        ' "newmark", or more'
-    )
-    assert found == ([f"{wanted} supports: {loose} without resistance"] if loose else [])
-    assert lines(GOOD | parts) == []
+def test_a_mechanism_has_no_equilibrium(lines, supports, loose):
+    parts = GOOD | {"supports": supports}
+    found = lines(parts, '[solver]\nintegrator = "static"')
+    assert [line.split("or more ")[1] for line in found] == ([loose] if loose else [])
+    assert lines(parts) == []
 
 
 def test_file_and_kind_go_together(lines, tmp_path):
@@ -154,21 +133,18 @@ def test_file_and_kind_go_together(lines, tmp_path):
         load_config(tmp_path / "bare.toml")
 
 
-def test_grid_scales_the_thickness_of_all_walls(tmp_path):
-    for given, found in {
-        0.5: [(0.4, 0.4), (1.2, 1.2)],
-        (0.4, 1.2): [(0.2, 0.6), (0.6, 1.8)],
-    }.items():
-        (tmp_path / "own.json").write_text(json.dumps(GOOD | {"wall_thickness_mm": given}))
-        path = tmp_path / "own.toml"
-        sizes = '[grid]\nlattice.wall_thickness = ["0.4 mm", "1.2 mm"]'
-        path.write_text(f'[lattice]\nkind = "custom"\nfile = "own.json"\n{sizes}')
-        cases = expand(load_config(path))
-        thick = [case.lattice.structure.thickness_mm for case in cases]
-        assert thick == [pytest.approx(walls) for walls in found]
-        assert [case.axes["lattice.wall_thickness"] for case in cases] == pytest.approx(
-            [0.4e-3, 1.2e-3]
-        )
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [(0.5, [(0.4, 0.4), (1.2, 1.2)]), ((0.4, 1.2), [(0.2, 0.6), (0.6, 1.8)])],
+)
+def test_grid_scales_the_thickness_of_all_walls(load, tmp_path, given, found):
+    (tmp_path / "own.json").write_text(json.dumps(GOOD | {"wall_thickness_mm": given}))
+    sizes = '[grid]\nlattice.wall_thickness = ["0.4 mm", "1.2 mm"]'
+    cases = expand(load(f'[lattice]\nkind = "custom"\nfile = "own.json"\n{sizes}'))
+    thick = [case.lattice.structure.thickness_mm for case in cases]
+    assert thick == [pytest.approx(walls) for walls in found]
+    labels = [case.axes["lattice.wall_thickness"] for case in cases]
+    assert labels == pytest.approx([0.4e-3, 1.2e-3])
 
 
 def test_thickness_that_does_not_fit_a_structure_is_refused(lines):
