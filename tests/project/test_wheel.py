@@ -58,16 +58,10 @@ print(dot(np.ones(3), np.ones(3)), sum(dot.entry.stats.cache_hits.values()))
 """
 
 
-def asked(folder, verb, into):
+def build(folder, verb, into):
+    """Call setuptools in a folder, as pip, build and uv do."""
     script = f"from setuptools import build_meta; build_meta.{verb}({str(into)!r})"
     subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
-
-
-def made(folder, what, into):
-    """The sdist or wheel that setuptools makes of a folder when pip, build or uv call it."""
-    asked(folder, f"build_{what}", into)
-    (path,) = into.glob("*.tar.gz" if what == "sdist" else "*.whl")
-    return path
 
 
 @pytest.fixture(scope="module")
@@ -76,11 +70,13 @@ def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     unneeded = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "results", "tests")
     shutil.copytree(ROOT, folder / "checkout", ignore=unneeded)
-    shutil.unpack_archive(made(folder / "checkout", "sdist", folder), folder)
+    build(folder / "checkout", "build_sdist", folder)
+    shutil.unpack_archive(next(folder.glob("*.tar.gz")), folder)
     source = folder / f"crumple-{crumple.__version__}"
     (source / "build/lib/sweep").mkdir(parents=True)
     (source / "build/lib/sweep/gone.py").touch()
-    return made(source, "wheel", folder)
+    build(source, "build_wheel", folder)
+    return next(folder.glob("*.whl"))
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +149,7 @@ def test_links_lead_to_the_repository_of_a_release(wheel, url, tmp_path, monkeyp
     """Its address is in one variable of the environment; without it, nothing is changed."""
     monkeypatch.setenv("PROJECT_URL", url)
     folder = wheel.parent / f"crumple-{crumple.__version__}"
-    asked(folder, "prepare_metadata_for_build_wheel", tmp_path)
+    build(folder, "prepare_metadata_for_build_wheel", tmp_path)
     told = Parser().parsestr(next(tmp_path.rglob("METADATA")).read_text("utf-8"))
     readme = (ROOT / "README.md").read_text("utf-8")
     assert told["Description-Content-Type"] == "text/markdown"

@@ -2,12 +2,11 @@
 plane.
 """
 
-import h5py
 import numpy as np
 import pytest
 
 from sweep.result import Result, Status
-from sweep.store.read import StoreError, read_frames, read_runs
+from sweep.store.read import read_frames, read_runs
 from sweep.store.write import Writer
 from tests.support.results.specimens import Named, squeezed_cell, summary, tube
 
@@ -33,22 +32,10 @@ def stored(request, tmp_path):
 
 
 def test_shapes_of_both_kinds_are_read_as_they_were_written(stored):
-    for result, case in zip(
-        results(), read_runs(stored, [r.case_id for r in results()]), strict=True
-    ):
+    runs = read_runs(stored, [result.case_id for result in results()])
+    for result, case in zip(results(), runs, strict=True):
         found = read_frames(stored, result.case_id)
         assert found.keys() == result.frames.keys() == case.frames.keys()
         for name, array in result.frames.items():
             assert found[name].shape == array.shape
             np.testing.assert_allclose(found[name], array, rtol=1e-6)
-
-
-def test_file_without_a_group_is_damaged(tmp_path):
-    path = tmp_path / "damaged.h5"
-    with Writer(path) as writer:
-        writer.append(results()[:1])
-        writer.fold()
-    with h5py.File(path, "r+") as file:
-        del file["edges"]
-    with pytest.raises(StoreError, match="damaged"):
-        read_frames(path, results()[0].case_id)
