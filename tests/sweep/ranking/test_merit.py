@@ -8,7 +8,7 @@ from sweep.ranking.merit import AT_DENSIFICATION
 from sweep.ranking.rank import rank, ranked
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
-from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, ids, summary
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 
@@ -87,11 +87,3 @@ def test_energy_counts_until_the_greatest_efficiency_if_asked(by):
     assert ranking.until == "up to the strain of greatest efficiency"
     assert ids(ranking.table) == [0, 1]
     assert list(ranking.table["passed_on_N"]) == [7.0, 20.0]
-
-
-def test_energy_counts_until_the_lattice_has_packed_down():
-    ranking = ranked(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
-    assert ids(ranking.table) == [1, 0]
-    assert ranking.energy == "absorbed_energy_until_packed_J"
-    assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
-    assert not ranking.table["beyond_model"].any()

@@ -41,7 +41,6 @@ def not_shown(count, all_of_them):
     ("values", "corrections", "places"),
     [
         ([10.0, 9.0, 8.0], None, [1, 2, 3]),
-        ([10.0, 10.0, 8.0], None, [1, 1, 3]),
         ([10.0, 10.0, 8.0], [0.0, 0.0, 0.0], [1, 1, 3]),
         ([10.0, 9.0, 8.0], [-0.5, 0.5, 0.4], [1, 1, 3]),  # the limits of both may be equal
         ([10.0, 9.5, 9.0], [-0.3, 0.3, -0.3], [1, 1, 3]),  # the third ties with the second only

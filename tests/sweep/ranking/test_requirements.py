@@ -8,7 +8,7 @@ import pytest
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import rank, ranked
 from sweep.ranking.requirement_table import MEASURES
-from sweep.ranking.requirements import Best, limits, measured
+from sweep.ranking.requirements import Best, limits
 from tests.support.results.specimens import HIT, designs, ids, summary
 
 NAN = float("nan")
@@ -252,13 +252,3 @@ def test_limits_are_si_and_those_that_are_none_are_left_out():
     given = dict.fromkeys(MEASURES) | {"max_mass": "2 oz", "max_deceleration": "10 g0"}
     assert limits(given) == pytest.approx({"max_deceleration": 98.0665, "max_mass": 0.05669904625})
     assert limits(None) == {}
-
-
-def test_what_is_measured_of_a_panel_is_that_of_its_specimens_together():
-    ranking = ranked(CRUSHED, panel=PANEL)
-    names = type("Names", (), {"mass": ranking.mass, "energy": ranking.energy})
-    one, all_of = (measured(ranking.table, names, per) for per in ("specimen", "panel"))
-    for name, measure in MEASURES.items():
-        factor = 50.0 if measure.shared else 1.0
-        np.testing.assert_allclose(all_of[name], factor * one[name])
-    assert list(one["max_mass"] * 1e3) == pytest.approx(list(ranking.table["mass_g"]))

@@ -29,16 +29,11 @@ def entries(designs, **chosen):
     return [entry["label"] for entry in looks(designs).legend(**chosen)]
 
 
-def test_colours_go_by_number_of_cells(table):
-    colors = looks(table).colors
-    assert list(colors) == [(2, 2), (3, 3), (10, 10)]
-    assert colors[2, 2] == "#440154"
-    assert len({*colors.values()}) == 3
-
-
 def test_a_design_keeps_its_look_in_a_part_of_the_ranking(table):
-    of = looks(table).of
-    whole, part = of(table), of(table.tail(1))
+    look = looks(table)
+    assert (list(look.colors), look.colors[2, 2]) == ([(2, 2), (3, 3), (10, 10)], "#440154")
+    assert len({*look.colors.values()}) == 3
+    whole, part = look.of(table), look.of(table.tail(1))
     assert (part["c"][0], part["s"][0]) == (whole["c"][3], whole["s"][3])
     assert part["marker"] == whole["marker"]
     assert whole["s"][1] < whole["s"][0]
@@ -98,8 +93,8 @@ def test_colours_tell_the_direction_where_there_are_both(table):
 
 
 def test_of_many_walls_the_legend_has_some():
-    walls = [*np.arange(4, 17) * 1e-4]
-    many = ranked(summary(*({"wall_thickness_m": wall} for wall in walls)), top=None).table
+    walls = [{"wall_thickness_m": thickness * 1e-4} for thickness in range(4, 17)]
+    many = ranked(summary(*walls), top=None).table
     assert entries(many) == ["wall", "0.4 mm", "0.7 mm", "1 mm", "1.3 mm", "1.6 mm"]
 
 
