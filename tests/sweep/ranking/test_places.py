@@ -1,6 +1,5 @@
 """Ties: places that error bars cannot tell apart, in rankings, tables and on the command line."""
 
-import io
 import json
 
 import numpy as np
@@ -93,23 +92,31 @@ def test_missing_bars_hide_nothing_and_small_ones_are_not_zero():
     assert [row[-1] for row in sheet.rows] == ["< 0.1", "?", "0.1", "0.0"]
 
 
-def test_ties_that_are_cut_off_are_counted_for_each_budget():
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"top": 1}, ["3 more tied for place 1.", not_shown("3 more", 4)]),
+        ({"top": 4}, []),
+        ({"top": None}, []),
+        (
+            {"top": 2, "budget": ["1 g", "2 g", "3 g"]},
+            [
+                "Up to 1-2 g, 1 more tied for place 1.",
+                "Up to 3 g, 2 more tied for place 1.",
+                not_shown("1 more up to 1-2 g, 2 more up to 3 g", 4),
+            ],
+        ),
+    ],
+)
+def test_what_is_cut_off_is_counted_for_each_budget(asked, told):
     table = summary(*with_bars([10.0, 9.9, 9.8, 9.7], [0.5] * 4))
     table["mass_g"] = [3.0, 1.0, 1.0, 1.0]
-
-    def notes(**asked):
-        (sheet,) = ranking_sheets(ranked(table, by="absorbed_energy_J", **asked), table)
-        return tuple(note for note in sheet.notes if "tied for" in note)
-
-    assert notes(top=1) == ("3 more tied for place 1.",)
-    assert notes(top=4) == notes(top=None) == ()
-    several = notes(top=2, budget=["1 g", "2 g", "3 g"])
-    assert several == (
-        "Up to 1-2 g, 1 more tied for place 1.",
-        "Up to 3 g, 2 more tied for place 1.",
-    )
-    assert notes(top=1, budget=["0.1 g", "3 g"])[0] == "Up to 3 g, 3 more tied for place 1."
-    assert list(rank(table, by="absorbed_energy_J", top=2)["sharing"]) == [4, 4]
+    ranking = ranked(table, by="absorbed_energy_J", **asked)
+    (sheet,) = ranking_sheets(ranking, table)
+    assert list(sheet.notes) == told
+    within = {1.0: 3, 2.0: 3}
+    counts = [within.get(budget, 4) for budget in ranking.table["budget_g"]]
+    assert list(ranking.table["contenders"]) == list(ranking.table["sharing"]) == counts
 
 
 def test_without_error_bars_nothing_speaks_of_them():
@@ -133,38 +140,13 @@ def test_error_bars_follow_into_what_is_derived():
     assert list(rank(table, by="passed_on_N")["ranked_error"]) == [0.5, 0.5]
 
 
-def test_what_is_not_shown_is_counted_for_each_budget():
-    table = summary(*designs([1.0, 2.0, 2.5, 3.0], [0.4, 0.3, 0.2, 0.1]))
-
-    def notes(**asked):
-        ranking = ranked(table, **asked)
-        (sheet,) = ranking_sheets(ranking, table)
-        return list(ranking.table["contenders"].unique()), sheet.notes
-
-    assert notes() == ([4], ())
-    assert notes(top=3) == ([4], (not_shown("1 more", 4),))
-    assert notes(top=1, budget="2 g") == ([2], (not_shown("1 more", 2),))
-    of, told = notes(top=2, budget=["1 g", "2 g", "2.5 g", "3 g"])
-    assert of == [1, 2, 3, 4]
-    assert told == (not_shown("1 more up to 2.5 g, 2 more up to 3 g", 4),)
-
-
-def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "80")
-    rows = with_bars([10.0, 9.0, 1.0], [0.6, 0.6, NAN])
-    file = write(tmp_path / "trial.h5", summary(*rows))
-    question = ["rank", file, "--panel", "100 mm", "50 mm", "--budget", "400 g"]
-    status, text, _ = crumple(capsys, *question)
-    assert status == 0
+def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary(*with_bars([10.0, 9.0, 1.0], [0.6, 0.6, NAN])))
+    text = crumple(capsys, "rank", file, "--panel", "100 mm", "50 mm")[1]
     assert all(words in text for words in ("1=*", TIED, "1 ranked case has no error bar: "))
-    assert max(len(line) for line in text.splitlines()) <= 100
-    table = pd.read_csv(io.StringIO(crumple(capsys, *question, "--csv")[1]))
-    assert list(table["tied"]) == [True, True, False]
-    assert {"ranked_error", "error_absorbed_energy_J", "error_panel_energy_J"} <= set(table)
-    records = json.loads(crumple(capsys, *question, "--json")[1])
-    assert [record["place"] for record in records] == [1, 1, 3]
+    records = json.loads(crumple(capsys, "rank", file, "--json")[1])
+    assert [(row["place"], row["tied"]) for row in records] == [(1, True), (1, True), (3, False)]
     assert records[2]["ranked_error"] is None
-    assert "| 1=*" in crumple(capsys, *question, "--markdown")[1]
 
 
 @pytest.mark.parametrize(

@@ -54,10 +54,8 @@ def test_truncated_file_is_named_with_advice(path, fold, left):
     sealed = path if fold else parts_of(path)[1]
     sealed.write_bytes(sealed.read_bytes()[: int(left * sealed.stat().st_size)])
     for read in READS.values():
-        with pytest.raises(StoreError, match="is damaged: move it away") as refusal:
+        with pytest.raises(StoreError, match=f"^{sealed} is damaged: move it away[^\n]*$"):
             read(path)
-        assert str(refusal.value).startswith(str(sealed))
-        assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -145,9 +143,7 @@ def test_a_flipped_bit_is_found_and_its_case_alone_runs_again(path, name, fold, 
 def test_a_case_whose_curves_are_damaged_runs_again_where_asked(path):
     """Reading its summary alone does not show it."""
     write(path, cases(5), fold=True)
-    with h5py.File(path) as file:
-        chunk = file["histories/values/strain"].id.get_chunk_info(0)
-    flipped(path, chunk.byte_offset + chunk.size // 2, 2)
+    blank(path, "histories/values/strain")
     assert len(finished_ids(path)) == 5
     assert finished_ids(path, Rerun(damaged=True)) == set()
     write(path, cases(5), fold=True)
@@ -274,10 +270,9 @@ def test_shapes_that_do_not_fit_together_are_named(path, capsys, name, value, wh
     case_id = cases(2)[0].case_id
     with pytest.raises(StoreError, match=f"no usable shapes of case {case_id}: {why}"):
         read_frames(path, case_id)
-    status, _, said = crumple(capsys, "show", str(path), case_id)
-    assert (status, why in said) == (2, True)
-    status, said, _ = crumple(capsys, "verify", str(path))
-    assert (status, why in said) == (1, True)
+    _, _, said = crumple(capsys, "show", str(path), case_id)
+    status, told, _ = crumple(capsys, "verify", str(path))
+    assert (status, why in said, why in told) == (1, True, True)
 
 
 @pytest.mark.parametrize("number", [0, 5, -1])

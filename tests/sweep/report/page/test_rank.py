@@ -58,36 +58,35 @@ def expected(table, question):
 def _within(ranking, k, required):
     """The answer of a ranking for each scene within its k-th budget."""
 
-    def own(rows):
-        """The rows of this budget."""
+    def own(rows, label):
+        """The rows of this budget and of a scene."""
+        rows = rows[rows["scene"] == label]
         return rows[rows["budget_g"] == ranking.budgets_g[k]] if ranking.budgets_g else rows
 
-    frame, unfinished = own(ranking.table), own(ranking.unfinished)
-    tied = frame.get("tied", pd.Series(False, frame.index)).eq(True)  # NaN: without error bars
-    frame = frame.assign(
-        value=[row[row["ranked_by"]] for _, row in frame.iterrows()],
-        mass=frame[ranking.mass],
-        tied=tied,
-        early=frame["ends_early"],
+    table = ranking.table
+    table = table.assign(
+        value=[row[row["ranked_by"]] for _, row in table.iterrows()],
+        mass=table[ranking.mass],
+        tied=table.get("tied", pd.Series(False, table.index)).eq(True),  # NaN: no error bars
+        early=table["ends_early"],
     )
     names = ["case_id", "place", "tied", "pareto", "beyond_model", "crossed"]
     names += ["value", "mass", "early"]
     scenes = {}
     for label in ranking.lightest_g:
-        rows = frame[frame["scene"] == label]
-        placed = rows[names].to_dict("records")
-        outcome = ranking.outcomes[label][k] if required else None
-        scenes[label] = {"placed": placed} | _of_requirements(outcome)
-        scenes[label]["passed_over"] = int(rows["passed_over"].iloc[0]) if len(rows) else 0
-        stopped = unfinished[unfinished["scene"] == label]
-        columns = stopped[["case_id", *PLACES]].itertuples(index=False, name=None)
-        scenes[label]["stopped"] = [[k, n, None if np.isnan(m) else m] for k, n, m in columns]
+        rows, stopped = own(table, label), own(ranking.unfinished, label)
+        places = stopped[["case_id", *PLACES]].itertuples(index=False, name=None)
+        scenes[label] = {
+            "placed": rows[names].to_dict("records"),
+            "passed_over": int(rows["passed_over"].iloc[0]) if len(rows) else 0,
+            "stopped": [[case, n, None if np.isnan(m) else m] for case, n, m in places],
+        }
+        if required:
+            scenes[label] |= _of_requirements(ranking.outcomes[label][k])
     return scenes
 
 
 def _of_requirements(outcome):
-    if outcome is None:
-        return {}
     ids = {name: list(getattr(outcome, name)["case_id"]) for name in ("nearest", "lightest")}
     known = np.isfinite(outcome.stroke)
     return {

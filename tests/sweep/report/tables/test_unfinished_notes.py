@@ -20,7 +20,7 @@ def test_of_several_budgets_the_best_place_counts_and_no_more_than_a_few_are_nam
     rows = ranked(stopped, budget=["1 g", "9 g"]).unfinished
     lines = list(unfinished_notes(rows, partial(named_case, among=stopped)))
     assert len(lines) == MOST + 1
-    assert "case 0000000000000002, wall 0.2 mm: would have place 1 or better up to 1 g" in lines[0]
+    assert "case 0000000000000002, wall 0.2 mm: would have place 1 up to 1 g" in lines[0]
     assert lines[-1].startswith("3 more")
 
 
