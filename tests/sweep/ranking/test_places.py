@@ -103,7 +103,7 @@ def test_missing_bars_hide_nothing_and_small_ones_are_not_zero():
             [
                 "Up to 1-2 g, 1 more tied for place 1.",
                 "Up to 3 g, 2 more tied for place 1.",
-                not_shown("1 more up to 1-2 g, 2 more up to 3 g", 4),
+                not_shown("1 more up to 1 g, 1 more up to 2 g, 2 more up to 3 g", 4),
             ],
         ),
     ],
