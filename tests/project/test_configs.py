@@ -34,7 +34,6 @@ def cases_of(name):
 
 
 def first(name, **values):
-    """The first case of a config with these values of its tables."""
     wanted = [(attrgetter(key.replace("__", ".")), value) for key, value in values.items()]
     return next(case for case in cases_of(name) if all(of(case) == value for of, value in wanted))
 
@@ -43,61 +42,58 @@ def near(value, rel=1e-3):
     return pytest.approx(value, rel=rel)
 
 
+def pin(name, values, **numbers):
+    """A row of `PINNED`: a config, the values of a case, and columns within 1e-3 or as stated."""
+    sure = {c: near(n) if isinstance(n, float) else n for c, n in numbers.items()}
+    return pytest.param(name, values, sure, id=f"{name}-{next(iter(sure))}")
+
+
 ARMOR = dict(lattice__cells_x=6, lattice__wall_thickness=0.8e-3, material__name="ninjaflex")
 CRUSHED, LOADED = dict(loading__mode="displacement"), dict(loading__mode="force")
-PANEL = dict(lattice__cells_x=17, lattice__cells_y=3)
 GLUED, LOOSE = dict(loading__platen="glued"), dict(loading__platen="contact")
+PANEL = dict(lattice__cells_x=17, lattice__cells_y=3)
+SQUARE, HEX = dict(lattice__kind="square"), dict(lattice__kind="hex")
+FLAT = HEX | dict(lattice__orientation="flat", lattice__perimeters=0)
+DIAMOND = dict(lattice__kind="diamond", lattice__perimeters=0)
+BRACED = dict(lattice__name="drawn.csv", lattice__counts=(23, 44))
+HONEYCOMB = GLUED | dict(lattice__pattern="honeycomb", lattice__infill=near(0.1769))
+PAD = HEX | dict(lattice__cells_x=6, lattice__wall_thickness=0.8e-3)
 PINNED = [
-    ("armor", ARMOR | CRUSHED | GLUED, {"absorbed_energy_J": near(1.7057)}),
-    ("armor", ARMOR | CRUSHED | LOOSE, {"absorbed_energy_J": near(1.5114)}),
-    (
-        *("armor", ARMOR | LOADED | LOOSE | dict(loading__force=500.0)),
-        {"absorbed_energy_J": near(4.4626)},
-    ),
-    (
-        *("infills", dict(lattice__kind="hex", lattice__orientation="flat", lattice__perimeters=0)),
-        {"mass_g": near(14.5, 1e-12), "absorbed_energy_J": near(1.9133)},
-    ),
-    (
-        *("infills", dict(lattice__kind="diamond", lattice__perimeters=0)),
-        {"mass_g": near(14.5, 1e-12), "absorbed_energy_J": near(1.6867)},
-    ),
-    (  # in one piece of 100 x 50 mm
+    pin("armor", ARMOR | CRUSHED | GLUED, absorbed_energy_J=1.7057),
+    pin("armor", ARMOR | CRUSHED | LOOSE, absorbed_energy_J=1.5114),
+    pin("armor", ARMOR | LOADED | LOOSE | dict(loading__force=500.0), absorbed_energy_J=4.4626),
+    pin("infills", FLAT, absorbed_energy_J=1.9133, mass_g=near(14.5, 1e-12)),
+    pin("infills", DIAMOND, absorbed_energy_J=1.6867, mass_g=near(14.5, 1e-12)),
+    # Squares in one piece of 100 x 50 mm.
+    pin(
         "panel",
-        dict(lattice__kind="square", lattice__wall_thickness=0.8e-3) | PANEL,
-        {"absorbed_energy_until_packed_J": near(7.556)},
+        PANEL | SQUARE | dict(lattice__wall_thickness=0.8e-3),
+        absorbed_energy_until_packed_J=7.556,
     ),
-    (  # the braced panel, whose walls are as thick as its mass says
-        *("drawn", dict(lattice__name="drawn.csv", lattice__counts=(23, 44))),
-        {"mass_g": near(4.0, 1e-9), "absorbed_energy_until_packed_J": near(0.40548)},
+    # A panel whose walls are as thick as its mass says.
+    pin("drawn", BRACED, absorbed_energy_until_packed_J=0.40548, mass_g=near(4.0, 1e-9)),
+    # By a flat robot of 1 lb, as heavy as their own.
+    pin("rammed", PANEL, peak_force_N=4318.6, target_speed_m_per_s=3.3031),
+    pin(
+        "reuse",
+        SQUARE,
+        absorbed_energy_in_cycle_2_J=0.025825,
+        second_cycle_share=0.7169,
+        mass_g=near(1.4, 1e-12),
     ),
-    (  # by a flat robot of 1 lb, as heavy as their own
-        *("rammed", PANEL),
-        {"peak_force_N": near(4318.6), "target_speed_m_per_s": near(3.3031)},
+    pin(
+        "slicer",
+        HONEYCOMB,
+        absorbed_energy_until_packed_J=near(6.709, 2e-3),
+        printed_mass_g=near(24.0, 1e-9),
     ),
-    (
-        *("reuse", dict(lattice__kind="square")),
-        {
-            "mass_g": near(1.4, 1e-12),
-            "absorbed_energy_in_cycle_2_J": near(0.025825),
-            "second_cycle_share": near(0.7169),
-        },
-    ),
-    (
-        *("slicer", dict(lattice__pattern="honeycomb", lattice__infill=near(0.1769)) | GLUED),
-        {
-            "printed_mass_g": near(24.0, 1e-9),
-            "absorbed_energy_until_packed_J": near(6.709, 2e-3),
-        },
-    ),
-    (  # the only pad that keeps 80 g0
+    # The only pad that keeps 80 g0.
+    pin(
         "drop",
-        dict(lattice__kind="hex", lattice__cells_x=6, lattice__wall_thickness=0.8e-3),
-        {
-            "impact_energy_J": near(0.5 * 9.80665 * 0.5, 1e-6),
-            "peak_force_N": near(346.6, 2e-3),
-            "peak_deceleration_filtered_m_per_s2": near(57.2 * 9.80665, 2e-3),
-        },
+        PAD,
+        peak_force_N=near(346.6, 2e-3),
+        peak_deceleration_filtered_m_per_s2=near(57.2 * 9.80665, 2e-3),
+        impact_energy_J=near(0.5 * 9.80665 * 0.5, 1e-6),
     ),
 ]
 COUNTS = {"reuse": 4, "slicer": 14, "drop": 8, "smoke": 6, "which_way": 16}
@@ -109,7 +105,7 @@ def test_no_config_is_forgotten():
     names = {path.stem for path in CONFIGS.glob("*.toml")}
     along = {f"khatri_egan_{cells}_out_of_plane" for cells in ("square", "hexagon")}
     own = {"smoke", "search", "seed", "gyroid", "which_way", "which_way_lost"} | along
-    assert names == ELSEWHERE | own | {name for name, *_ in PINNED}
+    assert names == ELSEWHERE | own | {row.values[0] for row in PINNED}
     assert {name: len(cases_of(name)) for name in COUNTS} == COUNTS
     assert sum(case.lattice.grading == 1.0 for case in cases_of("infills")) == 12
 

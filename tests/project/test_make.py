@@ -19,7 +19,6 @@ esac
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A folder with the Makefile, set up."""
     shutil.copy(ROOT / "Makefile", tmp_path)
     (tmp_path / ".ci").mkdir()
     for name in ("requirements.lock", "pyproject.toml", ".ci/setup", "stamp", "program"):

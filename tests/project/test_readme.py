@@ -96,7 +96,6 @@ def test_example_has_as_many_cases_as_it_says(tmp_path):
 
 
 def keys_of(table):
-    """Statements about the keys of a table."""
     (text,) = re.findall(rf"^- `\[{table}\]`:\s(.*?)(?=^- |\n\n)", readme.TEXT, re.M | re.S)
     return " ".join(text.split())
 
@@ -178,7 +177,6 @@ def test_snippets_run(tmp_path, monkeypatch, capsys):
 
 @cache
 def figures_now():
-    """Tables of figures by their first cell."""
     found = [list(table()) for table in figures.TABLES]
     return {rows[0][0]: rows for rows in found}
 

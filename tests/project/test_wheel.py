@@ -127,7 +127,6 @@ def run(environment, tmp_path, monkeypatch):
 
 
 def read(wheel, name):
-    """A file of the wheel, as text."""
     with zipfile.ZipFile(wheel) as archive:
         return archive.read(name).decode()
 
@@ -195,6 +194,5 @@ def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
 
 
 def test_kernels_are_compiled_once(run):
-    """Another process finds them."""
     assert run("python", "-I", "-c", KEPT) == "3.0 0\n"
     assert run("python", "-I", "-c", KEPT) == "3.0 1\n"

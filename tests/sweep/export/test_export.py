@@ -39,7 +39,6 @@ def exported(file, path, **wish):
 
 
 def extents(file):
-    """Sizes of the model in a 3MF along x, y and z, mm."""
     with ZipFile(file) as archive:
         model = Xml.fromstring(archive.read("3D/3dmodel.model"))
     points = [[float(v.get(k)) for k in "xyz"] for v in model.iter() if v.tag.endswith("vertex")]
@@ -73,17 +72,12 @@ DIAMOND = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e
     ("lattice", "sides", "size", "counted"),
     [
         (
-            *(
-                {},
-                ("100 mm", 0.05),
-                "7 side by side, each 4 specimens of 12 mm deep: 95.5 x 13.3 mm",
-            ),
-            "these 28 specimens, which are not joined, are .* 100 x 50 mm$",
+            {},
+            ("100 mm", 0.05),
+            "7 side by side, each 4 specimens of 12 mm deep: 95.5 x",
+            "these 28",
         ),
-        (
-            *({}, ("30 mm", "12 mm"), "2 side by side, each 12 mm deep: 27 x"),
-            "these 2 specimens, which are not joined",
-        ),
+        ({}, ("30 mm", "12 mm"), "2 side by side, each 12 mm deep: 27 x", "these 2 specimens, "),
         ({}, ("13 mm", "12 mm"), "13.3 x 13.3 mm, 12 mm deep: ", "this specimen is what rank"),
         # The tips of a diamond are farther out than half a wall: 4 specimens, (2^0.5 - 1) t each.
         (DIAMOND, (0.058, 0.012), "4 side by side", ".* make them 2.7 mm wider$"),

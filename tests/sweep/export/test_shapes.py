@@ -13,7 +13,6 @@ HEIGHTS = (10.0, 7.0, 4.0)
 
 
 def written(tmp_path, frames):
-    """A reader of the shapes."""
     path = tmp_path / "crush.vtkhdf"
     write_shapes(path, frames)
     reader = vtkHDFReader()

@@ -30,7 +30,6 @@ def case(name, direction="out_of_plane"):
 
 @cache
 def printed(name, direction):
-    """The body of one period and a half."""
     made = case(name, direction)
     width, depth = made.footprint
     return sheet_panel(made, (1.5 * width, depth))[0]

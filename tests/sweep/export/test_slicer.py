@@ -89,7 +89,6 @@ def test_orca_and_bambu_read_an_object_and_its_part():
 
 
 def laid(slicer, pattern, **changes):
-    """A lattice of a slicer in a box of 25 mm."""
     box = {"width": 25e-3, "height": 25e-3, "infill": 0.2}
     return lattice_with(slicer=slicer, pattern=pattern, **box | changes)
 

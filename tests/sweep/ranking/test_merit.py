@@ -14,7 +14,6 @@ NAN = float("nan")
 
 
 def struck(force, energy, **other):
-    """A row of a design under a striker."""
     hit = {"loading_mode": "impact", "stroke_m": NAN, "striker_mass_g": 50.0}
     speed = {"striker_speed_m_per_s": (2e3 * energy / 50.0) ** 0.5, "impact_energy_J": energy}
     return hit | speed | {"peak_force_N": force, "absorbed_energy_J": energy} | other

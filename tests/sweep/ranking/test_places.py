@@ -32,7 +32,6 @@ def with_bars(energies, errors, **common):
 
 
 def not_shown(count, all_of_them):
-    """The note below a table that does not show them all."""
     return f"Not shown: {count}; with --top {all_of_them}, rank lists all."
 
 
@@ -57,7 +56,6 @@ def test_values_share_the_place_of_the_first_that_their_corrections_reach(
 
 
 def test_errors_that_all_designs_share_make_no_ties():
-    """Two designs tie if their values differ by no more than their corrections do."""
     table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.9] * 4))
     correction = "correction_absorbed_energy_until_packed_J"
     assert list(rank(table.assign(**{correction: 1e-3}))["place"]) == [1, 2, 3, 4]

@@ -137,7 +137,6 @@ def grids(rng):
 
 
 def question(rng):
-    """A random question."""
     least = rng.choice(["20 mJ", "40 mJ", "60 mJ"])
     require = {"max_force": "9 N", "max_stroke": "7 mm", "min_absorbed": least}
     force = rng.choice([None, None, "5 N", "12 N"])
@@ -165,7 +164,6 @@ def rankings(seed):
 
 
 def first(ranking):
-    """Ids of the first place."""
     return {*ranking.table["case_id"][ranking.table["place"] == 1]}
 
 

@@ -48,11 +48,11 @@ def test_cases_are_read_as_they_were(path, folded, monkeypatch):
 
 
 def test_texts_of_neighbours_cost_few_bytes(path):
-    write(path, cases(300), fold=True, size=300)
+    write(path, cases(100), fold=True, size=100)
     with h5py.File(path) as file:
         data = file["cases/values/json"]
-        assert data.shape[0] == sum(len(case.to_json()) for case in cases(300))
-        assert data.id.get_storage_size() < 150 * 300
+        assert data.shape[0] == sum(len(case.to_json()) for case in cases(100))
+        assert data.id.get_storage_size() < 150 * 100
 
 
 def test_only_who_asks_for_a_case_reads_it(path):

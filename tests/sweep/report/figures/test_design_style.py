@@ -7,7 +7,7 @@ import pandas
 import pytest
 
 from sweep.ranking.rank import ranked
-from sweep.report.figures.design_style import budget_winners, faded, looks
+from sweep.report.figures.design_style import budget_winners, looks
 from tests.support.results.specimens import designs, summary
 
 
@@ -117,9 +117,3 @@ def test_of_equal_winners_the_one_named_tells_its_own_error():
 
 def test_without_a_merit_no_design_wins(ranking):
     assert budget_winners(ranking.table.assign(**{ranking.energy: np.nan}), ranking) == []
-
-
-def test_a_faded_colour_lies_between_white_and_itself():
-    assert faded("#0072b2", 1.0) == "#0072b2"
-    assert faded("#0072b2", 0.0) == "#ffffff"
-    assert faded("#006400", 0.5) == "#80b280"

@@ -23,7 +23,6 @@ def sheet(n=4):
 
 
 def areas(position, quads):
-    """Area of each quad that is level, (m,)."""
     one, two = (position[quads[:, k + 2]] - position[quads[:, k]] for k in (0, 1))
     return 0.5 * np.cross(one, two)[:, 2]
 

@@ -67,4 +67,3 @@ def test_what_is_not_to_be_trusted_is_open_and_every_scene_has_a_panel():
     assert [[bar.get_fill() for bar in ax.patches] for ax in figure.axes] == [[False, True], [True]]
     scenes = [ax.get_title("left") for ax in figure.axes]
     assert scenes == [f"crushed to 50 %, {platen} platens" for platen in ("glued", "contact")]
-    assert panel_size(ranking.table)[1] == 0.25 * 3 + 0.9 * 2

@@ -11,7 +11,6 @@ TIME = np.linspace(0.0, 0.02, 3)
 
 
 def drawn(**columns):
-    """The picture of a history, of three rows, with these columns."""
     (row,) = summary({"loading_mode": "custom"}).to_dict("records")
     ax = blank(5, 3).subplots()
     history = {"time_s": TIME, "reaction_bottom_N": np.full(3, np.nan)} | columns

@@ -237,7 +237,6 @@ def test_marks_are_those_of_the_terminal(tab, capsys, file):
 
 
 def heads(tab):
-    """The heads of the table, in one line each."""
     texts = "[...document.querySelectorAll('#table th button')].map((head) => head.textContent)"
     return [text.replace("\n", " ") for text in tab.run(texts)]
 

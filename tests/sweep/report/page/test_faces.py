@@ -23,13 +23,11 @@ const told = (moving, table) =>
 
 def read(moving):
     """Positions (f, n, 3) in mm."""
-    counts = np.frombuffer(b64decode(moving["position"]), "<u2")
-    shape = (len(moving["strain"]), moving["nodes"], 3)
-    return np.array(moving["low"]) + moving["step"] * counts.reshape(shape)
+    counts = np.frombuffer(b64decode(moving["position"]), "<u2").reshape(-1, moving["nodes"], 3)
+    return np.array(moving["low"]) + moving["step"] * counts
 
 
 def on_the_page(moving, frame):
-    """Faces of a frame by the script of the page."""
     with MiniRacer() as engine:
         engine.eval(SCRIPT.read_text("utf-8") + ASK)
         table = read(moving)[frame].tolist()

@@ -48,7 +48,6 @@ function answersOf({ data, questions }) {
 
 
 def expected(table, question):
-    """The answer of `rank` for each budget and each scene."""
     asked = {name: question[name] for name in ("panel", "require", "per")}
     budgets = question["budgets"]
     ranking = ranked(table, budgets, **asked, top=None, allowed_force=question["force"])
@@ -56,10 +55,7 @@ def expected(table, question):
 
 
 def _within(ranking, k, required):
-    """The answer of a ranking for each scene within its k-th budget."""
-
     def own(rows, label):
-        """The rows of this budget and of a scene."""
         rows = rows[rows["scene"] == label]
         return rows[rows["budget_g"] == ranking.budgets_g[k]] if ranking.budgets_g else rows
 

@@ -9,7 +9,6 @@ from tests.support.results.specimens import designs, summary
 
 
 def table(stopped):
-    """Two designs, and this many that stopped with 0.2 J, of other walls."""
     why = {"status": "stopped", "message": "why", "absorbed_energy_J": 0.2}
     walls = [why | {"wall_thickness_m": (k + 2) * 1e-4} for k in range(stopped)]
     return summary(*designs([1.0, 2.0], [0.1, 0.5]), *walls)
