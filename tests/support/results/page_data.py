@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from sweep.ranking.rank import ranked
 from tests.support.results.specimens import summary
 
 FORCES = (20.0, 50.0)
@@ -50,5 +49,3 @@ def sweep(count=24, seed=1, bars=True, more=None):
             table[f"{kind}_{name}"] = table[name] * rng.choice([0.001, 0.05, 0.2], len(table))
             table.loc[rng.random(len(table)) < 0.1, f"{kind}_{name}"] = np.nan
     return table.assign(**(more or {}))
-
-

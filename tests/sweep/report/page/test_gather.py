@@ -9,12 +9,9 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.thinning import work_until
-from sweep.result import Result, Status
-from sweep.store.write import Writer
 from tests.support.results.page_data import sweep
 from tests.support.results.specimens import (
     HEIGHT,
-    Named,
     designs,
     squeezed_cell,
     summary,
@@ -96,24 +93,19 @@ def test_curves_of_each_mode():
 
 def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     """Curves without any regularity, and a drawing of its own for each design."""
-    table = sweep(count=250)
-    rng, results = np.random.default_rng(0), []
+    table, rng = sweep(count=250), np.random.default_rng(0)
     strain, time = np.linspace(0.0, 0.6, 41), np.linspace(0.0, 1.0, 41)
-    for row in table.to_dict("records"):
-        case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
+
+    def ran(*_):
         history = {name: rng.random(201) for name in there_and_back()}
         history["strain"] = np.linspace(0.0, 0.6, 201)
         frames = {"strain": strain, "time_s": time, "plate_y_m": np.zeros((41, 2))}
         frames |= {"position_m": rng.random((41, 40, 2)) * 0.0125}
         edges = rng.integers(0, 40, (50, 2))
         frames["edges"] = edges[edges[:, 0] != edges[:, 1]]
-        frames["edge_thickness_m"] = np.full(len(frames["edges"]), 8e-4)
-        results.append(Result(Named(case_id), Status(status), message, row, history, frames))
-    path = tmp_path / "many.h5"
-    with Writer(path) as writer:
-        writer.append(results)
-        writer.fold()
-    data = page_data(str(path), table, Question())
+        return history, frames | {"edge_thickness_m": np.full(len(frames["edges"]), 8e-4)}
+
+    data = page_data(write(tmp_path / "many.h5", table, ran=ran), table, Question())
     assert 2_000_000 < len(json.dumps(data, separators=(",", ":"))) < 4_900_000
     assert (len(table), data["points"]) == (500, 60)
     assert 0 < len(data["shapes"]) < 500
