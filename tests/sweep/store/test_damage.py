@@ -270,9 +270,10 @@ def test_shapes_that_do_not_fit_together_are_named(path, capsys, name, value, wh
     case_id = cases(2)[0].case_id
     with pytest.raises(StoreError, match=f"no usable shapes of case {case_id}: {why}"):
         read_frames(path, case_id)
-    _, _, said = crumple(capsys, "show", str(path), case_id)
-    status, told, _ = crumple(capsys, "verify", str(path))
-    assert (status, why in said, why in told) == (1, True, True)
+    status, _, said = crumple(capsys, "show", str(path), case_id)
+    assert (status, why in said) == (2, True)
+    status, said, _ = crumple(capsys, "verify", str(path))
+    assert (status, why in said) == (1, True)
 
 
 @pytest.mark.parametrize("number", [0, 5, -1])

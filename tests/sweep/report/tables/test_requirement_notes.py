@@ -67,13 +67,13 @@ def test_masses_are_of_a_part_or_period_and_walls_at_their_first_loading(changes
 
 
 @pytest.mark.parametrize(
-    ("by", "head"),
+    ("by", "head", "value"),
     [
-        ("peak_base_pressure_Pa", "base kPa"),
-        ("peak_deceleration_filtered_m_per_s2", "decel. g0"),
+        ("peak_base_pressure_Pa", "base kPa", "200"),
+        ("peak_deceleration_filtered_m_per_s2", "decel. g0", "51.0"),
     ],
 )
-def test_a_measure_that_sorts_is_shown_once(by, head):
+def test_a_measure_that_sorts_is_shown_once(by, head, value):
     struck = IMPACTS.assign(peak_base_pressure_Pa=[2e5, 3e5])
     (sheet,) = ranking_sheets(ranked(struck, by=by), struck)
-    assert (sheet.heads[-1], by in sheet.heads) == (head, False)
+    assert (sheet.heads[-1], sheet.rows[0][-1], by in sheet.heads) == (head, value, False)

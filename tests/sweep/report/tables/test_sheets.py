@@ -73,6 +73,7 @@ def test_the_sorted_column_is_never_spare():
         assert head not in sheet.spare
         others = {"cycle 2 %", "returned %", "dens. %", "peak N", "mass g"} - {head}
         assert others <= set(sheet.spare) < set(sheet.heads)
+        assert sorted(sheet.columns[sheet.heads.index("cycle 2 %")]) == ["70", "80"]
 
 
 @pytest.mark.parametrize(
