@@ -105,7 +105,7 @@ def test_every_key_is_explained(table):
     known = table_keys(table) if table in QUESTION else case_keys()
     fields = {name.split(".")[1] for name in known if name.startswith(f"{table}.")}
     if table == "lattice":
-        fields |= families().keys()
+        fields |= {*families()}
     unsaid = fields - {"load_steps"} - set(re.findall(r"[`\"](\w+)[`\"]", keys_of(table)))
     assert not unsaid, f"configs/README.md does not explain these keys or kinds of [{table}]"
 

@@ -17,7 +17,6 @@ from tests.support.results.questions import (
     read_from_curves,
     write_curves,
 )
-from tests.support.results.specimens import summary, there_and_back, write
 
 SWEEPS, ASKED = 5, 32
 DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
@@ -165,15 +164,3 @@ def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
     counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
     assert min(*counts, missing, stopped, passed_over) > 5
     assert min(nearest, border) > 0
-
-
-def test_energies_between_the_stored_forces_are_read_from_curves(page_answers, tmp_path):
-    table = summary({"peak_force_N": 20.8, "absorbed_energy_at_20N_J": 1.0})
-    data = page_data(write(tmp_path / "trial.h5", table, {"config": "{}"}), table, Question())
-    asked = {"budget": 5e-3, "panel": None, "per": "specimen"}
-    (between,), (stored,) = page_answers(data, [asked | {"force": force} for force in (20.3, 20.0)])
-    history = there_and_back()
-    squares = history["reaction_top_N"][:21] ** 2
-    work = np.interp(20.3**2, squares, history["work_in_J"][:21])
-    assert between["placed"][0]["value"] == pytest.approx(work, rel=1e-3)
-    assert stored["placed"][0]["value"] == 1.0
