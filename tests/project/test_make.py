@@ -1,10 +1,8 @@
 """The Makefile, with a program in place of Python that prints its arguments."""
 
 import os
-import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -21,7 +19,6 @@ esac
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A folder with the Makefile, set up."""
     shutil.copy(ROOT / "Makefile", tmp_path)
     (tmp_path / ".ci").mkdir()
     for name in ("requirements.lock", "pyproject.toml", ".ci/setup", "stamp", "program"):
@@ -40,16 +37,3 @@ def test_rank_prints_one_ranking_with_results_and_without(checkout):
             command, cwd=checkout, env=quiet, capture_output=True, text=True, check=True
         )
         assert done.stdout.split() == ["ranking", "files"]
-
-
-def test_what_targets_run_finds_all_that_it_imports(checkout):
-    targets = ["validate", "bench", "stability", "continuum", "mutants"]
-    words = ["make", "-n", *targets, f"PYTHON={sys.executable}", "STAMP=stamp"]
-    told = subprocess.run(words, cwd=checkout, capture_output=True, text=True, check=True).stdout
-    programs = re.findall(r"-m (tests\.[\w.]+) ", told)
-    assert len(programs) == len(targets)
-    script = "; ".join(f"import {program}.__main__" for program in programs)
-    usual = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
-    words = [sys.executable, "-c", script]
-    done = subprocess.run(words, cwd=ROOT, env=usual, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")

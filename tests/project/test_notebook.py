@@ -16,14 +16,12 @@ LARGEST = 150_000  # bytes
 
 @pytest.fixture(scope="module")
 def outputs(tmp_path_factory):
-    """The outputs of all cells now."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(tmp_path_factory.mktemp("notebook"))
         return executed(CODE)
 
 
 def text_of(output, kind):
-    """A text of an output, without tags and drawings."""
     text = "".join(output["text"] if kind == "stdout" else output["data"][kind])
     return TAG.sub(" ", text)
 

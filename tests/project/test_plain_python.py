@@ -34,7 +34,6 @@ NONSENSE = {"MALLOC_PERTURB_": "165", "GLIBC_TUNABLES": "glibc.malloc.tcache_cou
 
 
 def output(**environment):
-    """Output of the program."""
     run = subprocess.run(
         [sys.executable, "-c", PROGRAM],
         env=os.environ | environment,

@@ -58,16 +58,10 @@ print(dot(np.ones(3), np.ones(3)), sum(dot.entry.stats.cache_hits.values()))
 """
 
 
-def asked(folder, verb, into):
+def build(folder, verb, into):
+    """Call setuptools in a folder, as pip, build and uv do."""
     script = f"from setuptools import build_meta; build_meta.{verb}({str(into)!r})"
     subprocess.run([sys.executable, "-c", script], cwd=folder, check=True)
-
-
-def made(folder, what, into):
-    """The sdist or wheel that setuptools makes of a folder when pip, build or uv call it."""
-    asked(folder, f"build_{what}", into)
-    (path,) = into.glob("*.tar.gz" if what == "sdist" else "*.whl")
-    return path
 
 
 @pytest.fixture(scope="module")
@@ -76,11 +70,13 @@ def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     unneeded = shutil.ignore_patterns(".*", "build", "dist", "*.egg-info", "results", "tests")
     shutil.copytree(ROOT, folder / "checkout", ignore=unneeded)
-    shutil.unpack_archive(made(folder / "checkout", "sdist", folder), folder)
+    build(folder / "checkout", "build_sdist", folder)
+    shutil.unpack_archive(next(folder.glob("*.tar.gz")), folder)
     source = folder / f"crumple-{crumple.__version__}"
     (source / "build/lib/sweep").mkdir(parents=True)
     (source / "build/lib/sweep/gone.py").touch()
-    return made(source, "wheel", folder)
+    build(source, "build_wheel", folder)
+    return next(folder.glob("*.whl"))
 
 
 @pytest.fixture(scope="module")
@@ -111,17 +107,15 @@ def environment(wheel, tmp_path_factory):
 
 
 @pytest.fixture
-def run(environment, tmp_path_factory):
+def run(environment, tmp_path, monkeypatch):
     """Run a program of that environment in another folder, and return its output."""
-    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    monkeypatch.chdir(tmp_path)
     usual = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "CRUMPLE"))}
-    usual |= {"PYTHONNOUSERSITE": "1", "CRUMPLE_CACHE_DIR": str(elsewhere / "cache")}
+    usual |= {"PYTHONNOUSERSITE": "1", "CRUMPLE_CACHE_DIR": str(tmp_path / "cache")}
 
     def printed(program, *words, **more):
         command = [environment / program, *words]
-        done = subprocess.run(
-            command, cwd=elsewhere, env=usual | more, capture_output=True, text=True, check=False
-        )
+        done = subprocess.run(command, env=usual | more, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         if "run" in words:  # its progress is on stderr
             assert "Warning" not in done.stderr
@@ -129,12 +123,10 @@ def run(environment, tmp_path_factory):
         assert done.stderr == ""
         return done.stdout
 
-    printed.folder = elsewhere
     return printed
 
 
 def read(wheel, name):
-    """A file of the wheel, as text."""
     with zipfile.ZipFile(wheel) as archive:
         return archive.read(name).decode()
 
@@ -153,7 +145,7 @@ def test_links_lead_to_the_repository_of_a_release(wheel, url, tmp_path, monkeyp
     """Its address is in one variable of the environment; without it, nothing is changed."""
     monkeypatch.setenv("PROJECT_URL", url)
     folder = wheel.parent / f"crumple-{crumple.__version__}"
-    asked(folder, "prepare_metadata_for_build_wheel", tmp_path)
+    build(folder, "prepare_metadata_for_build_wheel", tmp_path)
     told = Parser().parsestr(next(tmp_path.rglob("METADATA")).read_text("utf-8"))
     readme = (ROOT / "README.md").read_text("utf-8")
     assert told["Description-Content-Type"] == "text/markdown"
@@ -186,27 +178,21 @@ def test_programs_tell_the_version(run):
 
 
 def test_names_are_found_below_one_package(run):
-    found, names, explained, known, loaded = run("python", "-I", "-c", NAMES).splitlines()
-    assert found == "None None True"
-    assert names.split() == dir(crumple)
-    assert explained == "True"
-    assert known.split() == examples()
-    assert loaded == "vibration"
+    below, names, explained, known, loaded = run("python", "-I", "-c", NAMES).splitlines()
+    assert (below, explained, loaded) == ("None None True", "True", "vibration")
+    assert (names.split(), known.split()) == (dir(crumple), examples())
 
 
 def test_sweeps_run_with_the_materials_and_examples_of_the_wheel(run):
-    (run.folder / "trial.toml").write_text(TRIAL)
+    Path("trial.toml").write_text(TRIAL)
     assert "1/1 cases" in run("crumple", "run", "trial.toml", NUMBA_DISABLE_JIT="1")
     told = run("crumple", "status", "results/trial.h5")
-    assert "1 converged" in told
-    assert "revision unknown" in told
+    assert all(words in told for words in ("1 converged", "revision unknown"))
     told = run("python", "-m", "crumple", "run", "custom", NUMBA_DISABLE_JIT="1")
     assert re.search(r"example custom: .*/site-packages/crumple/configs/custom\.toml ", told)
-    assert "1/1 cases" in told
-    assert "loaded as in its file" in told
+    assert all(words in told for words in ("1/1 cases", "loaded as in its file"))
 
 
 def test_kernels_are_compiled_once(run):
-    """Another process finds them."""
     assert run("python", "-I", "-c", KEPT) == "3.0 0\n"
     assert run("python", "-I", "-c", KEPT) == "3.0 1\n"

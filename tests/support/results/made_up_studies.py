@@ -4,10 +4,8 @@ import numpy as np
 
 from sweep.columns import HISTORY_COLUMNS
 from sweep.ranking.accuracy import studies
-from sweep.result import Result, Status
 from sweep.store.read import read_summary
-from sweep.store.write import Writer
-from tests.support.results.specimens import Named, summary
+from tests.support.results.specimens import summary, write
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 STEPS = (1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5)
@@ -38,16 +36,12 @@ def all_steps(*integrators, **other):
 
 def study(folder, rows):
     """The studies of made-up rows, written to a folder."""
-    table = summary(*rows)
-    results = []
-    for row in table.to_dict("records"):
-        case_id, status, message, curve = (
-            row.pop(k) for k in ("case_id", "status", "message", "path")
-        )
-        blank = dict.fromkeys(HISTORY_COLUMNS, np.zeros_like(TIME))
-        history = blank | {"time_s": TIME, "strain": curve}
-        results.append(Result(Named(case_id), Status(status), message, row, history, {}))
-    with Writer(folder / "made_up.h5") as writer:
-        writer.append(results)
-        writer.fold()
-    return studies(folder / "made_up.h5", read_summary(folder / "made_up.h5"))
+    blank = dict.fromkeys(HISTORY_COLUMNS, np.zeros_like(TIME))
+    curves = [row["path"] for row in rows]
+    table = summary(*({key: row[key] for key in row if key != "path"} for row in rows))
+
+    def ran(_, number):
+        return blank | {"time_s": TIME, "strain": curves[number]}, {}
+
+    file = write(folder / "made_up.h5", table, ran=ran)
+    return studies(file, read_summary(file))

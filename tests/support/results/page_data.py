@@ -1,8 +1,7 @@
-"""Invented sweeps for tests of the page, and the rankings that it should show."""
+"""Invented sweeps for tests of the page."""
 
 import numpy as np
 
-from sweep.ranking.rank import ranked
 from tests.support.results.specimens import summary
 
 FORCES = (20.0, 50.0)
@@ -50,19 +49,3 @@ def sweep(count=24, seed=1, bars=True, more=None):
             table[f"{kind}_{name}"] = table[name] * rng.choice([0.001, 0.05, 0.2], len(table))
             table.loc[rng.random(len(table)) < 0.1, f"{kind}_{name}"] = np.nan
     return table.assign(**(more or {}))
-
-
-def expected(table, budget=None, panel=None, force=None, require=None, per="specimen"):
-    """The ranking that the page should show, as a list of dicts for each scene."""
-    grams = None if budget is None else 1e-3 * budget
-    ranking = ranked(table, grams, panel, None, None, force, require, per)
-    frame = ranking.table
-    tied = frame["tied"] if "tied" in frame else [False] * len(frame)
-    known = frame.assign(
-        value=[row[row["ranked_by"]] for _, row in frame.iterrows()],
-        mass=frame[ranking.mass],
-        tied=tied,
-    )
-    names = ["case_id", "place", "tied", "pareto", "beyond_model", "crossed", "value", "mass"]
-    scenes = known.groupby("scene", sort=False)
-    return {scene: rows[names].to_dict("records") for scene, rows in scenes}

@@ -6,9 +6,7 @@ import pandas as pd
 from sweep.columns import HISTORY_COLUMNS, absorbed_energy_column
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits
-from sweep.result import Result, Status
-from sweep.store.write import Writer
-from tests.support.results.specimens import HEIGHT, Named, squeezed_cell, summary
+from tests.support.results.specimens import HEIGHT, squeezed_cell, summary, write
 
 FORCES = (20.0, 33.3333333333, 50.0)
 PANELS = (None, None, (0.1, 0.05), (0.066, 0.012), (0.0333, 0.03))
@@ -116,19 +114,13 @@ def _row(rng, mass, energy, factor):
 
 def write_curves(path, table, factors):
     """A results file with a row and a curve for each design."""
-    results = []
-    for row, factor in zip(table.to_dict("records"), factors, strict=True):
-        case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
-        history = {name: column.to_numpy() for name, column in curve(factor).items()}
-        history = {
-            name: column[: None if row["loaded"] else SO_FAR] for name, column in history.items()
-        }
-        ran = (history, squeezed_cell())
-        results.append(Result(Named(case_id), Status(status), message, row, *ran))
-    with Writer(path, attributes={"config": "{}"}) as writer:
-        writer.append(results)
-        writer.fold()
-    return str(path)
+
+    def ran(row, number):
+        history = {name: column.to_numpy() for name, column in curve(factors[number]).items()}
+        rows = None if row["loaded"] else SO_FAR
+        return {name: column[:rows] for name, column in history.items()}, squeezed_cell()
+
+    return write(path, table, {"config": "{}"}, ran=ran)
 
 
 def random_question(rng, table):

@@ -175,19 +175,21 @@ class Named:
         return "{}"
 
 
-def write(path, table, attributes=None, cases=()):
-    """A results file with these rows; finished cases have curves and shapes. cases: of the rows
-    with real ones.
+def write(path, table, attributes=None, cases=(), ran=None):
+    """A results file with these rows; finished cases have curves and shapes.
+
+    cases : of the rows with real ones. ran : other curves and shapes of a row, by its number.
     """
     known = {case.case_id: case for case in cases}
-    history = {name: column.to_numpy() for name, column in there_and_back().items()}
+    usual = {name: column.to_numpy() for name, column in there_and_back().items()}
     results = []
-    for row in table.to_dict("records"):
+    for number, row in enumerate(table.to_dict("records")):
         case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
         shapes = tube() if row["direction"] == "out_of_plane" else squeezed_cell()
-        ran = (history, shapes) if status == "converged" else ({}, {})
+        found = (usual, shapes) if status == "converged" else ({}, {})
         case = known.get(case_id, Named(case_id))
-        results.append(Result(case, Status(status), message, row, *ran))
+        found = found if ran is None else ran(row, number)
+        results.append(Result(case, Status(status), message, row, *found))
     with Writer(path, attributes=attributes) as writer:
         writer.append(results)
         writer.fold()

@@ -13,7 +13,6 @@ HEIGHTS = (10.0, 7.0, 4.0)
 
 
 def written(tmp_path, frames):
-    """A reader of the shapes."""
     path = tmp_path / "crush.vtkhdf"
     write_shapes(path, frames)
     reader = vtkHDFReader()
@@ -38,16 +37,12 @@ def grid_of(reader, k):
     return kinds, points, cells.reshape(grid.GetNumberOfCells(), -1), arrays
 
 
-def test_steps_have_the_times_of_the_shapes(tmp_path):
-    reader = written(tmp_path, squeezed_cell(heights=HEIGHTS))
-    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
-    assert times == pytest.approx((0.0, 0.01, 0.02))
-
-
 @pytest.mark.parametrize("k", range(3))
 def test_lines_are_the_elements_in_mm(tmp_path, k):
-    kinds, points, cells, arrays = grid_of(written(tmp_path, squeezed_cell(heights=HEIGHTS)), k)
-    height = HEIGHTS[k]
+    reader, height = written(tmp_path, squeezed_cell(heights=HEIGHTS)), HEIGHTS[k]
+    times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+    assert times == pytest.approx((0.0, 0.01, 0.02))
+    kinds, points, cells, arrays = grid_of(reader, k)
     np.testing.assert_allclose(points, [[0, 0, 0], [10, 0, 0], [10, height, 0], [0, height, 0]])
     assert kinds == {LINE}
     assert cells.tolist() == [[0, 1], [1, 2], [2, 3], [3, 0]]

@@ -40,11 +40,12 @@ def test_package_has_the_parts_of_the_specification(archive):
 def test_mesh_is_the_body_in_mm(archive):
     model = Xml.fromstring(archive.read("3D/3dmodel.model"))
     assert model.get("unit") == "millimeter"
-    points = [[float(v.get(k)) for k in "xyz"] for v in model.iterfind(".//m:vertex", NAMES)]
-    sides = [
-        [int(t.get(k)) for k in ("v1", "v2", "v3")] for t in model.iterfind(".//m:triangle", NAMES)
-    ]
-    mesh = trimesh.Trimesh(points, sides, process=False)
+
+    def rows(tag, keys, number):
+        return [[number(node.get(k)) for k in keys] for node in model.iterfind(tag, NAMES)]
+
+    sides = rows(".//m:triangle", ("v1", "v2", "v3"), int)
+    mesh = trimesh.Trimesh(rows(".//m:vertex", "xyz", float), sides, process=False)
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(6000.0)
 

@@ -32,19 +32,15 @@ CONFIGS = Path(__file__).parents[3] / "configs" / "accuracy"
 
 def test_errors_are_those_against_the_limit_of_the_highest_order(tmp_path):
     (found,) = study(tmp_path, all_steps("backward_euler", "bdf2"))
-    assert (found.finest["solver.integrator"], found.finest["solver.time_step"]) == (
-        "bdf2",
-        6.25e-5,
-    )
-    for name, value in (("energy", ENERGY), ("peak", PEAK)):
-        assert found.references[name].value == pytest.approx(value, rel=1e-5)
+    assert found.finest[["solver.integrator", "solver.time_step"]].tolist() == ["bdf2", 6.25e-5]
+    assert found.references["energy"].value == pytest.approx(ENERGY, rel=1e-5)
+    assert found.references["peak"].value == pytest.approx(PEAK, rel=1e-5)
     for name, share in (("energy", 1.0), ("peak", 1.0), ("path", 0.5 * np.sqrt(0.35))):
         off = [0.4 * (1e3 * step) ** p * share for p in (1, 2) for step in STEPS]
         np.testing.assert_allclose(found.settings[name], off, rtol=1e-3)
-        assert found.orders["backward euler"][name]["solver.time_step"] == pytest.approx(
-            1, abs=0.01
-        )
-        assert found.orders["bdf2"][name]["solver.time_step"] == pytest.approx(2, abs=0.01)
+        for method, order in {"backward euler": 1, "bdf2": 2}.items():
+            seen = found.orders[method][name]["solver.time_step"]
+            assert seen == pytest.approx(order, abs=0.01)
 
 
 def test_methods_of_one_order_that_disagree_are_doubted(tmp_path):
@@ -91,10 +87,7 @@ def test_a_sweep_that_refines_nothing_is_refused(tmp_path, capsys, config):
         study(tmp_path, [made_up("bdf2", 1e-3), made_up("newmark", 1e-3)])
     status, out, err = crumple(capsys, "accuracy", config, "--out", "there")
     assert (status, out) == (2, "")
-    assert err.startswith(
-        "crumple accuracy: [grid] refines nothing; allowed: two values or more of"
-    )
-    assert err.count("\n") == 1
+    assert "[grid] refines nothing; allowed: two values or more of" in err
     assert not Path("there").exists()
 
 
@@ -105,43 +98,17 @@ def test_verb_prints_and_writes_the_study(tmp_path, capsys, monkeypatch):
     (tmp_path / "vibration.toml").write_text(text + steps)
     (tmp_path / "vibration.json").write_bytes((CONFIGS / "vibration.json").read_bytes())
     folder = tmp_path / "study"
-    status, out, _ = crumple(
-        capsys, "accuracy", str(tmp_path / "vibration.toml"), "--out", str(folder)
-    )
+    words = ["accuracy", str(tmp_path / "vibration.toml"), "--out", str(folder)]
+    status, out, _ = crumple(capsys, *words)
     assert status == 0
     assert max(map(len, out.splitlines()[:-3])) <= 100
-    assert "The cheapest setting below 1 % in energy left and motion of the probes is" in (
-        " ".join(out.split())
-    )
+    assert "cheapest setting below 1 % in energy left and motion of" in " ".join(out.split())
     assert {path.suffix for path in folder.iterdir()} == {".h5", ".md", ".csv", ".png"}
-    table = pd.read_csv(folder / "vibration.csv")
-    assert len(table) == 9
+    assert len(pd.read_csv(folder / "vibration.csv")) == 9
     (found,) = studies(folder / "vibration.h5", read_summary(folder / "vibration.h5"))
     for integrator, order in ORDERS.items():
         seen = found.orders[integrator.replace("_", " ")]["path"]["solver.time_step"]
         assert seen == pytest.approx(order, abs=0.15)
-
-
-def test_no_study_is_forgotten():
-    names = {path.stem for path in CONFIGS.glob("*.toml")}
-    assert names == {"crush", "force", "force_mesh", "impact", "vibration"}
-
-
-def chosen(name, **values):
-    """The one case of a study with these values of its axes."""
-    keys = {
-        "step": "solver.time_step",
-        "how": "solver.integrator",
-        "nodes": "lattice.nodes_per_wall",
-    }
-    keys |= {"steps": "solver.load_steps", "hinges": "solver.element", "strain": "loading.strain"}
-    keys |= {"error": "solver.step_error"}
-    (case,) = (
-        case
-        for case in expand(load_config(CONFIGS / f"{name}.toml"))
-        if all(case.axes[keys[key]] == value for key, value in values.items())
-    )
-    return case
 
 
 # Of every study in the README the file, and which cases are enough for its rows.
@@ -175,27 +142,37 @@ def test_readme_tells_what_the_studies_find(name, tmp_path):
         assert readme.numbers(said) == pytest.approx(readme.numbers(shown), rel=0.1)
 
 
-@pytest.mark.parametrize(
-    ("name", "values", "column", "number"),
-    [
-        (
-            "crush",
-            {"strain": 0.3, "nodes": 2, "steps": 50, "hinges": "cubic"},
-            "absorbed_energy_J",
-            0.09511,
-        ),
-        ("force", {"how": "bdf2", "step": 1e-3, "error": None}, "absorbed_energy_J", 0.09913),
-        ("force_mesh", {"nodes": 1, "step": 5e-4}, "absorbed_energy_J", 0.11029),
-        ("impact", {"how": "bdf2", "step": 4e-5, "nodes": 2}, "peak_force_N", 105.12),
-        (
-            "vibration",
-            {"how": "bdf2", "step": 2e-2, "error": None},
-            "dissipated_integrator_J",
-            1.1212e-7,
-        ),
-    ],
-)
-def test_studies_hold_their_numbers(name, values, column, number):
-    summary = simulate(chosen(name, **values)).summary
+# Of every study the axes of one case, and a number of it.
+CUBIC, BDF2 = {"solver.element": "cubic"}, {"solver.integrator": "bdf2"}
+PINNED = {
+    "crush": (
+        CUBIC | {"loading.strain": 0.3, "lattice.nodes_per_wall": 2, "solver.load_steps": 50},
+        ("absorbed_energy_J", 0.09511),
+    ),
+    "force": (
+        BDF2 | {"solver.time_step": 1e-3, "solver.step_error": None},
+        ("absorbed_energy_J", 0.09913),
+    ),
+    "force_mesh": (
+        {"lattice.nodes_per_wall": 1, "solver.time_step": 5e-4},
+        ("absorbed_energy_J", 0.11029),
+    ),
+    "impact": (
+        BDF2 | {"solver.time_step": 4e-5, "lattice.nodes_per_wall": 2},
+        ("peak_force_N", 105.12),
+    ),
+    "vibration": (
+        BDF2 | {"solver.time_step": 2e-2, "solver.step_error": None},
+        ("dissipated_integrator_J", 1.1212e-7),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", [path.stem for path in CONFIGS.glob("*.toml")])
+def test_studies_hold_their_numbers(name):
+    axes, (column, number) = PINNED[name]
+    cases = expand(load_config(CONFIGS / f"{name}.toml"))
+    (case,) = (case for case in cases if axes.items() <= case.axes.items())
+    summary = simulate(case).summary
     assert summary["status"] == "converged"
     assert summary[column] == pytest.approx(number, rel=1e-3)

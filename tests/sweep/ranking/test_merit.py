@@ -1,19 +1,19 @@
 """Counted values: energy up to a force or until packed, of a panel, and force under a striker."""
 
-import pandas as pd
+import re
+
 import pytest
 
 from sweep.ranking.merit import AT_DENSIFICATION
 from sweep.ranking.rank import rank, ranked
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
-from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, ids, summary
+from tests.support.results.specimens import designs, ids, summary
 
 NAN = float("nan")
 
 
 def struck(force, energy, **other):
-    """A row of a design under a striker."""
     hit = {"loading_mode": "impact", "stroke_m": NAN, "striker_mass_g": 50.0}
     speed = {"striker_speed_m_per_s": (2e3 * energy / 50.0) ** 0.5, "impact_energy_J": energy}
     return hit | speed | {"peak_force_N": force, "absorbed_energy_J": energy} | other
@@ -25,9 +25,7 @@ def test_steps_are_coarse_by_the_measure_of_their_loading():
     blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
     crushed = [{"integrator_share": share} for share in (0.9, NAN)]
     table = ranked(summary(*loads, *blows, *crushed)).table
-    assert dict(zip(map(int, table["case_id"]), table["coarse"], strict=True)) == {
-        0: False, 1: True, 2: False, 3: True, 4: False, 5: False,
-    }  # fmt: skip
+    assert sorted(ids(table[table["coarse"]])) == [1, 3]
 
 
 def test_under_a_striker_the_least_force_wins():
@@ -39,14 +37,12 @@ def test_under_a_striker_the_least_force_wins():
         struck(90.0, 0.2, mass_g=1.0),
     )
     ranking = ranked(table)
-    designs = ranking.table
-    assert list(designs["scene"]) == [
-        *["struck by 50 g at 2 m/s (100 mJ), glued platens"] * 3,
-        "struck by 50 g at 2.828 m/s (200 mJ), glued platens",
-    ]
-    assert list(designs["peak_force_N"]) == [40.0, 60.0, 70.0, 90.0]
-    assert list(designs["pareto"]) == [True, True, False, True]
-    assert set(designs["ranked_by"]) == {ranking.by} == {"peak_force_N"}
+    scene, other = ranking.table["scene"].unique()
+    assert scene == "struck by 50 g at 2 m/s (100 mJ), glued platens"
+    assert other == "struck by 50 g at 2.828 m/s (200 mJ), glued platens"
+    assert ids(ranking.table) == [1, 0, 2, 3]
+    assert list(ranking.table["pareto"]) == [True, True, False, True]
+    assert set(ranking.table["ranked_by"]) == {ranking.by} == {"peak_force_N"}
     first, _ = ranking_sheets(ranking, table)
     assert first.title.endswith("least force first")
     assert first.heads[2:] == ["force N", "strain %", "left mm", "rebound %"]
@@ -65,29 +61,16 @@ def test_what_is_pressed_into_less_than_its_solid_is_marked():
     assert list(rank(table)["beyond_model"]) == [False, True]
 
 
-def test_numbers_of_ranked_are_si():
-    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
-    text = rank(table, budget="60 g", panel=("130 mm", "50 mm"))
-    numbers = ranked(table, budget=0.060, panel=(0.130, 0.050)).table
-    pd.testing.assert_frame_equal(numbers, text)
-
-
 def test_energy_counts_up_to_the_allowed_force():
-    table = summary(
-        {"absorbed_energy_J": 0.9, "absorbed_energy_at_50N_J": 0.1, "mass_g": 2.0},
-        {"absorbed_energy_J": 0.5, "absorbed_energy_at_50N_J": 0.2, "mass_g": 2.0},
-    )
+    table = summary(*designs([2.0, 2.0], [0.9, 0.5])).assign(absorbed_energy_at_50N_J=[0.1, 0.2])
     ranking = ranked(table, allowed_force="50 N")
     assert ids(ranking.table) == [1, 0]
     assert ranking.table.loc[0, "specific_absorption_at_50N_J_per_g"] == pytest.approx(0.1)
     assert list(ranking.table["pareto"]) == [True, False]
-
     assert list(ranking.table["passed_on_N"]) == [20.0, 20.0]
     (sheet,) = ranking_sheets(ranking, table)
     assert sheet.heads == ["#", "mass g", "usable mJ", "J/g", "peak N"]
-    assert not {"dens.", "returned"} & {
-        line.partition(":")[0] for line in legend(ranking).splitlines()
-    }
+    assert not re.search("^(dens.|returned):", legend(ranking), re.MULTILINE)
     packed = ranked(table, by="densification_strain", allowed_force="50 N")
     (sheet,) = ranking_sheets(packed, table)
     assert sheet.heads[-1] == "densification_strain"
@@ -95,22 +78,11 @@ def test_energy_counts_up_to_the_allowed_force():
     assert list(rank(strong, allowed_force="50 N")["passed_on_N"]) == [50.0, 50.0]
 
 
-def test_energy_counts_until_the_greatest_efficiency_if_asked():
+@pytest.mark.parametrize("by", AT_DENSIFICATION)
+def test_energy_counts_until_the_greatest_efficiency_if_asked(by):
     row = {"absorbed_energy_at_densification_J": 0.1, "peak_force_at_densification_N": 7.0}
-    row["absorbed_energy_within_model_J"] = 0.1
-    for by in AT_DENSIFICATION:
-        ranking = ranked(summary(row, {}), by=by)
-        assert (ranking.by, ranking.energy) == (by, "absorbed_energy_at_densification_J")
-        assert (ids(ranking.table), ranking.until) == (
-            [0, 1],
-            "up to the strain of greatest efficiency",
-        )
-        assert list(ranking.table["passed_on_N"]) == [7.0, 20.0]
-
-
-def test_energy_counts_until_the_lattice_has_packed_down():
-    ranking = ranked(summary(CRUSHED_SOLID, SPARSE), budget="2 g")
-    assert ids(ranking.table) == [1, 0]
-    assert ranking.energy == "absorbed_energy_until_packed_J"
-    assert list(ranking.table["passed_on_N"]) == [25.0, 30.0]
-    assert not ranking.table["beyond_model"].any()
+    ranking = ranked(summary(row | {"absorbed_energy_within_model_J": 0.1}, {}), by=by)
+    assert (ranking.by, ranking.energy) == (by, "absorbed_energy_at_densification_J")
+    assert ranking.until == "up to the strain of greatest efficiency"
+    assert ids(ranking.table) == [0, 1]
+    assert list(ranking.table["passed_on_N"]) == [7.0, 20.0]

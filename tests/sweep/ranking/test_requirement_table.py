@@ -29,10 +29,3 @@ def test_an_example_is_shown_in_the_unit_of_a_maker(name, measure):
     assert text_of(name, value).endswith(f" {measure.shown}")
     assert quantity(text_of(name, value), measure.unit) == pytest.approx(value)
     assert measure.asked_of
-
-
-def test_a_miss_is_a_share_of_the_limit():
-    assert MEASURES["max_mass"].share_missed(3.0, 2.0) == pytest.approx(0.5)
-    assert MEASURES["min_absorbed"].share_missed(1.5, 2.0) == pytest.approx(0.25)
-    assert MEASURES["min_absorbed"].limit == "usable energy at least {}"
-    assert MEASURES["max_force"].limit.format("60 N") == "force at most 60 N"

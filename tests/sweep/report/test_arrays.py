@@ -16,25 +16,20 @@ IDS = [f"{k:016x}" for k in range(3)]
 @pytest.fixture
 def results(tmp_path):
     """Three designs of a grid, the last of which has failed."""
-    rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
-    for row, cells in zip(rows, (2, 3, 4), strict=True):
-        row |= {"lattice.cells_x": cells, "lattice.cells_y": 3}
-    rows[2]["status"] = "stopped"
-    return Results(write(tmp_path / "trial.h5", summary(*rows)))
+    table = summary(*designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2]))
+    keys = {"lattice.cells_x": [2, 3, 4], "lattice.cells_y": 3}
+    table = table.assign(status=["converged", "converged", "stopped"], **keys)
+    return Results(write(tmp_path / "trial.h5", table))
 
 
-def test_the_table_is_along_the_cases(results):
-    data = results.to_xarray()
+def test_the_table_is_along_the_cases_and_keys_of_the_grid_can_be_axes(results):
+    data, keys = results.to_xarray(), ["lattice.cells_x", "lattice.cells_y"]
     assert data.sizes == {"case_id": 3}
     assert data["mass_g"].sel(case_id=IDS[1]) == 2.0
     assert data["mass_g"].attrs["units"] == "g"
     assert data["mass_g"].attrs["long_name"].startswith("density x exact area")
-    assert {*data.data_vars} == {*results.table} - {"case_id", "lattice.cells_x", "lattice.cells_y"}
-
-
-def test_keys_of_the_grid_can_be_axes(results):
-    data = results.to_xarray()[["mass_g"]].set_index(case_id=["lattice.cells_x", "lattice.cells_y"])
-    masses = data.unstack()["mass_g"]
+    assert {*data.data_vars} == {*results.table} - {"case_id", *keys}
+    masses = data[["mass_g"]].set_index(case_id=keys).unstack()["mass_g"]
     assert masses.sel({"lattice.cells_x": 3, "lattice.cells_y": 3}) == 2.0
 
 

@@ -12,81 +12,75 @@ from tests.support.results.specimens import designs, summary, write
 MERIT_OVER_MASS = "sweep.report.figures.ranking_plots.merit_over_mass"
 
 
+LOAD = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
+
+
 @pytest.fixture
 def published(tmp_path):
     """A folder of two crushed designs, the heavier with more energy but fewer J/g, and a load."""
-    load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
-    usual = summary(*designs([1.0, 4.0], [0.2, 0.4]), load)
+    usual = summary(*designs([1.0, 4.0], [0.2, 0.4]), LOAD)
 
-    def publish(table=usual, drop_heights=(), **question):
-        question = {"budget": None, "panel": None} | question
-        file, out = write(tmp_path / "f.h5", table), tmp_path / "out"
+    def publish(table=usual, drop_heights=(), about=None, **question):
+        file, out = write(tmp_path / "f.h5", table, about), tmp_path / "out"
         paths = publish_ranking(file, table, Question(**question), out, drop_heights)
         return {path.name: path for path in paths}
 
     return publish
 
 
-@pytest.mark.usefixtures("unpainted")
-def test_tables_of_a_part_say_that_other_designs_may_be_better(tmp_path):
-    table = summary(*designs([1.0], [0.2]))
-    file = write(tmp_path / "f.h5", table, {"part": "1/3"})
-    publish_ranking(file, table, Question(), tmp_path)
-    assert "\nThis file has part 1/3 of a sweep: " in (tmp_path / "ranking.md").read_text("utf-8")
+@pytest.fixture
+def pictured(monkeypatch):
+    """The rankings of the maps that are drawn."""
+    rankings = []
+    monkeypatch.setattr(MERIT_OVER_MASS, lambda _, ranking: rankings.append(ranking))
+    return rankings
 
 
 @pytest.mark.usefixtures("unpainted")
-def test_table_of_all_designs_is_sorted_like_the_ranking(published):
-    def places(**question):
-        table = pd.read_csv(published(**question)["ranking.csv"])
-        return list(table.loc[table["loading_mode"] == "displacement", "mass_g"])
-
-    assert places() == [1.0, 4.0]  # by J/g
-    assert places(budget=[2e-3]) == [4.0, 1.0]  # by J, beyond the budget too
-    assert places(by="mass_g", budget=[2e-3]) == [1.0, 4.0]
-
-
-@pytest.mark.usefixtures("unpainted")
-def test_pictures_have_all_designs_and_the_budgets_that_are_asked_for(published, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(MERIT_OVER_MASS, lambda _, ranking: drawn.append(ranking))
-    published(budget=["2 g", "3 g"], top=1)
-    assert [list(ranking.table["mass_g"]) for ranking in drawn] == [[4.0, 1.0], [1.0]]
-    assert [ranking.budgets_g for ranking in drawn] == [(2.0, 3.0)] * 2
-
-
-@pytest.mark.usefixtures("unpainted")
-def test_a_picture_has_as_many_scenes_as_fit(published, monkeypatch):
-    drawn = []
-    monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 1)
-    monkeypatch.setattr(MERIT_OVER_MASS, lambda _, ranking: drawn.append(ranking.table))
-    published(summary({}, {"platen": "contact"}))
-    assert [list(table["platen"]) for table in drawn] == [["glued"]]
-
-
-@pytest.mark.usefixtures("unpainted")
-def test_tables_come_with_their_legend(published):
-    text = published()["ranking.md"].read_text("utf-8")
+def test_tables_come_with_their_legend_and_say_that_other_parts_may_have_better(published):
+    text = published(about={"part": "1/3"})["ranking.md"].read_text("utf-8")
     assert MARKS.format("absorbs as much or is strained as little", "the part") in text
-    assert text.endswith(f"{LOADED}\n")
-
-
-def test_each_kind_of_scene_has_its_picture(published):
-    pictures = [name for name in published() if name.endswith(".png")]
-    known = ["absorption.png", "sink.png", "energy_absorption.png", "winners.png"]
-    assert pictures == known
+    assert f"{LOADED}\n" in text
+    assert "\nThis file has part 1/3 of a sweep: " in text
 
 
 @pytest.mark.usefixtures("unpainted")
-def test_each_drop_height_has_its_picture(published):
-    cushions = [name for name in published(drop_heights=(0.5, 1.22)) if name.startswith("cush")]
-    assert cushions == ["cushion_500mm.png", "cushion_1220mm.png"]
+@pytest.mark.parametrize(
+    ("question", "masses"),
+    [
+        ({}, [1.0, 4.0]),  # by J/g
+        ({"budget": [2e-3]}, [4.0, 1.0]),  # by J, beyond the budget too
+        ({"budget": [2e-3], "by": "mass_g"}, [1.0, 4.0]),
+    ],
+)
+def test_table_of_all_designs_is_sorted_like_the_ranking(published, question, masses):
+    table = pd.read_csv(published(**question)["ranking.csv"])
+    assert list(table.loc[table["loading_mode"] == "displacement", "mass_g"]) == masses
+
+
+@pytest.mark.usefixtures("unpainted")
+def test_pictures_have_all_designs_the_budgets_and_as_many_scenes_as_fit(
+    published, pictured, monkeypatch
+):
+    published(budget=["2 g", "3 g"], top=1)
+    assert [list(ranking.table["mass_g"]) for ranking in pictured] == [[4.0, 1.0], [1.0]]
+    assert [ranking.budgets_g for ranking in pictured] == [(2.0, 3.0)] * 2
+    pictured.clear()
+    monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 1)
+    published(summary({}, {"platen": "contact"}))
+    assert [list(ranking.table["platen"]) for ranking in pictured] == [["glued"]]
+
+
+def test_each_kind_of_scene_and_each_drop_height_has_its_picture(published):
+    pictures = [name for name in published(drop_heights=(0.5, 1.22)) if name.endswith(".png")]
+    cushions = ["cushion_500mm.png", "cushion_1220mm.png"]
+    usual = {"absorption.png", "sink.png", "energy_absorption.png", "winners.png"}
+    assert {*pictures} == {*usual, *cushions}
 
 
 def test_cushion_curves_need_a_crush(published, tmp_path):
-    load = {"loading_mode": "force", "force_N": 5.0, "peak_strain": 0.1}
     with pytest.raises(RankError, match="no crush with a place"):
-        published(summary(load), drop_heights=(0.5,))
+        published(summary(LOAD), drop_heights=(0.5,))
     assert not (tmp_path / "out").exists()
 
 
@@ -110,8 +104,6 @@ def test_patterns_of_both_directions_have_their_drawings(published):
 @pytest.mark.usefixtures("unpainted")
 def test_masses_of_unequal_periods_are_in_no_picture(published):
     """Their ranking, too, has its Pareto front per pressed area."""
-    rows = designs([1.0, 4.0], [0.2, 0.4], depth_m=0.01, sides="tied, fixed period")
-    equal = [row | {"outer_width_m": 0.02} for row in rows]
-    assert "absorption.png" in published(summary(*equal))
-    unequal = [equal[0], equal[1] | {"outer_width_m": 0.04}]
-    assert "absorption.png" not in published(summary(*unequal))
+    table = summary(*designs([1.0, 4.0], [0.2, 0.4], sides="tied, fixed period"))
+    assert "absorption.png" in published(table)
+    assert "absorption.png" not in published(table.assign(outer_width_m=[0.02, 0.04]))

@@ -10,7 +10,6 @@ from tests.support.results.standin import cases, write
 
 
 def columns(path, batch):
-    """Version and revision of each case."""
     table = read_summary(path).set_index("case_id").loc[[case.case_id for case in batch]]
     assert table["model_version"].dtype.kind == "i"
     return list(table["model_version"]), list(table["git_revision"])

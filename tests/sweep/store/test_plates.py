@@ -2,53 +2,33 @@
 plane.
 """
 
-import h5py
 import numpy as np
 import pytest
 
 from sweep.result import Result, Status
-from sweep.store.read import StoreError, read_frames, read_runs
+from sweep.store.read import read_frames, read_runs
 from sweep.store.write import Writer
 from tests.support.results.specimens import Named, squeezed_cell, summary, tube
 
+ROWS = summary({}, {"direction": "out_of_plane"}, {}, {"status": "stopped"}).to_dict("records")
+SHAPES = [squeezed_cell(), tube(), squeezed_cell(), {}]
 
-def results():
-    rows = summary({}, {"direction": "out_of_plane"}, {}, {"status": "stopped"}).to_dict("records")
-    shapes = [squeezed_cell(), tube(), squeezed_cell(), {}]
-    return [
-        Result(Named(row["case_id"]), Status(row["status"]), "", {**row}, {}, frames)
-        for row, frames in zip(rows, shapes, strict=True)
+
+@pytest.mark.parametrize("folded", [False, True])
+def test_shapes_of_both_kinds_are_read_as_they_were_written(tmp_path, folded):
+    path, ids = tmp_path / "both.h5", [row["case_id"] for row in ROWS]
+    results = [
+        Result(Named(row["case_id"]), Status(row["status"]), "", {**row}, {}, shapes)
+        for row, shapes in zip(ROWS, SHAPES, strict=True)
     ]
-
-
-@pytest.fixture(params=[False, True], ids=["parts", "folded"])
-def stored(request, tmp_path):
-    path = tmp_path / "both.h5"
     with Writer(path) as writer:
-        writer.append(results()[:2])
-        writer.append(results()[2:])
-        if request.param:
+        writer.append(results[:2])
+        writer.append(results[2:])
+        if folded:
             writer.fold()
-    return path
-
-
-def test_shapes_of_both_kinds_are_read_as_they_were_written(stored):
-    for result, case in zip(
-        results(), read_runs(stored, [r.case_id for r in results()]), strict=True
-    ):
-        found = read_frames(stored, result.case_id)
-        assert found.keys() == result.frames.keys() == case.frames.keys()
-        for name, array in result.frames.items():
+    for case_id, shapes, case in zip(ids, SHAPES, read_runs(path, ids), strict=True):
+        found = read_frames(path, case_id)
+        assert found.keys() == shapes.keys() == case.frames.keys()
+        for name, array in shapes.items():
             assert found[name].shape == array.shape
             np.testing.assert_allclose(found[name], array, rtol=1e-6)
-
-
-def test_file_without_a_group_is_damaged(tmp_path):
-    path = tmp_path / "damaged.h5"
-    with Writer(path) as writer:
-        writer.append(results()[:1])
-        writer.fold()
-    with h5py.File(path, "r+") as file:
-        del file["edges"]
-    with pytest.raises(StoreError, match="damaged"):
-        read_frames(path, results()[0].case_id)

@@ -20,6 +20,7 @@ from sweep.store.read import (
     finished_ids,
     open_sealed,
     read_attributes,
+    read_case,
     read_frames,
     read_history,
     read_runs,
@@ -34,147 +35,84 @@ ROOT = Path(__file__).parents[3]
 @pytest.mark.parametrize("fold", [False, True])
 def test_what_was_written_is_read_back(path, fold):
     batch = cases(9)
+    ids = [case.case_id for case in batch]
     write(path, batch, fold)
     table = read_summary(path)
-    assert list(table["case_id"]) == [case.case_id for case in batch]
+    assert list(table["case_id"]) == ids
     assert list(table["steps"]) == [10 + number for number in range(9)]
     assert table["lattice.imperfection"].tolist() == pytest.approx(np.arange(9) * 1e-3)
     assert list(table.columns[:4]) == ["case_id", "status", "message", "lattice.imperfection"]
     assert set(COLUMNS) < set(table.columns)
-    assert table["status"].tolist().count("stopped") == 1
+    assert table["status"].tolist() == ["converged"] * 7 + ["stopped", "converged"]
     assert "time_step" in table["message"][7]
     assert bool(parts_of(path)) is not fold
-
-
-@pytest.mark.parametrize("fold", [False, True])
-def test_curves_and_shapes_are_found_by_id(path, fold):
-    batch = cases(9)
-    write(path, batch, fold)
-    for number in (0, 5, 8):
-        history = read_history(path, batch[number].case_id)
+    assert len([*path.parent.iterdir()]) == 1 or not fold
+    for number in (8, 0, 5):
+        history = read_history(path, ids[number])
         assert list(history.columns) == list(HISTORY_COLUMNS)
         strains = number + np.linspace(0, 1, 10 + number)
         assert history["strain"].to_numpy() == pytest.approx(strains)
-        shapes, expected = read_frames(path, batch[number].case_id), frames(number)
-        assert shapes.keys() == expected.keys()
-        for name, array in shapes.items():
-            np.testing.assert_allclose(array, expected[name], rtol=1e-6)
-
-
-@pytest.mark.parametrize("fold", [False, True])
-def test_many_cases_are_read_in_the_order_in_which_they_are_asked_for(path, fold):
-    ids = [case.case_id for case in cases(9)]
-    write(path, cases(9), fold)
-    asked = [ids[8], ids[0], ids[5]]
-    found = list(read_runs(path, asked))
-    assert [case.case_id for case in found] == asked
-    for case in found:
+        assert_same_arrays(read_frames(path, ids[number]), frames(number), rtol=1e-6)
+    many = list(read_runs(path, [ids[k] for k in (8, 0, 5)]))
+    assert [case.case_id for case in many] == [ids[k] for k in (8, 0, 5)]
+    for case in many:
         pd.testing.assert_frame_equal(case.history, read_history(path, case.case_id))
-        alone = read_frames(path, case.case_id)
-        assert case.frames.keys() == alone.keys()
-        for name, array in case.frames.items():
-            np.testing.assert_array_equal(array, alone[name])
-    with pytest.raises(StoreError, match="holds no case zz"):
-        list(read_runs(path, ["zz"]))
+        assert_same_arrays(case.frames, read_frames(path, case.case_id))
 
 
-def test_newest_curves_of_a_case_are_read(path):
-    batch = cases(2)
-    write(path, batch, True)
-    with Writer(path) as writer:
-        writer.append([failed_result(batch[0], Status.STOPPED, "late")])
-        (case,) = read_runs(path, [batch[0].case_id])
-    assert (len(case.history), case.frames) == (0, {})
-
-
-def test_parts_become_one_file(path):
-    write(path, cases(9), fold=True)
-    assert [entry.name for entry in path.parent.iterdir()] == ["armor.h5"]
-
-
-def test_the_last_results_come_into_the_one_file_without_a_part(path):
-    first, *last = cases(4)
-    with Writer(path) as writer:
-        writer.append([simulate(first)])
-        writer.fold([simulate(case) for case in last])
-    assert list(read_summary(path)["case_id"]) == [case.case_id for case in (first, *last)]
-    assert len(read_history(path, last[1].case_id)) == 12
-
-
-def test_newest_row_of_a_case_that_one_writer_gets_twice_wins(path):
-    batch = cases(3)
-    with Writer(path) as writer:
-        writer.append([failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch])
-        writer.append([simulate(batch[1])])
-        writer.fold([simulate(batch[0])])
-    assert read_summary(path)["status"].tolist() == ["converged", "converged", "worker_died"]
-    assert [len(read_history(path, case.case_id)) for case in batch] == [10, 11, 0]
+def assert_same_arrays(one, other, rtol=0.0):
+    assert one.keys() == other.keys()
+    for name, array in one.items():
+        np.testing.assert_allclose(array, other[name], rtol=rtol)
 
 
 def test_results_of_a_writer_that_never_folded_are_folded_by_the_next(path):
-    """Between them a case is computed again, and one is new."""
+    """Between them cases are computed again, others are new; the last come without a part."""
     write(path, cases(5), fold=True)
     write(path, cases(5, first=3))
-    with Writer(path) as writer:
-        writer.append([failed_result(case, Status.WORKER_DIED, "") for case in cases(2, first=7)])
-        writer.fold([failed_result(cases(10)[9], Status.WORKER_DIED, "")])
-    table = read_summary(path).set_index("case_id")
-    assert set(table.index) == {case.case_id for case in cases(10)}
-    assert table["status"].tolist().count("worker_died") == 3
-    for number, case in enumerate(cases(7)):
-        assert len(read_history(path, case.case_id)) == 10 + number
+    with Writer(path, {case.case_id: case.axes for case in reversed(cases(10))}) as writer:
+        writer.append(lost(cases(2, first=7)))
+        writer.fold(lost(cases(2, first=8)))
+    table = read_summary(path)
+    assert list(table["case_id"]) == [case.case_id for case in reversed(cases(10))]
+    assert table["status"].tolist() == ["worker_died"] * 3 + ["converged"] * 7
+    for number, case in enumerate(cases(10)):
+        assert len(read_history(path, case.case_id)) == (10 + number if number < 7 else 0)
+        assert read_case(path, case.case_id) == case
+
+
+def lost(batch):
+    return [failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch]
 
 
 def test_many_parts_are_merged_on_the_way(path, monkeypatch):
     monkeypatch.setattr(parts, "MERGE_AT", 3)
-    batch = cases(14)
-    write(path, batch, size=1)
+    write(path, cases(14), size=1)
     names = [part.name for part in parts_of(path)]
     assert [name.lstrip("0")[:-3].split("-0")[0] for name in names] == ["1", "10", "13", "14"]
-    assert set(read_summary(path)["case_id"]) == {case.case_id for case in batch}
+    assert set(read_summary(path)["case_id"]) == {case.case_id for case in cases(14)}
 
 
-def test_parts_that_killed_runs_have_left_become_one(path, monkeypatch):
+def test_parts_that_killed_runs_have_left_become_one_in_their_order(path, monkeypatch):
     monkeypatch.setattr(parts, "MERGE_AT", 3)
     for first in (0, 2, 4):
-        write(path, cases(2, first), size=1)
-    assert [part.name[7:-3] for part in parts_of(path)] == [
-        "1-00000004",
-        "5-00000005",
-        "6-00000006",
-    ]
+        with Writer(path) as writer:
+            for case in cases(2, first):
+                writer.append([simulate(case)])
+    names = [part.name[7:-3] for part in parts_of(path)]
+    assert names == ["1-00000004", "5-00000005", "6-00000006"]
     assert list(read_summary(path)["case_id"]) == [case.case_id for case in cases(6)]
 
 
-def test_rows_without_an_order_stay_in_that_of_the_runs(path):
-    batch = cases(5)
-    for begin in (0, 2):
-        with Writer(path) as writer:
-            writer.append([simulate(case) for case in batch[begin : begin + 2]])
-    with Writer(path) as writer:
-        writer.fold([simulate(batch[4])])
-    assert list(read_summary(path)["case_id"]) == [case.case_id for case in batch]
-
-
-def test_parts_that_a_merged_one_covers_are_ignored_and_cleared(path):
+def test_covered_parts_and_truncated_temporaries_are_ignored_and_cleared(path):
     write(path, cases(4), size=1)
     first, second, *_ = parts_of(path)
-    first_to_second = first.with_name("00000001-00000002.h5")
-    first_to_second.write_bytes(second.read_bytes())
+    first.with_name("00000001-00000002.h5").write_bytes(second.read_bytes())
+    first.with_name("00000005-00000005.h5.tmp").write_bytes(first.read_bytes()[:1000])
+    path.with_name("armor.h5.tmp").write_bytes(b"garbage")
     assert len(read_summary(path)) == 3
     write(path, [])
     assert len(parts_of(path)) == 3
-
-
-def test_truncated_temporaries_are_ignored_and_cleared(path):
-    write(path, cases(4))
-    part = parts_of(path)[0]
-    half = part.with_name("00000003-00000003.h5.tmp")
-    half.write_bytes(part.read_bytes()[:1000])
-    path.with_name("armor.h5.tmp").write_bytes(b"garbage")
-    assert len(read_summary(path)) == 4
-    write(path, [])
-    assert half not in parts_of(path)
     assert not path.with_name("armor.h5.tmp").exists()
 
 
@@ -187,24 +125,31 @@ def test_kill_between_fold_and_deletion_keeps_each_case_once(path):
         part.write_bytes(content)
     assert len(read_summary(path)) == 4
     write(path, cases(1, first=4))
-    assert len(read_summary(path)) == 5
-    assert len(parts_of(path)) == 1
+    assert (len(read_summary(path)), len(parts_of(path))) == (5, 1)
+
+
+def statuses(path, batch):
+    table = read_summary(path).set_index("case_id")
+    return table.loc[[case.case_id for case in batch], "status"].tolist()
 
 
 def test_newest_row_of_a_case_wins(path):
     batch = cases(4)
     with Writer(path) as writer:
-        writer.append([failed_result(case, Status.WORKER_DIED, "Lost.") for case in batch[:3]])
+        writer.append(lost(batch[:3]))
+        writer.append([simulate(batch[0])])
         writer.fold()
         writer.append([simulate(batch[1]), simulate(batch[3])])
-        expected = ["worker_died", "worker_died", "converged", "converged"]
-        assert sorted(read_summary(path)["status"], reverse=True) == expected
-        writer.fold()
-    assert sorted(read_summary(path)["status"], reverse=True) == expected
-    assert len(read_history(path, batch[1].case_id)) == 11
-    assert len(read_history(path, batch[0].case_id)) == 0
-    assert list(read_history(path, batch[0].case_id).columns) == list(HISTORY_COLUMNS)
-    assert read_frames(path, batch[0].case_id) == {}
+        assert statuses(path, batch) == ["converged", "converged", "worker_died", "converged"]
+        writer.fold(lost(batch[3:]))
+    assert statuses(path, batch) == ["converged", "converged", "worker_died", "worker_died"]
+    assert [len(read_history(path, case.case_id)) for case in batch] == [10, 11, 0, 0]
+    assert list(read_history(path, batch[2].case_id).columns) == list(HISTORY_COLUMNS)
+    assert read_frames(path, batch[2].case_id) == {}
+    with Writer(path) as writer:
+        writer.append(lost(batch[:1]))
+        (case,) = read_runs(path, [batch[0].case_id])
+    assert (len(case.history), case.frames) == (0, {})
 
 
 def test_failed_cases_are_finished_unless_they_are_to_be_tried_again(path):
@@ -239,29 +184,23 @@ def test_fold_without_news_leaves_the_file_alone(path):
 def test_another_tool_reads_the_table_in_one_line(path):
     write(path, cases(9), fold=True)
     with h5py.File(path) as f:
-        table = pd.DataFrame(
-            {
-                k: v.asstr()[:] if h5py.check_string_dtype(v.dtype) else v[:]
-                for k, v in f["summary"].items()
-            }
-        )
-    pd.testing.assert_frame_equal(table, read_summary(path))
-
-
-def test_only_the_columns_that_are_needed_are_read(path):
-    write(path, cases(9), fold=True)
+        summary = {
+            k: v.asstr()[:] if v.dtype.kind == "S" else v[:] for k, v in f["summary"].items()
+        }
+    table = read_summary(path)
+    pd.testing.assert_frame_equal(pd.DataFrame(summary), table)
     few = read_summary(path, {"mass_g", "status", "unknown"}.__contains__)
-    pd.testing.assert_frame_equal(few, read_summary(path)[["status", "mass_g"]])
+    pd.testing.assert_frame_equal(few, table[["status", "mass_g"]])
 
 
 def test_every_column_says_what_it_is(path):
     write(path, cases(2), fold=True)
     with h5py.File(path) as file:
-        columns = [*file["summary"].values(), *file["histories/values"].values()]
-        assert all(column.attrs["description"] for column in columns)
-        assert all("units" in column.attrs for column in columns)
-        assert file["summary/absorbed_energy_at_50N_J"].attrs["units"] == b"J"
-        assert file["summary/peak_force_N"].attrs["units"] == b"N"
+        for column in [*file["summary"].values(), *file["histories/values"].values()]:
+            assert column.attrs["description"]
+            assert "units" in column.attrs
+        for name, units in {"absorbed_energy_at_50N_J": b"J", "peak_force_N": b"N"}.items():
+            assert file["summary"][name].attrs["units"] == units
 
 
 def test_attributes_are_those_of_the_last_run(path):
@@ -277,8 +216,9 @@ def test_missing_file_and_missing_case(path):
     with pytest.raises(StoreError, match=r"armor\.h5 does not exist"):
         read_summary(path)
     write(path, cases(1))
-    with pytest.raises(StoreError, match="no case 0123"):
-        read_history(path, "0123")
+    for read in (read_history, read_case, lambda path, name: list(read_runs(path, [name]))):
+        with pytest.raises(StoreError, match="no case 0123"):
+            read(path, "0123")
 
 
 def test_folder_that_cannot_be_written(tmp_path):

@@ -84,7 +84,6 @@ def path(tmp_path):
 
 @pytest.fixture
 def made(monkeypatch):
-    """The names of the columns that are read."""
     names, usual = [], sealed_file._column
 
     def column(data):

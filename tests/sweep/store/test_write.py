@@ -1,7 +1,6 @@
 """Files in the folder of the parts that do not belong to this sweep are refused, and stay."""
 
 import errno
-import json
 import os
 import shutil
 from stat import S_ISDIR
@@ -15,49 +14,38 @@ from sweep.store.write import Writer
 from tests.support.results.standin import cases, parts_of, simulate, write
 
 
-def named(name):
-    return json.dumps({"name": name})
+def run(count, out):
+    return run_sweep(cases(count), out, simulate=lambda case, stop: simulate(case))
 
 
-def put_part(tmp_path, about=None):
-    """A part of other.h5 among the parts of armor.h5."""
-    write(tmp_path / "other.h5", cases(2, first=50), **(about or {}))
-    (tmp_path / "armor.parts").mkdir(exist_ok=True)
-    place = tmp_path / "armor.parts" / "00000009-00000009.h5"
-    shutil.copy(parts_of(tmp_path / "other.h5")[0], place)
-    return place
-
-
-@pytest.mark.parametrize("finished", [0, 3])
-def test_a_part_of_another_sweep_is_refused_and_stays(tmp_path, finished):
-    out = tmp_path / "armor.h5"
+@pytest.mark.parametrize(("finished", "name"), [(0, "bumper"), (3, "bumper"), (0, None)])
+def test_a_part_of_another_sweep_is_refused_and_stays(tmp_path, finished, name):
+    """It has another name, or none, and no case of the sweep."""
+    out, part = tmp_path / "armor.h5", tmp_path / "armor.parts" / "00000009-00000009.h5"
     if finished:
-        run_sweep(cases(finished), out, simulate=lambda case, stop: simulate(case))
-    part = put_part(tmp_path, {"config": named("bumper")})
+        run(finished, out)
+    about = {"config": f'{{"name": "{name}"}}'} if name else {}
+    write(tmp_path / "other.h5", cases(2, first=50), **about)
+    part.parent.mkdir(exist_ok=True)
+    shutil.copy(parts_of(tmp_path / "other.h5")[0], part)
     with pytest.raises(StoreError) as refusal:
-        run_sweep(cases(5), out, simulate=lambda case, stop: simulate(case))
-    assert str(refusal.value).startswith(f"{part} is a part of another sweep, bumper: move it away")
+        run(5, out)
+    whose = f"{part} is a part of another sweep{f', {name}' if name else ''}: move it away"
+    assert str(refusal.value).startswith(whose)
     part.rename(tmp_path / "aside.h5")
-    run_sweep(cases(5), out, simulate=lambda case, stop: simulate(case))
+    run(5, out)
     assert {*read_summary(out)["case_id"]} == {case.case_id for case in cases(5)}
     with Writer(out) as writer:
         writer.fold(files=[tmp_path / "aside.h5"])
     assert len(read_summary(out)) == 7
 
 
-def test_a_part_without_a_name_and_without_a_case_of_the_sweep_is_refused(tmp_path):
-    part = put_part(tmp_path)
-    with pytest.raises(StoreError, match=r"09\.h5 is a part of another sweep: move"):
-        run_sweep(cases(5), tmp_path / "armor.h5")
-    assert part.exists()
-
-
 @pytest.mark.parametrize(("first", "name"), [(1, "bumper"), (50, "armor")])
 def test_parts_of_a_grid_that_has_changed_are_its_own(tmp_path, first, name):
     """They share a case with it, or its name."""
     out = tmp_path / "armor.h5"
-    write(out, cases(4, first), config=named(name))
-    run_sweep(cases(3), out, simulate=lambda case, stop: simulate(case))
+    write(out, cases(4, first), config=f'{{"name": "{name}"}}')
+    run(3, out)
     ids = {case.case_id for case in cases(3) + cases(4, first)}
     assert {*read_summary(out)["case_id"]} == ids
 

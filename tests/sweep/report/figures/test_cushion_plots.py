@@ -46,11 +46,24 @@ def crushed(designs):
     return rows, {name: foam(s) for name, s in zip(rows["case_id"], (20e3, 5e3), strict=True)}
 
 
-def test_the_diagram_has_a_curve_and_a_shoulder_for_each_design(designs):
+def absorption_of(designs, **columns):
     rows, crushes = crushed(designs)
     figure = blank(8, 4)
-    absorption_diagram(figure, rows, crushes)
-    (ax,) = figure.axes
+    absorption_diagram(figure, rows.assign(**columns), crushes)
+    return figure
+
+
+def cushions(designs, height=0.5, falls=None):
+    rows, crushes = crushed(designs)
+    figure = blank(8, 4)
+    impacts = designs[designs["loading_mode"] == "impact"]
+    cushion_diagram(figure, rows, crushes, height, drops(impacts.assign(**(falls or {}))))
+    return figure
+
+
+def test_the_diagram_has_a_curve_and_a_shoulder_for_each_design(designs):
+    rows, crushes = crushed(designs)
+    (ax,) = absorption_of(designs).axes
     thick, thin, most = ax.get_lines()
     np.testing.assert_allclose(thick.get_ydata(), crushes[rows["case_id"].iloc[0]].work / 12e6)
     assert thick.get_linewidth() > thin.get_linewidth()
@@ -60,14 +73,9 @@ def test_the_diagram_has_a_curve_and_a_shoulder_for_each_design(designs):
     assert ax.get_xlabel() == "greatest stress / modulus"
 
 
-@pytest.mark.parametrize("diagram", ["absorption", "cushion"])
-def test_walls_are_lines_in_the_legend_as_thick_as_their_curves(designs, diagram):
-    rows, crushes = crushed(designs)
-    figure = blank(8, 4)
-    if diagram == "absorption":
-        absorption_diagram(figure, rows, crushes)
-    else:
-        cushion_diagram(figure, rows, crushes, 0.5, drops(designs[2:]))
+@pytest.mark.parametrize("draw", [absorption_of, cushions])
+def test_walls_are_lines_in_the_legend_as_thick_as_their_curves(designs, draw):
+    figure = draw(designs)
     thick, thin = figure.axes[0].get_lines()[:2]
     entries = {entry.get_label(): entry for entry in figure.legends[0].legend_handles}
     for label, curve in {"0.8 mm": thick, "0.4 mm": thin}.items():
@@ -77,10 +85,7 @@ def test_walls_are_lines_in_the_legend_as_thick_as_their_curves(designs, diagram
 
 
 def test_without_the_modulus_of_every_design_nothing_is_divided(designs):
-    rows, crushes = crushed(designs)
-    figure = blank(8, 4)
-    absorption_diagram(figure, rows.assign(material_modulus_Pa=[np.nan, 12e6]), crushes)
-    (ax,) = figure.axes
+    (ax,) = absorption_of(designs, material_modulus_Pa=[np.nan, 12e6]).axes
     assert ax.get_xlabel() == "greatest stress, kPa"
     assert ax.get_lines()[0].get_xdata()[0] == pytest.approx(20.0)
 
@@ -99,9 +104,7 @@ def test_the_envelope_is_of_the_softest_until_a_stiffer_absorbs_more():
 
 def test_cushion_curves_have_the_impacts_of_their_design_beside(designs):
     rows, crushes = crushed(designs)
-    falls = drops(designs[designs["loading_mode"] == "impact"])
-    figure = blank(8, 4)
-    cushion_diagram(figure, rows, crushes, 0.5, falls)
+    figure = cushions(designs)
     (ax,) = figure.axes
     assert ax.get_title("left").endswith(",\ndropped from 0.5 m")
     static, peak = cushion_curve(crushes[rows["case_id"].iloc[0]], 0.5)
@@ -110,24 +113,18 @@ def test_cushion_curves_have_the_impacts_of_their_design_beside(designs):
     assert [len(dots.get_offsets()) for dots in ax.collections] == [1, 2, 1, 1]
     ring = ax.collections[1].get_offsets()[0]
     assert list(ring) == pytest.approx([1e-3 * 40e-3 * STANDARD_GRAVITY / (13e-3 * 10e-3), 60.0])
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels[-1] == "simulated impact"
+    assert last_label(figure) == "simulated impact"
 
 
-def test_an_impact_far_above_the_curves_is_in_view(designs):
-    rows, crushes = crushed(designs)
-    figure = blank(8, 4)
-    hard = designs[2:].assign(peak_deceleration_filtered_m_per_s2=1e5 * STANDARD_GRAVITY)
-    cushion_diagram(figure, rows, crushes, 0.5, drops(hard))
-    assert figure.axes[0].get_ylim()[1] > 1e5
+def last_label(figure):
+    return figure.legends[0].get_texts()[-1].get_text()
 
 
-def test_impacts_from_another_height_are_not_drawn(designs):
-    rows, crushes = crushed(designs)
-    figure = blank(8, 4)
-    cushion_diagram(figure, rows, crushes, 1.0, drops(designs[2:]))
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert "simulated impact" not in labels
+def test_impacts_far_above_the_curves_are_in_view_and_from_another_height_not_drawn(designs):
+    hard = {"peak_deceleration_filtered_m_per_s2": 1e5 * STANDARD_GRAVITY}
+    assert cushions(designs, falls=hard).axes[0].get_ylim()[1] > 1e5
+    figure = cushions(designs, 1.0)
+    assert last_label(figure) != "simulated impact"
     assert sum(len(dots.get_offsets()) for dots in figure.axes[0].collections) == 2
 
 

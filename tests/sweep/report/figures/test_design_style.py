@@ -7,17 +7,16 @@ import pandas
 import pytest
 
 from sweep.ranking.rank import ranked
-from sweep.report.figures.design_style import budget_winners, faded, looks
+from sweep.report.figures.design_style import budget_winners, looks
 from tests.support.results.specimens import designs, summary
 
 
 @pytest.fixture
 def ranking():
-    cells, walls = [10, 2, 3, 2], [0.8e-3, 0.4e-3, 0.8e-3, 0.8e-3]
     rows = designs([1.0, 2.0, 3.0, 4.0], [0.1, 0.4, 0.3, 1.6])
-    for row, n, wall in zip(rows, cells, walls, strict=True):
-        row |= {"cells_x": n, "cells_y": n, "wall_thickness_m": wall}
-    ranking = ranked(summary(*rows), top=None)
+    cells, walls = [10, 2, 3, 2], [0.8e-3, 0.4e-3, 0.8e-3, 0.8e-3]
+    table = summary(*rows).assign(cells_x=cells, cells_y=cells, wall_thickness_m=walls)
+    ranking = ranked(table, top=None)
     return replace(ranking, table=ranking.table.sort_values("mass_g", ignore_index=True))
 
 
@@ -26,47 +25,35 @@ def table(ranking):
     return ranking.table
 
 
-def winners(ranking):
-    return budget_winners(ranking.table, ranking)
-
-
 def entries(designs, **chosen):
     return [entry["label"] for entry in looks(designs).legend(**chosen)]
 
 
-def test_colours_go_by_number_of_cells(table):
-    colors = looks(table).colors
-    assert list(colors) == [(2, 2), (3, 3), (10, 10)]
-    assert colors[2, 2] == "#440154"
-    assert len({*colors.values()}) == 3
-
-
 def test_a_design_keeps_its_look_in_a_part_of_the_ranking(table):
-    of = looks(table).of
-    whole, part = of(table), of(table.tail(1))
+    look = looks(table)
+    assert (list(look.colors), look.colors[2, 2]) == ([(2, 2), (3, 3), (10, 10)], "#440154")
+    assert len({*look.colors.values()}) == 3
+    whole, part = look.of(table), look.of(table.tail(1))
     assert (part["c"][0], part["s"][0]) == (whole["c"][3], whole["s"][3])
     assert part["marker"] == whole["marker"]
     assert whole["s"][1] < whole["s"][0]
 
 
-def test_legend_lists_what_varies_under_headings(table):
-    assert entries(table) == ["cells", "2 x 2", "3 x 3", "10 x 10", "wall", "0.4 mm", "0.8 mm"]
-    assert entries(table, walls=False) == ["cells", "2 x 2", "3 x 3", "10 x 10"]
-
-
-def test_legend_explains_open_signs_where_there_are_any(table):
+def test_legend_lists_what_varies_and_explains_what_is_drawn(table):
+    usual = ["cells", "2 x 2", "3 x 3", "10 x 10", "wall", "0.4 mm", "0.8 mm"]
+    assert entries(table) == usual
+    assert entries(table, walls=False) == usual[:4]
+    assert entries(table, barred=True) == [*usual, "± estimated error"]
     for mark in ("beyond_model", "crossed"):
         assert entries(table.assign(**{mark: [False, True] * 2}))[-1] == "unreliable"
 
 
-def test_legend_explains_error_bars_where_there_are_any(table):
-    assert entries(table, barred=True) == [*entries(table), "± estimated error"]
-
-
-def test_materials_have_signs(table):
+def test_materials_have_signs_and_many_words_a_ramp_of_colours(table):
     signs = looks(table.assign(material=["cheetah", "ninjaflex"] * 2)).signs
     assert list(signs) == ["cheetah", "ninjaflex"]
     assert len({*signs.values()}) == 2
+    many = pandas.concat([table.iloc[:1]] * 12).assign(lattice_kind=[f"p{k}" for k in range(12)])
+    assert len({*looks(many).colors.values()}) == 12
 
 
 def test_patterns_have_colours_and_signs_where_there_are_several(table):
@@ -96,11 +83,6 @@ def test_the_words_with_most_choices_have_colours_and_the_next_ones_signs(table)
     assert {turned.tint[1], turned.sign} == {"material", "direction"}
 
 
-def test_of_many_words_colours_are_a_ramp(table):
-    many = pandas.concat([table.iloc[:1]] * 12).assign(lattice_kind=[f"p{k}" for k in range(12)])
-    assert len({*looks(many).colors.values()}) == 12
-
-
 def test_colours_tell_the_direction_where_there_are_both(table):
     ways = ["in_plane", "out_of_plane", "in_plane", "in_plane"]  # of 10, 2, 3 and 2 cells
     both = looks(table.assign(direction=ways))
@@ -111,8 +93,8 @@ def test_colours_tell_the_direction_where_there_are_both(table):
 
 
 def test_of_many_walls_the_legend_has_some():
-    walls = [*np.arange(4, 17) * 1e-4]
-    many = ranked(summary(*({"wall_thickness_m": wall} for wall in walls)), top=None).table
+    walls = [{"wall_thickness_m": thickness * 1e-4} for thickness in range(4, 17)]
+    many = ranked(summary(*walls), top=None).table
     assert entries(many) == ["wall", "0.4 mm", "0.7 mm", "1 mm", "1.3 mm", "1.6 mm"]
 
 
@@ -125,21 +107,13 @@ def test_a_winner_may_weigh_the_budget_but_for_round_off(ranking):
 
 
 def test_of_equal_winners_the_one_named_tells_its_own_error():
-    rows = designs([1.0, 2.0], [0.3, 0.3])
-    error = "error_absorbed_energy_until_packed_J"
-    force = {"error_peak_force_until_packed_N": 0.0}
-    rows[0] |= {"case_id": "f" * 16, error: 0.01} | force
-    rows[1] |= {"case_id": "0" * 16, error: 0.1} | force
-    ((words, *_),) = winners(ranked(summary(*rows), top=None, budget="9 g"))
+    table = summary(*designs([1.0, 2.0], [0.3, 0.3])).assign(case_id=["f" * 16, "0" * 16])
+    table["error_absorbed_energy_until_packed_J"] = [0.01, 0.1]
+    table["error_peak_force_until_packed_N"] = 0.0
+    ranking = ranked(table, top=None, budget="9 g")
+    ((words, *_),) = budget_winners(ranking.table, ranking)
     assert words.endswith("300 mJ ± 3.3 %, a tie of 2")
 
 
 def test_without_a_merit_no_design_wins(ranking):
-    table = ranking.table.assign(**{ranking.energy: np.nan})
-    assert winners(replace(ranking, table=table)) == []
-
-
-def test_a_faded_colour_lies_between_white_and_itself():
-    assert faded("#0072b2", 1.0) == "#0072b2"
-    assert faded("#0072b2", 0.0) == "#ffffff"
-    assert faded("#006400", 0.5) == "#80b280"
+    assert budget_winners(ranking.table.assign(**{ranking.energy: np.nan}), ranking) == []

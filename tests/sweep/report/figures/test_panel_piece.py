@@ -23,7 +23,6 @@ def sheet(n=4):
 
 
 def areas(position, quads):
-    """Area of each quad that is level, (m,)."""
     one, two = (position[quads[:, k + 2]] - position[quads[:, k]] for k in (0, 1))
     return 0.5 * np.cross(one, two)[:, 2]
 
@@ -37,6 +36,8 @@ def test_a_piece_fills_its_rectangle_without_overlap(times):
     each = areas(at, found["quads"])
     assert each.min() > 0.0
     assert each.sum() == pytest.approx(6.0 * times**2)
+    assert set(found["quad_thickness_m"]) == set(sheet()["quad_thickness_m"])
+    assert len(np.unique(found["quads"])) == len(at) < len(found["quads"]) * 4
 
 
 def test_what_is_cut_moves_with_its_quad_and_fits_its_neighbours():
@@ -51,12 +52,6 @@ def test_what_is_cut_moves_with_its_quad_and_fits_its_neighbours():
     np.testing.assert_allclose(*shifts, atol=1e-12)
     whole = np.ptp(frames["position_m"][1, :, 2])
     assert 0.8 * whole < np.ptp(moved[:, 2]) <= whole
-
-
-def test_parts_of_a_quad_have_its_thickness_and_share_nodes():
-    found = piece(sheet(), ROW, 1)
-    assert set(found["quad_thickness_m"]) == set(sheet()["quad_thickness_m"])
-    assert len(np.unique(found["quads"])) == found["position_m"].shape[1] < 4 * 4 * 4
 
 
 def test_a_corner_that_is_cut_off_leaves_five_corners():

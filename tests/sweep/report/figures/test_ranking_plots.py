@@ -18,26 +18,41 @@ from tests.support.results.specimens import designs, summary
 @pytest.fixture
 def ranking():
     rows = designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2])
-    for row, wall in zip(rows, [0.4e-3, 0.8e-3, 1.2e-3], strict=True):
-        row["wall_thickness_m"] = wall
-    glued = summary(*rows, *[row | {"platen": "contact"} for row in rows])
-    return ranked(glued, top=None)
+    walls = [0.4e-3, 0.8e-3, 1.2e-3] * 2
+    table = summary(*rows, *(row | {"platen": "contact"} for row in rows))
+    return ranked(table.assign(wall_thickness_m=walls), top=None)
+
+
+def drawn(ranking, draw=merit_over_mass):
+    figure = blank(8, 4)
+    draw(figure, ranking)
+    return figure
+
+
+def changed(ranking, **columns):
+    return replace(ranking, table=ranking.table.assign(**columns))
+
+
+def bars_of(ax):
+    lines = [c for c in ax.collections if isinstance(c, LineCollection)]
+    return [segment for line in lines for segment in line.get_segments()]
+
+
+def entries(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
 
 
 def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
-    figure = blank(8, 4)
-    merit_over_mass(figure, ranking)
-    scenes = [ax.get_title("left").splitlines()[0] for ax in figure.axes]
+    axes = drawn(ranking).axes
+    scenes = [ax.get_title("left").splitlines()[0] for ax in axes]
     assert scenes == list(ranking.table["scene"].unique())
-    stairs = figure.axes[0].get_lines()[0]
+    stairs = axes[0].get_lines()[0]
     np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
     assert stairs.get_drawstyle() == "steps-post"
 
 
 def test_map_names_and_rings_the_winner_of_each_budget(ranking):
-    figure = blank(8, 4)
-    merit_over_mass(figure, replace(ranking, budgets_g=(1.5, 3.0)))
-    ax = figure.axes[0]
+    ax = drawn(replace(ranking, budgets_g=(1.5, 3.0))).axes[0]
     said = ax.get_title("left").splitlines()[1:]
     assert said == ["up to 1.5 g: wall 0.4 mm, 100 mJ", "up to 3 g: wall 0.8 mm, 300 mJ"]
     assert [text.get_text() for text in ax.texts] == ["1.5 g", "3 g"]
@@ -45,42 +60,29 @@ def test_map_names_and_rings_the_winner_of_each_budget(ranking):
     assert rings == [(1.0, 0.1), (2.0, 0.3)]
 
 
-def test_map_says_what_is_required(ranking):
-    figure = blank(8, 4)
-    merit_over_mass(figure, replace(ranking, required={"max_force": 60.0}))
-    said = figure.axes[0].get_title("left").splitlines()
-    assert said[1] == "Required of the part: force at most 60 N."
-    figure = blank(8, 4)
-    thickness_trends(figure, replace(ranking, required={"max_force": 60.0}))
-    assert figure.axes[0].get_title("left").splitlines()[1:] == said[1:2]
+@pytest.mark.parametrize("draw", [merit_over_mass, thickness_trends])
+def test_charts_say_what_is_required_and_up_to_which_force_energy_counts(ranking, draw):
+    required = drawn(replace(ranking, required={"max_force": 60.0}), draw)
+    said = required.axes[0].get_title("left").splitlines()[1:]
+    assert said[0] == "Required of the part: force at most 60 N."
+    table = summary(*designs([1.0, 2.0], [0.1, 0.3])).assign(absorbed_energy_at_50N_J=0.1)
+    (ax,) = drawn(ranked(table, top=None, allowed_force="50 N"), draw).axes
+    assert "\nuntil the force exceeds 50 N, J" in ax.get_ylabel()
 
 
 def test_force_of_a_panel_stands_beside_that_of_a_specimen():
     hit = {"loading_mode": "impact", "stroke_m": np.nan, "peak_force_N": 30.0}
-    figure = blank(8, 4)
-    merit_over_mass(figure, ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None))
-    (ax,) = figure.axes
+    (ax,) = drawn(ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None)).axes
     assert "30.0 N on the support, 1500 N on the panel" in ax.get_title("left")
     assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
 
 
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
     loaded = changed(ranking, loading_mode="force", peak_strain=[0.3, 0.2, 0.1] * 2)
-    figure = blank(8, 4)
-    merit_over_mass(figure, loaded)
-    ax = figure.axes[0]
+    ax = drawn(loaded).axes[0]
     assert ax.get_ylabel() == "greatest strain, %"
     sinks = [y for dots in ax.collections[:2] for _, y in dots.get_offsets()]
     np.testing.assert_allclose(sorted(sinks), [10.0, 20.0, 30.0])
-
-
-def test_legends_explain_error_bars_where_any_are_drawn(ranking):
-    for name, draw in ((ranking.energy, merit_over_mass), (ranking.per_gram, thickness_trends)):
-        bars = changed(ranking, **{f"error_{name}": [np.nan, 0.1] * 3})
-        for shown, known in ((ranking, False), (bars, True)):
-            legends = drawn(shown, draw).legends
-            texts = [text.get_text() for each in legends for text in each.get_texts()]
-            assert ("± estimated error" in texts) == known
 
 
 @pytest.mark.parametrize(("patterns", "cells"), [(8, 3), (12, 20)])
@@ -100,18 +102,9 @@ def test_legends_stay_on_the_page(patterns, cells):
     assert figure.axes[0].bbox.width > 0.3 * 6.8 * figure.dpi
 
 
-def test_charts_say_up_to_which_force_energy_counts():
-    rows = [row | {"absorbed_energy_at_50N_J": 0.1} for row in designs([1.0, 2.0], [0.1, 0.3])]
-    ranking = ranked(summary(*rows), top=None, allowed_force="50 N")
-    for draw in merit_over_mass, thickness_trends:
-        assert "\nuntil the force exceeds 50 N, J" in drawn(ranking, draw).axes[0].get_ylabel()
-
-
 def test_designs_beyond_the_model_are_open(ranking):
-    ranking.table["beyond_model"] = ranking.table["wall_thickness_m"] > 1e-3
-    figure = blank(8, 4)
-    merit_over_mass(figure, ranking)
-    for dots in figure.axes[0].collections[:2]:
+    beyond = changed(ranking, beyond_model=ranking.table["wall_thickness_m"] > 1e-3)
+    for dots in drawn(beyond).axes[0].collections[:2]:
         is_open = (dots.get_facecolor() == 1.0).all(axis=1)
         np.testing.assert_array_equal(is_open, dots.get_offsets()[:, 0] == 3.0)
 
@@ -122,65 +115,54 @@ def test_designs_of_coarse_steps_have_the_sign_of_the_tables(ranking):
     signs = [text.xy[0] for text in figure.axes[0].texts if text.get_text() == "i"]
     coarse = shown.table[shown.table["coarse"] & (shown.table["scene"] == shown.table["scene"][0])]
     assert sorted(signs) == sorted(coarse["mass_g"])
-    assert "coarse time steps" in _entries(figure)
-    assert "coarse time steps" not in _entries(drawn(ranking, merit_over_mass))
-
-
-def _entries(figure):
-    return [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "coarse time steps" in entries(figure)
+    assert "coarse time steps" not in entries(drawn(ranking, merit_over_mass))
 
 
 def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking):
-    figure = blank(8, 4)
-    merit_over_mass(figure, replace(ranking, budgets_g=(2.5,)))
-    colors = {}
-    for dots in figure.axes[0].collections[:2]:
-        at, faces = dots.get_offsets()[:, 0], dots.get_facecolor()
-        colors |= {x: to_hex(face) for x, face in zip(at, faces, strict=True)}
-    look = looks(ranking.table)
-    (own,) = look.colors.values()
-    assert colors[1.0] == colors[2.0] == own  # of the front
-    pale = PALE * np.array(to_rgb(GREY)) + (1.0 - PALE)
-    assert colors[3.0] == to_hex(pale)
-    assert _entries(figure)[-3:] == ["Pareto front; others pale", "best", "above all budgets"]
-    merit_over_mass(figure := blank(8, 4), ranking)
-    assert _entries(figure)[-2:] == ["Pareto front; others pale", "best"]
-    dots = figure.axes[0].collections[0]
-    assert to_hex(dots.get_facecolor()[0]) == to_hex(PALE * np.array(to_rgb(own)) + (1.0 - PALE))
+    figure = drawn(replace(ranking, budgets_g=(2.5,)))
+    colors = {
+        x: to_hex(face)
+        for dots in figure.axes[0].collections[:2]
+        for x, face in zip(dots.get_offsets()[:, 0], dots.get_facecolor(), strict=True)
+    }
+    (own,) = looks(ranking.table).colors.values()
+    assert colors == {1.0: own, 2.0: own, 3.0: pale(GREY)}
+    assert entries(figure)[-3:] == ["Pareto front; others pale", "best", "above all budgets"]
+    figure = drawn(ranking)
+    assert entries(figure)[-2:] == ["Pareto front; others pale", "best"]
+    assert to_hex(figure.axes[0].collections[0].get_facecolor()[0]) == pale(own)
 
 
-def test_stairs_and_trends_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking):
-    ranking.table["crossed"] = ranking.table["wall_thickness_m"].between(0.7e-3, 0.9e-3)
-    for draw, y in ((merit_over_mass, [0.1, 0.3]), (thickness_trends, [0.1, 0.15, 0.2 / 3.0])):
-        figure = blank(8, 4)
-        draw(figure, ranking)
-        solid, dashed = figure.axes[0].get_lines()
-        assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
-        np.testing.assert_allclose(dashed.get_ydata(), y)
-        np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
-        assert solid.get_drawstyle() == dashed.get_drawstyle()
+def pale(color):
+    return to_hex(PALE * np.array(to_rgb(color)) + (1.0 - PALE))
 
 
-def test_trend_follows_the_wall_thickness(ranking):
-    figure = blank(8, 4)
-    thickness_trends(figure, ranking)
-    line = figure.axes[0].get_lines()[0]
-    np.testing.assert_allclose(line.get_xdata(), [0.4, 0.8, 1.2])
-    np.testing.assert_allclose(line.get_ydata(), [0.1, 0.15, 0.2 / 3.0])
-
-
-def bars_of(ax):
-    lines = [c for c in ax.collections if isinstance(c, LineCollection)]
-    return [segment for line in lines for segment in line.get_segments()]
+@pytest.mark.parametrize(
+    ("draw", "x", "y"),
+    [
+        (merit_over_mass, [1.0, 2.0], [0.1, 0.3]),
+        (thickness_trends, [0.4, 0.8, 1.2], [0.1, 0.15, 0.2 / 3.0]),
+    ],
+)
+def test_lines_are_dashed_to_and_from_what_is_not_to_be_trusted(ranking, draw, x, y):
+    crossed = ranking.table["wall_thickness_m"].between(0.7e-3, 0.9e-3)
+    solid, dashed = drawn(changed(ranking, crossed=crossed), draw).axes[0].get_lines()
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    np.testing.assert_allclose(dashed.get_xydata(), np.column_stack([x, y]))
+    np.testing.assert_allclose(solid.get_ydata(), [y[0], np.nan, *y[2:]])
+    assert solid.get_drawstyle() == dashed.get_drawstyle()
 
 
 def test_designs_have_their_error_bars_which_end_above_zero(ranking):
     assert not any(map(bars_of, drawn(ranking).axes))
     error = f"error_{ranking.energy}"
-    sure = changed(ranking, **{error: [0.01, 0.5, np.nan] * 2})
-    ends = [bar[:, 1] for bar in bars_of(drawn(sure).axes[0])]
+    figure = drawn(changed(ranking, **{error: [0.01, 0.5, np.nan] * 2}))
+    ends = [bar[:, 1] for bar in bars_of(figure.axes[0])]
     best, second = ranking.table["absorbed_energy_J"][:2]
     np.testing.assert_allclose(ends, [[best - 0.01, best + 0.01], [0.1 * second, second + 0.5]])
+    assert "± estimated error" in entries(figure)
+    assert "± estimated error" not in entries(drawn(ranking))
     wild = changed(ranking, **{error: 1e6})
     assert drawn(wild).axes[0].get_ylim()[1] < 100.0 * best
 
@@ -200,16 +182,6 @@ def test_a_log_axis_has_enough_round_labels_and_not_too_many(view):
     seen = [tick for tick in ax.get_xticks() if view[0] <= tick <= view[1]]
     assert TICKS <= len(seen) <= 3 * TICKS
     np.testing.assert_allclose(seen, [float(f"{tick:.3g}") for tick in seen], rtol=1e-9)
-
-
-def drawn(ranking, draw=merit_over_mass):
-    figure = blank(8, 4)
-    draw(figure, ranking)
-    return figure
-
-
-def changed(ranking, **columns):
-    return replace(ranking, table=ranking.table.assign(**columns))
 
 
 def test_designs_that_all_weigh_the_same_have_an_axis():

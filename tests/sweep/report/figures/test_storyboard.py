@@ -20,56 +20,46 @@ def captions(heights, release=None):
     return [text for _, text in shots(squeezed_cell(heights=heights), release)]
 
 
+@pytest.mark.parametrize(
+    ("heights", "release", "said"),
+    [
+        ((10.0, 9.955, 9.84), None, ["0 %", "0.45 %", "1.6 %"]),  # small strains: two digits
+        ((10.0, 5.0, 7.0), None, ["0 %", "50 %", "30 %"]),  # not let go
+        ((10.0, 5.0), None, ["0 %", "50 %"]),
+        ((10.0, 10.01, 9.0), None, ["0 %", "10 %"]),  # rest is no negative strain
+        ((10.0, 5.0, 10.01), 0.01, ["0 %\n0 ms", "50 %\n10 ms", "released\n20 ms"]),
+        (
+            *((10.0, 4.0, 5.0, 5.5, 10.0), 0.03),  # also as it stands when let go
+            ["0 %\n0 ms", "60 %\n10 ms", "45 %\n30 ms", "released\n40 ms"],
+        ),
+    ],
+)
+def test_captions_are_strains_and_of_a_load_that_is_removed_times(heights, release, said):
+    assert captions(heights, release) == said
+
+
 def test_even_strains_on_the_way_down_then_the_end():
-    chosen = shots(squeezed_cell())
-    assert [frame for frame, _ in chosen] == [0, 1, 2, 4, 5, 7]
-    assert [text for _, text in chosen] == ["0 %", "10 %", "20 %", "40 %", "50 %", "released"]
-
-
-def test_small_strains_have_two_digits():
-    assert captions((10.0, 9.955, 9.84)) == ["0 %", "0.45 %", "1.6 %"]
-
-
-def test_only_what_is_let_go_is_released():
-    assert captions((10.0, 5.0, 7.0)) == ["0 %", "50 %", "30 %"]
-    assert captions((10.0, 5.0)) == ["0 %", "50 %"]
-
-
-def test_rest_is_no_negative_strain():
-    assert captions((10.0, 10.01, 9.9))[0] == "0 %"
-    assert captions((10.0, 5.0, 10.01), release=0.01)[-1] == "released\n20 ms"
-
-
-def test_dead_load_is_drawn_with_times_and_as_it_stands_when_let_go():
-    said = captions((10.0, 4.0, 5.0, 5.5, 10.0), release=0.03)
-    assert said == ["0 %\n0 ms", "60 %\n10 ms", "45 %\n30 ms", "released\n40 ms"]
+    frames, texts = zip(*shots(squeezed_cell()), strict=True)
+    assert frames == (0, 1, 2, 4, 5, 7)
+    assert texts == ("0 %", "10 %", "20 %", "40 %", "50 %", "released")
 
 
 def test_what_flies_off_is_drawn_while_it_is_near():
     frames = squeezed_cell(heights=(10.0, 5.0, 10.0, 10.0, 10.0))
     frames["position_m"][3:, :, 1] += [[4e-3], [6e-3]]
     assert [frame for frame, _ in shots(frames, release=0.01)] == [0, 1, 3]
-
-
-def test_what_is_gone_at_once_is_not_drawn():
-    frames = squeezed_cell(heights=(10.0, 5.0, 10.0))
-    frames["position_m"][2, :, 1] += 6e-3
+    frames["position_m"][2:, :, 1] += 6e-3  # gone at once
     assert [frame for frame, _ in shots(frames, release=0.01)] == [0, 1]
 
 
-@pytest.mark.parametrize(
-    ("mode", "history"), [("displacement", there_and_back()), ("force", under_dead_load())]
-)
-def test_load_goes_where_the_way_turns_or_the_force_ends(mode, history):
-    assert last_loaded(history, {"loading_mode": mode}) == 20
-
-
-def test_later_cycles_do_not_move_the_turn():
+def test_load_goes_where_the_way_first_turns_or_the_force_ends():
+    assert last_loaded(under_dead_load(), {"loading_mode": "force"}) == 20
     once = there_and_back()
     again = pandas.concat([once, once[1:]], ignore_index=True)
     again.loc[21:, "strain"] *= 1.0 + 1e-15
     assert again["strain"].argmax() > 20
-    assert last_loaded(again, {"loading_mode": "displacement"}) == 20
+    for history in (once, again):
+        assert last_loaded(history, {"loading_mode": "displacement"}) == 20
 
 
 def test_a_platen_turns_after_its_pause():
@@ -86,17 +76,20 @@ def test_a_platen_turns_after_its_pause():
     assert turns(twice[:24], row) == {}
 
 
-def test_headline_of_a_slicers_design_has_its_share():
-    (_, row) = next(summary({"lattice_kind": "stars", "infill_share": 0.204}).iterrows())
-    assert headline(row).startswith("stars, 20.4 % infill, wall 0.8 mm, ninjaflex")
-
-
-def test_headline_names_cells_wall_material_and_scene():
-    (row,) = summary({"cells_y": 2}).to_dict("records")
-    assert (
-        headline(row)
-        == "square, 3 x 2 cells, wall 0.8 mm, ninjaflex\ncrushed to 50 %, glued platens"
-    )
+@pytest.mark.parametrize(
+    ("row", "design"),
+    [
+        ({"cells_y": 2}, "square, 3 x 2 cells, wall 0.8 mm, ninjaflex"),
+        (
+            {"lattice_kind": "stars", "infill_share": 0.204},
+            "stars, 20.4 % infill, wall 0.8 mm, nin",
+        ),
+    ],
+)
+def test_headline_names_cells_or_share_wall_material_and_scene(row, design):
+    (row,) = summary(row).to_dict("records")
+    assert headline(row).startswith(design)
+    assert headline(row).endswith("ninjaflex\ncrushed to 50 %, glued platens")
 
 
 def test_a_long_scene_takes_more_lines_of_a_headline():

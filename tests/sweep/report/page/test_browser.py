@@ -14,7 +14,7 @@ from sweep.report.page.write import write_page
 from sweep.report.tables.marks import marks
 from tests.support.browser import CHROMIUM, browser
 from tests.support.command import crumple
-from tests.support.results.page_data import expected, sweep
+from tests.support.results.page_data import sweep
 from tests.support.results.specimens import summary, write
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs chromium (a package of Debian)")
@@ -128,17 +128,6 @@ def test_other_scenes_are_ranked_by_their_own_column(tab, capsys, file, scene):
     assert tab.run('document.getElementById("force-box").hidden') is True
 
 
-@pytest.mark.parametrize("panel", [True, False])
-def test_without_a_budget_every_design_has_its_place(tab, table, panel):
-    put(tab, "budget-on", False, what="checked", event="change")
-    put(tab, "panel-on", panel, what="checked", event="change")
-    wanted = expected(table, panel=(0.1, 0.05) if panel else None)
-    rows = next(iter(wanted.values()))
-    assert [row[0] for row in tab.run(ROWS)] == [row["case_id"] for row in rows]
-    shown = tab.run('document.getElementById("sentence").textContent')
-    assert ("J/g" in shown) != panel
-
-
 def test_answer_comes_first_and_names_the_winner(tab):
     first = tab.run(ROWS)[0][0]
     label = tab.run(f'data.cases.find((design) => design.id === "{first}").label')
@@ -248,7 +237,6 @@ def test_marks_are_those_of_the_terminal(tab, capsys, file):
 
 
 def heads(tab):
-    """The heads of the table, in one line each."""
     texts = "[...document.querySelectorAll('#table th button')].map((head) => head.textContent)"
     return [text.replace("\n", " ") for text in tab.run(texts)]
 

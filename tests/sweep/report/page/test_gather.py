@@ -9,12 +9,10 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.thinning import work_until
-from sweep.result import Result, Status
-from sweep.store.write import Writer
 from tests.support.results.page_data import sweep
 from tests.support.results.specimens import (
     HEIGHT,
-    Named,
+    designs,
     squeezed_cell,
     summary,
     there_and_back,
@@ -26,33 +24,25 @@ def gathered(path, table, **question):
     return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, Question(**question))
 
 
-def test_page_has_every_finished_case_once_and_every_failure(tmp_path):
-    lost = {"status": "stopped", "message": "stopped at strain 0.5: more solver.load_steps"}
-    table = summary({}, lost, {"platen": "contact"})
-    data = gathered(tmp_path, table)
-    ids = list(table["case_id"])
-    assert [case["id"] for case in data["cases"]] == [ids[0], ids[2]]
-    assert [case["scene"] for case in data["cases"]] == [0, 1]
-    (failure,) = data["failures"]
-    assert (failure["case_id"], failure["message"]) == (ids[1], lost["message"])
-    assert data["total"] == 3
-
-
-def test_page_and_terminal_have_the_same_scenes(tmp_path):
+def test_page_has_every_case_once_in_the_scenes_of_the_terminal(tmp_path):
     crush, nan = {"loading.strain": 0.5, "loading.stroke": np.nan}, np.nan
     struck = {"loading_mode": "impact", "striker_mass_g": 50.0, "impact_energy_J": 0.2}
+    lost = {"status": "stopped", "message": "stopped at strain 0.5: more solver.load_steps"}
     table = summary(
         crush,
         *(struck | {"striker_speed_m_per_s": speed} for speed in (3.1, 3.1004, 3.1 + 1e-15)),
         {"loading.strain": nan, "loading.stroke": 6.1e-3},
-        {"stroke_m": 6.1e-3 * (1.0 + 1e-8), "status": "stopped", "message": "no"},
+        {"stroke_m": 6.1e-3 * (1.0 + 1e-8)} | lost,
     )
     data, ranking = gathered(tmp_path, table), ranked(table, top=None)
+    assert len(data["cases"]) == 5
     assert [scene["label"] for scene in data["scenes"]] == list(ranking.lightest_g)
     on_the_page = {case["id"]: data["scenes"][case["scene"]]["label"] for case in data["cases"]}
     assert on_the_page == dict(ranking.table[["case_id", "scene"]].to_numpy())
-    assert len(on_the_page) == 5
-    assert [failure["scene"] for failure in data["failures"]] == list(ranking.lost)
+    (failure,) = data["failures"]
+    assert (failure["case_id"], failure["message"]) == (table["case_id"][5], lost["message"])
+    assert [failure["scene"]] == list(ranking.lost)
+    assert data["total"] == 6
 
 
 def test_sweep_without_a_finished_case_has_a_page(tmp_path):
@@ -67,11 +57,7 @@ def test_equal_drawings_are_stored_once(tmp_path):
 
 
 def test_shapes_of_the_best_come_first(tmp_path, monkeypatch):
-    table = summary(
-        {"mass_g": 2.0, "absorbed_energy_J": 0.1},
-        {"mass_g": 1.0, "absorbed_energy_J": 0.4},
-        {"mass_g": 3.0, "absorbed_energy_J": 0.2},
-    )
+    table = summary(*designs([2.0, 1.0, 3.0], [0.1, 0.4, 0.2]))
     best = ranked(table, budget=0.01).table["case_id"][0]
     whole = gathered(tmp_path, table, budget=[0.01])
     assert len(whole["shapes"]) == 3
@@ -80,19 +66,18 @@ def test_shapes_of_the_best_come_first(tmp_path, monkeypatch):
     assert list(gathered(tmp_path, table, budget=[0.01])["shapes"]) == [best]
 
 
-def test_energies_of_the_page_add_up_to_the_work(tmp_path):
-    (case,) = gathered(tmp_path, summary({}))["cases"]
+def test_energies_and_forces_of_the_page_are_those_of_the_curves(tmp_path):
+    data, history = gathered(tmp_path, summary({})), there_and_back()
+    (case,), (shape,) = data["cases"], data["shapes"].values()
     _, work, *parts = np.array(case["book"]["values"])
     np.testing.assert_allclose(np.sum(parts, axis=0), work, rtol=1e-3, atol=1e-6)
     assert case["book"]["parts"] == ["bending", "lost to friction"]
-
-
-def test_stairs_end_where_the_platen_turns(tmp_path):
-    (case,) = gathered(tmp_path, summary({}))["cases"]
-    highest, done = map(np.array, case["stairs"])
-    history = there_and_back()
+    highest, done = map(np.array, case["stairs"])  # they end where the platen turns
     assert done[-1] == pytest.approx(history["work_in_J"].max(), rel=1e-4)
     assert work_until(1e9, highest, done) == done[-1]
+    time, force = history["time_s"].astype("f4"), history["reaction_top_N"]
+    forces = np.interp(squeezed_cell()["time_s"], time, force)
+    np.testing.assert_allclose(shape["force"], forces, rtol=1e-3)
 
 
 def test_curves_of_each_mode():
@@ -106,51 +91,31 @@ def test_curves_of_each_mode():
     assert load[1].max() == pytest.approx(100.0 * 4e-3 / HEIGHT)
 
 
-def test_frames_have_the_force_of_their_time(tmp_path):
-    table = summary({})
-    (shape,) = gathered(tmp_path, table)["shapes"].values()
-    history = there_and_back()
-    known = np.interp(
-        squeezed_cell()["time_s"], history["time_s"].astype("f4"), history["reaction_top_N"]
-    )
-    np.testing.assert_allclose(shape["force"], known, rtol=1e-3)
-
-
 def test_five_hundred_cases_fit_into_five_megabytes(tmp_path):
     """Curves without any regularity, and a drawing of its own for each design."""
-    table = sweep(count=250)
-    assert len(table) == 500
-    rng, results = np.random.default_rng(0), []
-    for row in table.to_dict("records"):
-        case_id, status, message = (row.pop(name) for name in ("case_id", "status", "message"))
+    table, rng = sweep(count=250), np.random.default_rng(0)
+    strain, time = np.linspace(0.0, 0.6, 41), np.linspace(0.0, 1.0, 41)
+
+    def ran(*_):
         history = {name: rng.random(201) for name in there_and_back()}
         history["strain"] = np.linspace(0.0, 0.6, 201)
-        nodes = rng.random((41, 40, 2)) * 0.0125
+        frames = {"strain": strain, "time_s": time, "plate_y_m": np.zeros((41, 2))}
+        frames |= {"position_m": rng.random((41, 40, 2)) * 0.0125}
         edges = rng.integers(0, 40, (50, 2))
-        edges = edges[edges[:, 0] != edges[:, 1]]
-        frames = {
-            "strain": np.linspace(0.0, 0.6, 41),
-            "time_s": np.linspace(0.0, 1.0, 41),
-            "position_m": nodes,
-            "plate_y_m": np.zeros((41, 2)),
-            "edges": edges,
-            "edge_thickness_m": np.full(len(edges), 8e-4),
-        }
-        results.append(Result(Named(case_id), Status(status), message, row, history, frames))
-    path = tmp_path / "many.h5"
-    with Writer(path) as writer:
-        writer.append(results)
-        writer.fold()
-    data = page_data(str(path), table, Question())
-    size = len(json.dumps(data, separators=(",", ":")))
-    assert 2_000_000 < size < 4_900_000
-    assert data["points"] == 60
+        frames["edges"] = edges[edges[:, 0] != edges[:, 1]]
+        return history, frames | {"edge_thickness_m": np.full(len(frames["edges"]), 8e-4)}
+
+    data = page_data(write(tmp_path / "many.h5", table, ran=ran), table, Question())
+    assert 2_000_000 < len(json.dumps(data, separators=(",", ":"))) < 4_900_000
+    assert (len(table), data["points"]) == (500, 60)
     assert 0 < len(data["shapes"]) < 500
 
 
+UPRIGHT = {"direction": "out_of_plane", "solid_strain": 0.7}
+
+
 def test_plates_are_drawn_as_their_plan_and_move_as_faces(tmp_path):
-    row = {"direction": "out_of_plane", "solid_strain": 0.7}
-    data = gathered(tmp_path, summary(row))
+    data = gathered(tmp_path, summary(UPRIGHT))
     (drawn,) = data["drawings"]
     assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
     (shape,) = data["shapes"].values()
@@ -160,8 +125,7 @@ def test_plates_are_drawn_as_their_plan_and_move_as_faces(tmp_path):
 
 def test_a_panel_moves_as_four_periods(tmp_path):
     """Of the tube, 1 mm wide, as a period: its walls at the sides are cut away."""
-    row = {"direction": "out_of_plane", "solid_strain": 0.7, "sides": "tied, fixed period"}
-    row |= {"outer_width_m": 2e-3, "depth_m": 2e-3}
+    row = UPRIGHT | {"sides": "tied, fixed period", "outer_width_m": 2e-3, "depth_m": 2e-3}
     (shape,) = gathered(tmp_path, summary(row))["shapes"].values()
     assert shape["laid"] == [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0]]
     assert len(shape["quads"]) == 4

@@ -19,7 +19,6 @@ USUAL = NONE | {"budget": 25, "per": "panel", "require": {"max_force": 60}}
 
 @pytest.fixture(scope="module")
 def evaluate():
-    """The value of an expression of the script."""
     with MiniRacer() as engine:
         engine.eval(SCRIPT.read_text("utf-8"))
         yield lambda words: json.loads(engine.eval(f"JSON.stringify({words})"))

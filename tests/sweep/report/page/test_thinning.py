@@ -14,21 +14,14 @@ from sweep.report.page.thinning import (
 from sweep.simulation.summary import absorbed_until
 
 
-def test_corners_of_a_polyline_are_enough():
+def test_corners_of_a_polyline_are_enough_and_the_farthest_point_comes_first():
     x = np.linspace(0.0, 3.0, 31)
     y = np.interp(x, [0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 0.0, 2.0])
     assert thinned(np.column_stack([x, y]), 31, 1e-12) == [0, 10, 20, 30]
-
-
-def test_farthest_point_comes_first():
     points = np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 3.0], [3.0, 0.0]])
-    assert thinned(points, 3) == [0, 2, 3]
-    assert thinned(points, 4, 2.0) == [0, 2, 3]  # the other one is nearer than that
-
-
-@pytest.mark.parametrize("count", [0, 1, 2])
-def test_curves_that_cannot_be_thinner(count):
-    assert thinned(np.zeros((count, 2)), 60) == list(range(count))
+    assert thinned(points, 3) == thinned(points, 4, 2.0) == [0, 2, 3]
+    for count in range(3):
+        assert thinned(np.zeros((count, 2)), 60) == list(range(count))
 
 
 def test_error_falls_with_the_number_of_points():
@@ -59,13 +52,6 @@ def test_stairs_tell_the_same_work_as_the_curve(seed):
     for limit in [*np.linspace(0.01, 1.1, 60) * force.max(), force[0], force.max()]:
         expected = absorbed_until(limit, force, work)
         assert work_until(limit, highest, done) == pytest.approx(expected, rel=1e-12)
-
-
-def test_a_dip_costs_no_force():
-    force, work = np.array([0.0, 4.0, 2.0, 4.0, 6.0]), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
-    highest, done = force_stairs(force, work)
-    assert work_until(3.99, highest, done) == pytest.approx(0.9975**2)
-    assert work_until(4.0, highest, done) == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("seed", range(3))

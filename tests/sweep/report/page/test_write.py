@@ -2,16 +2,19 @@
 
 import json
 import re
+from base64 import b64encode
+from hashlib import sha256
 from html.parser import HTMLParser
 
 import pytest
 
 from sweep.ranking.question import Question
+from sweep.ranking.rank import rank
 from sweep.report.page.gather import first_ranking, page_data
 from sweep.report.page.write import page, tables, write_page
 from tests.support.command import crumple
 from tests.support.results.page_data import sweep
-from tests.support.results.specimens import designs, summary, write
+from tests.support.results.specimens import designs, ids, summary, write
 
 EVIL = '<script>alert("&")</script>'
 VOID = {"meta", "input", "br", "link", "img"}
@@ -45,9 +48,12 @@ class Reader(HTMLParser):
 
 def written(path, table, **question):
     file = write(path / "trial.h5", table, {"config": json.dumps({"name": EVIL, "rank": {}})})
-    return write_page(file, table, Question(**question), path / "out" / "trial.html").read_text(
-        "utf-8"
-    )
+    made = write_page(file, table, Question(**question), path / "out" / "trial.html")
+    return made.read_text("utf-8")
+
+
+def data_of(html):
+    return json.loads(re.search(r'id="data">(.*?)</script>', html)[1])
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +78,7 @@ def test_names_from_files_are_text(evil):
     assert EVIL not in evil
     assert f"stopped: {EVIL}" in read.text["td"]
     assert f"{EVIL}: which lattice is best?" in read.text["h1"]
-    data = json.loads(re.search(r'id="data">(.*?)</script>', evil)[1])
+    data = data_of(evil)
     assert data["name"] == EVIL
     assert {case["text"][-1] for case in data["cases"]} == {EVIL}
 
@@ -86,10 +92,6 @@ def test_nothing_is_loaded_from_elsewhere(evil):
 
 
 def test_only_the_program_may_run(evil):
-    """The page names the digest of its program."""
-    from base64 import b64encode
-    from hashlib import sha256
-
     program = re.findall(r"<script>(.*?)</script>", evil, re.DOTALL)
     digest = b64encode(sha256(program[0].encode()).digest()).decode()
     assert len(program) == 1
@@ -107,15 +109,14 @@ def test_tables_are_readable_without_scripts(tmp_path):
 
 
 def test_a_page_of_a_part_says_that_other_designs_may_be_better(tmp_path):
-    table = summary(*designs([1.0, 2.0], [0.1, 0.3]))
-    file = write(tmp_path / "trial.h5", table, {"config": "{}", "part": "1/3"})
-    page = write_page(file, table, Question(), tmp_path / "trial.html").read_text("utf-8")
-    header = page.partition("</header>")[0]
+    file = write(tmp_path / "trial.h5", summary({}), {"config": "{}", "part": "1/3"})
+    made = write_page(file, summary({}), Question(), tmp_path / "trial.html")
+    header = made.read_text("utf-8").partition("</header>")[0]
     assert "This file has part 1/3 of a sweep: designs of other parts may be better" in header
     assert "of the last run are missing" not in header
 
 
-def test_tables_have_only_what_is_required(tmp_path):
+def test_tables_have_only_what_is_required():
     table = summary(*designs([1.0, 2.0, 4.0], [0.1, 0.3, 0.4]))
     question = Question(require={"max_mass": 2.5e-3, "min_absorbed": 0.2})
     read = Reader(tables(table, first_ranking(table, question)))
@@ -130,21 +131,16 @@ def test_tables_are_sorted_as_rank_sorts_without_a_budget(tmp_path, capsys):
     file = write(tmp_path / "trial.h5", table, {"config": '{"rank": {"budgets": []}}'})
     crumple(capsys, "report", file)
     static = (tmp_path / "trial.html").read_text("utf-8").partition('<div id="app"')[0]
-    first = re.findall(r"<tr><td>(\d)[^<]*</td><td>([^<]+)</td>", static)
-    assert first == [("1", "1.00"), ("2", "2.00"), ("3", "4.00")]
-    listed = crumple(capsys, "rank", file, "--csv")[1].splitlines()
-    assert [line.count(f"{k:016x}") for k, line in enumerate(listed[1:])] == [1, 1, 1]
-
-
-def test_page_of_failures_alone_says_so(tmp_path):
-    text = written(tmp_path, summary({"status": "stopped", "message": "more steps"}))
-    assert "No case has converged" in text
-    assert "1 case failed" in text
-    assert Reader(text).wrong == []
+    masses = re.findall(r"<tr><td>\d[^<]*</td><td>([^<]+)</td>", static)
+    assert masses == ["1.00", "2.00", "4.00"]
+    assert ids(rank(file)) == [0, 1, 2]
 
 
 def test_failures_are_counted_with_their_sentences(tmp_path):
     why = {"status": "stopped", "message": "stopped at strain 0.5: more solver.load_steps"}
+    alone = written(tmp_path, summary(why))
+    assert ("No case has converged" in alone, "1 case failed" in alone) == (True, True)
+    assert Reader(alone).wrong == []
     text = written(tmp_path, summary({}, why, why))
     assert "3 cases, 2 of them failed" in text
     assert text.count(f'<td class="sentence">{why["message"]}</td>') == 2
@@ -152,65 +148,47 @@ def test_failures_are_counted_with_their_sentences(tmp_path):
 
 def test_page_tells_where_its_numbers_come_from(tmp_path):
     about = {"config": '{"name": "mine", "depth": 0.0123}', "git_revision": "abc", "created": "now"}
-    about |= {"version_numpy": "9.9"}
-    table = summary({})
-    file = write(tmp_path / "trial.h5", table, about)
-    read = Reader(page(page_data(file, table, Question()), ""))
-    said = read.text["dd"]
-    assert all(word in said for word in ("trial.h5", "abc", "now", "9.9"))
+    file = write(tmp_path / "trial.h5", summary({}), about | {"version_numpy": "9.9"})
+    read = Reader(page(page_data(file, summary({}), Question()), ""))
+    assert all(word in read.text["dd"] for word in ("trial.h5", "abc", "now", "9.9"))
     assert '"depth": 0.0123' in read.text["pre"]
 
 
-def test_page_without_data_is_small():
-    empty = {"total": 0, "designs": 0, "failed": 0, "failures": [], "about": [], "config": {}}
-    empty["missing"] = []
-    data = page({"name": "a", "file": "b", "points": 60, "shapes": {}, "cases": []} | empty, "")
-    assert len(data) < 90_000
-
-
-def test_periods_fill_a_panel_without_gaps(tmp_path):
-    html = written(tmp_path, sweep(6, more={"sides": "tied, fixed"}))
-    cases = json.loads(re.search(r'id="data">(.*?)</script>', html)[1])["cases"]
+def test_periods_fill_a_panel_without_gaps_and_slicer_settings_are_shown(tmp_path):
+    more = {"sides": "tied, fixed", "slicer_settings": "PrusaSlicer: Grid, 15 %"}
+    html = written(tmp_path, sweep(6, more=more))
+    cases = data_of(html)["cases"]
     assert {design["gap"] for design in cases} == {None}
     assert all(design["outer"][0] > 0.0 for design in cases)
-
-
-def test_slicer_settings_are_shown_if_a_file_has_them(tmp_path):
-    table = sweep(2, more={"slicer_settings": "PrusaSlicer: Grid, 15 %"})
-    assert "PrusaSlicer: Grid, 15 %" in written(tmp_path, table)
+    assert "PrusaSlicer: Grid, 15 %" in html
 
 
 def test_verb_writes_the_page_beside_the_file(capsys, tmp_path):
+    question = {"min_absorbed": 2.0, "max_force": None}
     config = {"rank": {"budgets": [0.002], "panel": [0.1, 0.05], "per": "panel"}, "name": "mine"}
-    config |= {"require": {"min_absorbed": 2.0, "max_force": None}}
-    file = write(tmp_path / "trial.h5", summary({}), {"config": json.dumps(config)})
+    about = {"config": json.dumps(config | {"require": question})}
+    file, made = write(tmp_path / "trial.h5", summary({}), about), tmp_path / "trial.html"
     status, out, _ = crumple(capsys, "report", file)
-    made = tmp_path / "trial.html"
     assert (status, out.split()[0]) == (0, str(made))
-    data = json.loads(re.search(r'id="data">(.*?)</script>', made.read_text("utf-8"))[1])
-    assert data["question"] == {
+    assert data_of(made.read_text("utf-8"))["question"] == {
         "budgets_g": [2.0],
         "panel": [0.1, 0.05],
         "require": {"min_absorbed": 2.0},
         "per": "panel",
     }
-    assert [path.name for path in tmp_path.iterdir()].count("trial.html.tmp") == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"trial.h5", "trial.html"}
     status, out, _ = crumple(capsys, "report", file, "--out", str(tmp_path / "new" / "a.html"))
     assert (status, (tmp_path / "new" / "a.html").exists()) == (0, True)
 
 
-def test_failures_give_status_one(capsys, tmp_path):
+@pytest.mark.parametrize("name", ["a.txt", "", "folder.html", "trial.h5/a.html"])
+def test_page_needs_a_place_and_failures_give_status_one(capsys, tmp_path, name):
     file = write(tmp_path / "trial.h5", summary({}, {"status": "stopped", "message": "no"}))
-    status, _, err = crumple(capsys, "report", file)
-    assert (status, err) == (1, "1 of 2 cases failed: the page lists them\n")
-
-
-@pytest.mark.parametrize("name", ["a.txt", "", "DIR", "FILE/a.html"])
-def test_page_needs_a_place(capsys, tmp_path, name):
-    file = write(tmp_path / "trial.h5", summary({}))
     (tmp_path / "folder.html").mkdir()
-    out = name.replace("FILE", file).replace("DIR", str(tmp_path / "folder.html"))
+    out = str(tmp_path / name) if name else name
     status, _, err = crumple(capsys, "report", file, "--out", out)
     assert status == 2
     assert err.startswith("crumple report: ")
     assert err.count("\n") <= 2
+    status, _, err = crumple(capsys, "report", file)
+    assert (status, err) == (1, "1 of 2 cases failed: the page lists them\n")

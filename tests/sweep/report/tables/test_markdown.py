@@ -11,31 +11,29 @@ from tests.support.results.specimens import designs, summary
 
 def test_budgets_stand_one_below_the_other_in_markdown():
     table = summary(*designs([1.0, 2.0, 3.0], [0.1, 0.3, 0.2]), {"cells_x": 4, "mass_g": 9.0})
-    ranking = ranked(table, budget=["0.5 g", "1 g", "2 g"])
-    title, _, heads, _, *rows = markdown(ranking_sheets(ranking, table)).splitlines()
+    sheets = ranking_sheets(ranked(table, budget=["0.5 g", "1 g", "2 g"]), table)
+    title, _, heads, _, *rows = markdown(sheets).splitlines()
     assert title == "### crushed to 50 %, glued platens"
-    assert [cell.strip() for cell in heads.split("|")[1:4]] == ["up to g", "#", "cells"]
-    cells = [[cell.strip() for cell in row.split("|")[1:5]] for row in rows[:3]]
+    cells = [[cell.strip() for cell in row.split("|")[1:5]] for row in (heads, *rows[:3])]
     assert cells == [
-        [up_to, place, "3 x 3", mass]
-        for up_to, place, mass in (("1", "1*", "1.00"), ("2", "1*", "2.00"), ("", "2*", "1.00"))
+        ["up to g", "#", "cells", "mass g"],
+        ["1", "1*", "3 x 3", "1.00"],
+        ["2", "1*", "3 x 3", "2.00"],
+        ["", "2*", "3 x 3", "1.00"],
     ]
     assert len({len(row) for row in (heads, *rows[:3])}) == 1
     assert rows[3] == ""
     assert rows[4].startswith("No design weighs 0.5 g or less")
 
 
-def test_a_sheet_without_a_table_has_its_notes_alone():
-    assert markdown([Sheet("", [], [], notes=("Nothing.",))]) == "Nothing.\n"
-    assert markdown([Sheet("scene", [], [], notes=("Nothing.",))]) == "### scene\n\nNothing.\n"
-
-
-def test_sheets_follow_one_another():
+def test_sheets_follow_one_another_and_one_without_a_table_has_its_notes_alone():
     sheets = [Sheet("one", ["a", "bcd"], [["10", "2"]]), Sheet("", ["e"], [["f"]], notes=("g",))]
     assert markdown(sheets).splitlines() == [
         *("### one", "", "| a  | bcd |", "| -- | --- |", "| 10 | 2   |"),
         *("", "| e |", "| - |", "| f |", "", "g"),
     ]
+    assert markdown([Sheet("", [], [], notes=("Nothing.",))]) == "Nothing.\n"
+    assert markdown([Sheet("scene", [], [], notes=("Nothing.",))]) == "### scene\n\nNothing.\n"
 
 
 def test_names_end_no_cell_and_begin_no_tag():

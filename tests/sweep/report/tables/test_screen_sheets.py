@@ -7,9 +7,6 @@ from sweep.ranking.question import Question
 from sweep.report.tables.screen_sheets import screen_sheets
 from tests.support.results.specimens import designs, summary
 
-QUESTION = {"budget": None, "panel": None, "top": 10, "per": "specimen"}
-COLUMN = "specific_absorption_until_packed_J_per_g"
-
 
 def sheet(count, factors=(1.0, 1.0, 1.0)):
     """The sheet of three designs, the first `count` of which ran as a whole, at these factors."""
@@ -19,7 +16,7 @@ def sheet(count, factors=(1.0, 1.0, 1.0)):
     full[energies] = full[energies].mul(
         Series(factors[:count], index=full.index, dtype=float), axis=0
     )
-    (found,) = screen_sheets(estimates, full, Question(**QUESTION))
+    (found,) = screen_sheets(estimates, full, Question())
     return found
 
 
@@ -38,7 +35,4 @@ def test_what_is_only_estimated_has_no_full_value():
 )
 def test_agreement_is_told(factors, text):
     assert text in sheet(3, factors).notes[-1]
-
-
-def test_without_whole_models_nothing_is_said_of_agreement():
-    assert len(sheet(0).notes) == 1
+    assert len(sheet(0).notes) == 1  # without whole models
