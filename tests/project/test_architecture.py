@@ -100,6 +100,7 @@ TESTED_ELSEWHERE = {
     "sweep.cli.run": "sweep/cli/test_verbs.py",
     "sweep.cli.status": "sweep/cli/test_verbs.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
+    "sweep.running.applicable": "sweep/running/test_run.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
