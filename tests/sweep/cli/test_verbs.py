@@ -42,7 +42,7 @@ def test_every_verb_has_its_arguments_its_function_and_an_example(capsys):
 
 
 def test_a_verb_without_a_function_is_told(capsys, monkeypatch, file):
-    monkeypatch.delitem(VERBS, "status")
+    monkeypatch.setattr("sweep.cli.verbs.VERBS", {})
     status, _, err = crumple(capsys, "status", file)
     assert (status, "sweep/cli/verbs.py" in err) == (2, True)
 
