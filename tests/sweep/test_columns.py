@@ -90,6 +90,9 @@ def test_gaps_are_described_alike_in_summary_and_history():
         (cycle_columns(2)[0], "J", "more", "cycle 2"),
         (cycle_columns(2)[1], "J", "more", "cycle 2"),
         (cycle_columns(12)[2], "N", "less", "cycle 12"),
+        ("error_absorbed_energy_J", "J", "less", "no bound"),
+        (f"error_{absorbed_energy_column(50.0)}", "J", "less", "no bound"),
+        ("correction_peak_strain", "1", None, ""),
     ],
 )
 def test_columns_that_follow_from_a_name_have_units_and_say_what_is_better(

@@ -6,6 +6,7 @@ import time
 from concurrent.futures import Future
 from dataclasses import replace
 from threading import current_thread, main_thread
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -160,27 +161,22 @@ def took(share, numbers):
     return [replace(r, summary=r.summary | {"cpu_s": share * AT_RISK}) for r in found]
 
 
-class AtOnce:
+def at_once(*_):
     """A pool of threads that runs its calls at once in this thread."""
 
-    def __init__(self, *_):
-        pass
-
-    def shutdown(self):
-        """Nothing is at work."""
-
-    def submit(self, function, *arguments):
-        """Do it."""
+    def submit(function, *arguments):
         done = Future()
         done.set_result(function(*arguments))
         return done
+
+    return SimpleNamespace(submit=submit, shutdown=lambda: None)
 
 
 def test_first_result_is_sealed_at_once_and_later_ones_when_they_are_worth_it(
     tmp_path, progress, monkeypatch
 ):
     """Two workers: the time at risk is at most twice as much. NaN might be any time."""
-    monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", AtOnce)
+    monkeypatch.setattr("sweep.running.writer_thread.ThreadPoolExecutor", at_once)
     out, sealed = tmp_path / "sweep.h5", []
     batches = [(0.1, [0]), (0.9, [1, 2]), (0.3, [3]), (1.9, [4]), (np.nan, [5]), (0.1, [6])]
     with Writer(out) as writer, result_sink(writer, Plan([], workers=2), progress) as keep:
