@@ -6,7 +6,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
-from tests.support.designs.grids import LOADINGS, scene_of
+from tests.support.designs.grids import LOADINGS, row_of_nodes, scene_of
 
 
 @pytest.mark.parametrize("elements", [1, 3])
@@ -41,3 +41,24 @@ def test_a_glued_row_keeps_its_shape():
     np.testing.assert_allclose(moved[:, top, 0], 0.0, atol=1e-15)
     np.testing.assert_allclose(moved[:, top, 1], down, atol=1e-15)
     assert np.abs(moved[-1, :, 0]).max() > 1e-4
+
+
+@pytest.mark.parametrize(
+    ("platen", "bottom", "top", "base"),
+    [
+        ("none", "row", "upper row", "row"),
+        ("glued", "both", "upper row", "row"),
+        ("contact", "platen", "nothing", "nodes"),
+        ("driven, contact", "platen", "upper platen", "platen"),
+        ("driven, glued", "both", "upper platen", "platen"),
+    ],
+)
+def test_where_reaction_and_strain_are_read(platen, bottom, top, base):
+    scene = scene_of(platen=platen)
+    nodes, high = 2 * len(scene.mesh.points), scene.x_rest.size - 1
+    below, above = (row_of_nodes(scene, y)[1] for y in (0.0, 12.5e-3))
+    of = {"row": below, "platen": [high - 1], "both": [*below, high - 1]}
+    of |= {"upper row": above, "upper platen": [high], "nothing": []}
+    of |= {"nodes": np.arange(1, nodes, 2)}
+    for coordinates, name in ((scene.bottom, bottom), (scene.top, top), (scene.base, base)):
+        np.testing.assert_array_equal(coordinates, of[name])
