@@ -113,6 +113,7 @@ TESTED_ELSEWHERE = {
     "sweep.design.lattice": "sweep/design/test_infill.py",
     "sweep.design.surfaces": "sweep/design/surfaces/test_nets.py",
     "sweep.published.quantity": "sweep/published/test_table.py",
+    "sweep.running.applicable": "sweep/running/test_run.py",
     "sweep.running.beside.run_beside": "sweep/running/beside/test_spread.py",
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",

@@ -22,3 +22,12 @@ def own_record(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture
+def executions(tmp_path, monkeypatch):
+    """The file with the id of every case that the stand-in `slow` has run, a line each."""
+    path = tmp_path / "executions"
+    monkeypatch.setenv("EXECUTIONS", str(path))
+    path.touch()
+    return path

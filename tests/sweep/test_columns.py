@@ -49,31 +49,6 @@ def test_every_column_has_units_that_its_name_ends_in(columns):
         )
 
 
-def test_allowed_force_is_a_column_with_units():
-    assert absorbed_energy_column(50.0) == "absorbed_energy_at_50N_J"
-    assert absorbed_energy_column(12.5) == "absorbed_energy_at_12.5N_J"
-    assert describe_column("absorbed_energy_at_50N_J").units == "J"
-    assert "50 N" in describe_column("absorbed_energy_at_50N_J").description
-
-
-def test_energy_per_gram_is_a_column_with_units():
-    for name in ("specific_absorption_at_densification_J_per_g", "specific_absorption_J_per_g"):
-        found = describe_column(name)
-        assert (found.units, found.better) == ("J/g", "more")
-        assert not is_grid_key(name)
-
-
-def test_columns_of_a_cycle_say_what_is_better():
-    found = [describe_column(name) for name in cycle_columns(2)]
-    assert [(each.units, each.better) for each in found] == [
-        ("J", "more"),
-        ("J", "more"),
-        ("N", "less"),
-    ]
-    assert all("cycle 2" in each.description for each in found)
-    assert not any(map(is_grid_key, cycle_columns(12)))
-
-
 def test_text_is_neither_better_nor_worse():
     words = [name for name, column in COLUMNS.items() if not column.units]
     assert {"case_id", "material"} < set(words)
@@ -103,3 +78,27 @@ def test_gaps_are_described_alike_in_summary_and_history():
     said = COLUMNS["min_gap_m"]
     assert said == HISTORY_COLUMNS["min_gap_m"]
     assert "platen" in said.description
+
+
+@pytest.mark.parametrize(
+    ("name", "units", "better", "told"),
+    [
+        (absorbed_energy_column(50.0), "J", "more", "50 N"),
+        (absorbed_energy_column(12.5), "J", "more", "12.5 N"),
+        ("specific_absorption_at_densification_J_per_g", "J/g", "more", ""),
+        ("specific_absorption_J_per_g", "J/g", "more", ""),
+        (cycle_columns(2)[0], "J", "more", "cycle 2"),
+        (cycle_columns(2)[1], "J", "more", "cycle 2"),
+        (cycle_columns(12)[2], "N", "less", "cycle 12"),
+        ("error_absorbed_energy_J", "J", "less", "no bound"),
+        (f"error_{absorbed_energy_column(50.0)}", "J", "less", "no bound"),
+        ("correction_peak_strain", "1", None, ""),
+    ],
+)
+def test_columns_that_follow_from_a_name_have_units_and_say_what_is_better(
+    name, units, better, told
+):
+    column = describe_column(name)
+    assert (column.units, column.better) == (units, better)
+    assert told in column.description
+    assert not is_grid_key(name)

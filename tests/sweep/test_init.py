@@ -17,14 +17,6 @@ def test_errors_are_those_that_the_functions_raise(tmp_path):
         crumple.rank(summary({}), by="colour")
 
 
-def test_every_name_is_there_once():
-    assert len({*crumple.__all__}) == len(crumple.__all__)
-    for name in crumple.__all__:
-        assert getattr(crumple, name) is not None
-    with pytest.raises(AttributeError, match="Crumple has no 'colour'"):
-        _ = crumple.colour
-
-
 def test_what_a_session_shows_is_one_short_line():
     case, config = crumple.case(lattice={"kind": "hex"}), crumple.load_config("smoke")
     result = failed_result(case, crumple.Status.STOPPED, "no equilibrium")

@@ -35,27 +35,29 @@ def test_table_has_the_cases_of_the_sweep_in_its_order(file):
     assert repr(results) == f"<Results of 2 cases, 1 failed, in {file}>"
 
 
-def test_what_is_no_path_is_told():
-    with pytest.raises(StoreError, match="3 is no path; needed: that of a results file"):
-        Results(3)
-
-
 def test_curve_is_that_of_the_row_or_id(file):
     results = Results(file, [f"{1:016x}", f"{0:016x}"])
     expected = read_history(file, f"{0:016x}")
     for case in (1, f"{0:016x}"):
         np.testing.assert_array_equal(results.curve(case), expected)
     assert results.shapes(1)["position_m"].shape[2] == 2
-    with pytest.raises(IndexError, match="no case 2; allowed: 0 to 1, or an id"):
-        results.curve(2)
-    with pytest.raises(IndexError, match="no case -1"):
-        results.curve(-1)
-    with pytest.raises(KeyError, match='"0" begins 2 ids of 2'):
-        results.curve("0")
-    with pytest.raises(
-        MisfitError, match=r"Results.curve: case = .*; allowed: a whole number, text"
+    for case, error, told in (
+        (2, IndexError, "no case 2; allowed: 0 to 1, or an id"),
+        (-1, IndexError, "no case -1"),
+        ("0", KeyError, '"0" begins 2 ids of 2'),
+        (results.table.iloc[0], MisfitError, r"Results.curve: case = .*; allowed: a whole number"),
     ):
-        results.curve(results.table.iloc[0])
+        with pytest.raises(error, match=told):
+            results.curve(case)
+
+
+def test_a_file_whose_cases_failed_is_a_line_without_pictures(tmp_path):
+    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}))
+    assert Results(file)._repr_html_() == f"<p>Results of 1 case, 1 failed, in {file}</p>"
+    with pytest.raises(ValueError, match="there is nothing to draw"):
+        Results(file).plot()
+    with pytest.raises(StoreError, match="3 is no path; needed: that of a results file"):
+        Results(3)
 
 
 def test_results_stand_for_their_file(file):
@@ -68,22 +70,22 @@ def test_results_stand_for_their_file(file):
 
 
 def test_ranking_asks_what_the_config_asks_unless_told_otherwise(file):
-    plain, asked = Results(file), Results(file, question={"budget": ["1.5 g"]})
-    assert list(plain.rank()["mass_g"]) == [2.0, 1.0]
-    assert list(asked.rank()["mass_g"]) == [1.0]
-    assert list(asked.rank(budget="3 g")["mass_g"]) == [2.0, 1.0]
-    assert list(asked.rank(budget="3 g", require={"max_mass": "1 g"})["mass_g"]) == [1.0]
+    plain = Results(file)
+    asked = Results(file, question={"budget": ["1.5 g"], "require": {"max_mass": "1 g"}})
+    for results, question, masses in (
+        (plain, {}, [2.0, 1.0]),
+        (asked, {}, [1.0]),
+        (asked, {"budget": "3 g"}, [1.0]),
+        (asked, {"budget": "3 g", "require": {"max_mass": "2 g"}}, [2.0, 1.0]),
+        (asked, {"budget": None}, [1.0]),
+        (asked, {"budget": None, "require": None}, [2.0, 1.0]),
+        (asked, {"budget": None, "require": None, "top": 1}, [2.0]),
+    ):
+        assert list(results.rank(**question)["mass_g"]) == masses
     best = plain.rank(panel=("100 mm", "100 mm"), allowed_force="300 N", per="panel")
     assert (best["panel_specimens"] > 1).all()
     with pytest.raises(RankError, match="budget"):
         plain.rank(budget=2.0)
-
-
-def test_a_question_may_take_away_what_the_config_asks(file):
-    asked = Results(file, question={"budget": ["1.5 g"], "require": {"max_mass": "1 g"}})
-    assert list(asked.rank(budget=None)["mass_g"]) == [1.0]
-    assert list(asked.rank(budget=None, require=None)["mass_g"]) == [2.0, 1.0]
-    assert list(asked.rank(None, require=None, top=1)["mass_g"]) == [2.0]
 
 
 def test_a_notebook_shows_the_ranking_with_a_drawing_of_each_design(file):
@@ -106,11 +108,6 @@ def test_a_notebook_shows_no_markup_of_a_file(tmp_path):
     assert "<script" not in shown
 
 
-def test_a_notebook_shows_failed_cases_as_a_line(tmp_path):
-    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}))
-    assert Results(file)._repr_html_() == f"<p>Results of 1 case, 1 failed, in {file}</p>"
-
-
 def test_the_page_is_written_beside_the_results(file, tmp_path):
     assert Results(file).report() == tmp_path / "trial.html"
     assert "<script>" in (tmp_path / "trial.html").read_text("utf-8")
@@ -131,9 +128,3 @@ def test_picture_of_a_case_and_of_all(file, tmp_path):
     assert force != energies
     with pytest.raises(ValueError, match='no picture "heat"; there are force, energies, shapes'):
         results.plot(0, "heat")
-
-
-def test_nothing_to_draw_is_said(tmp_path):
-    file = write(tmp_path / "trial.h5", summary({"status": "stopped"}))
-    with pytest.raises(ValueError, match="there is nothing to draw"):
-        Results(file).plot()

@@ -6,11 +6,13 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+from kernels.solve import outcomes
 from sweep.config.case import Case
 from sweep.design import period
 from sweep.design.drawing import welded
 from sweep.design.lattice import build_network
 from tests.support.designs.tables import lattice_with, material_with
+from tests.support.kernels.solving import at_rest, go_on, ramp, whole
 
 Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
 PLANE = Y / (1 - NU**2)
@@ -39,6 +41,14 @@ def pressed(
         contact=dict(model=model, friction=friction),
         solver=dict(load_steps=steps, joints="points"),
     )
+
+
+def crushed(case, scene, steps=20):
+    """Coordinates of a pressed period, and the potential of a step there."""
+    state = at_rest(scene)
+    outcome, _ = go_on(case, scene, state, ramp(scene, steps, travel=(0.0, case.loading.stroke)))
+    assert outcome == outcomes.CONVERGED
+    return state.x, whole(scene, state.x)
 
 
 def follow(scene):

@@ -3,6 +3,8 @@ it.
 """
 
 import os
+import subprocess
+import sys
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -19,6 +21,7 @@ from sweep.store.sealed_file import open_sealed
 from sweep.store.write import Writer
 
 NODES = 5
+ROOT = Path(__file__).parents[3]
 
 
 class Kept(list):
@@ -32,6 +35,22 @@ class Kept(list):
     def results(self):
         """All results by their case."""
         return {result.case_id: result for batch in self for result in batch}
+
+
+class Logged(list):
+    """A simulation, and the ids of the cases that it has run."""
+
+    def __init__(self, simulate):
+        self.simulate = simulate
+
+    def __call__(self, case, control=None):
+        """Run a case, and remember its id."""
+        self.append(case.case_id)
+        return self.simulate(case)
+
+    def __bool__(self):
+        """It is a simulation before its first case, too."""
+        return True
 
 
 def cases(count, first=0):
@@ -84,6 +103,17 @@ def slow(case, stop=None):
     with Path(os.environ["EXECUTIONS"]).open("a") as file:
         file.write(f"{case.case_id}\n")
     return simulate(case)
+
+
+def killed(program, executions, count):
+    """Run a program in a process until `slow` has begun so many cases, then kill -9."""
+    places = os.environ | {"PYTHONPATH": str(ROOT)}
+    with subprocess.Popen([sys.executable, "-c", program], env=places) as process:
+        limit = time.monotonic() + 20
+        while len(executions.read_text().split()) < count:
+            assert time.monotonic() < limit
+            time.sleep(0.01)
+        process.kill()
 
 
 def write(path, batch, fold=False, size=2, **about):

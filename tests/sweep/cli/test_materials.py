@@ -12,46 +12,21 @@ from tests.support.materials.coupons import coupon, written
 from tests.support.materials.exports import measured, puck, text
 
 
-def test_without_words_all_materials_are_listed(capsys):
-    status, out, _ = crumple(capsys, "materials")
-    assert status == 0
-    assert all(name in out for name in available())
-    assert "±9" in out
-
-
-def test_with_a_name_everything_is_told(capsys):
-    status, out, _ = crumple(capsys, "materials", "cheetah", "ninjaflex")
-    assert status == 0
-    assert out.startswith("cheetah\n  Cheetah (95A), printed")
-    assert "doi 10.1089/3dp.2023.0010" in out
-    assert "\nninjaflex\n" in out
-
-
-def test_curves_are_drawn(capsys, tmp_path):
-    picture = tmp_path / "two.png"
-    words = ("plot", "cheetah", "ninjaflex", "--out", str(picture))
-    assert crumple(capsys, "materials", *words) == (0, f"{picture}\n", "")
-    assert picture.read_bytes().startswith(b"\x89PNG")
-
-
 def test_coupon_becomes_a_material(capsys, tmp_path):
+    """It lies beside its coupon, unless --out says where."""
     test = coupon(0.5, 0.05, 0.5, loss=0.35)
     heads = "time_s,displacement_mm,force_N"
-    file, mine = written(tmp_path, test, heads, (1.0, 33.0, 8e-6)), tmp_path / "mine.csv"
-    words = ["fit", str(file), "--out", str(mine), "--gauge", "33 mm", "--area", "8 mm^2"]
-    status, out, err = crumple(capsys, "materials", *words, "--density", "1.21 g/cm^3")
+    file = written(tmp_path, test, heads, (1.0, 33.0, 8e-6))
+    words = ["fit", str(file), "--gauge", "33 mm", "--area", "8 mm^2", "--density", "1.21 g/cm^3"]
+    status, out, err = crumple(capsys, "materials", *words)
     assert (status, err) == (0, "")
     assert re.search(r"loss            0.35( ± 0.0\d+)?, without softening", out)
-    found = material_with(name=str(mine), memory="measured")
+    found = material_with(name=str(tmp_path / "coupon_material.csv"), memory="measured")
     assert found.loss == pytest.approx(0.35, rel=0.01)
     assert found.density == pytest.approx(1210.0)
-    assert (tmp_path / "mine.png").exists()
-
-
-def test_material_lies_beside_its_coupon_by_default(capsys, tmp_path):
-    crumple(capsys, "materials", "fit", str(written(tmp_path, coupon(0.3))))
+    assert crumple(capsys, "materials", *words, "--out", str(tmp_path / "mine.csv"))[0] == 0
     assert {path.name for path in tmp_path.iterdir()} == {
-        *("coupon.csv", "coupon_material.csv", "coupon_material.png")
+        *("coupon.csv", "coupon_material.csv", "coupon_material.png", "mine.csv", "mine.png")
     }
 
 
@@ -101,3 +76,16 @@ def test_refusals_take_a_line_and_exit_with_2(capsys, tmp_path, words, wrong):
     assert err.startswith("crumple materials: ")
     assert wrong in err
     assert err.count("\n") == 1
+
+
+def test_materials_are_listed_told_and_drawn(capsys, tmp_path):
+    _, out, _ = crumple(capsys, "materials")
+    assert all(name in out for name in available())
+    _, out, _ = crumple(capsys, "materials", "cheetah", "ninjaflex")
+    assert out.startswith("cheetah\n  Cheetah (95A), printed")
+    assert "doi 10.1089/3dp.2023.0010" in out
+    assert "\nninjaflex\n" in out
+    picture = tmp_path / "two.png"
+    words = ("plot", "cheetah", "ninjaflex", "--out", str(picture))
+    assert crumple(capsys, "materials", *words) == (0, f"{picture}\n", "")
+    assert picture.read_bytes().startswith(b"\x89PNG")

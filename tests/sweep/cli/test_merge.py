@@ -53,51 +53,43 @@ def test_merged_parts_are_the_sweep(array, capsys):
     )
 
 
+def part(capsys, number, out):
+    assert crumple(capsys, "run", "array.toml", "--part", number, "--out", out)[0] == 0
+
+
 def test_a_file_that_is_there_gets_more_rows(array, capsys):
-    crumple(capsys, "run", "array.toml", "--part", "1/2", "--out", "one.h5")
-    crumple(capsys, "run", "array.toml", "--part", "2/2", "--out", "two.h5")
-    assert crumple(capsys, "merge", "one.h5", "two.h5")[:2] == (0, "one.h5: 5 cases\n")
-    assert crumple(capsys, "merge", "one.h5", "two.h5")[:2] == (0, "one.h5: 5 cases\n")
+    part(capsys, "1/2", "one.h5")
+    part(capsys, "2/2", "two.h5")
+    for _ in range(2):
+        assert crumple(capsys, "merge", "one.h5", "two.h5")[:2] == (0, "one.h5: 5 cases\n")
     assert crumple(capsys, "verify", "one.h5", "--again", "1")[0] == 0
     assert len(read_summary("two.h5")) == 2
 
 
-def test_a_part_is_ranked_and_exported_with_a_warning(array, capsys):
-    crumple(capsys, "run", "array.toml", "--part", "1/2", "--out", "one.h5")
-    crumple(capsys, "run", "array.toml", "--part", "2/2", "--out", "two.h5")
-    few = "these files have 1/2 of a sweep of 2 parts"
-    assert few in crumple(capsys, "merge", "few.h5", "one.h5")[2]
-    assert few not in crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")[2]
-    for words in (["rank"], ["export", "1", "--to", "part.stl"], ["report"]):
-        verb, *rest = words
-        for file, told in (("one.h5", True), ("all.h5", False)):
-            status, *output = crumple(capsys, verb, file, *rest)
-            assert status == 0
-            assert ("has part 1/2 of a sweep" in "".join(output)) == told
-
-
 def test_a_merged_file_knows_which_parts_it_has(array, capsys):
     for number in ("1", "2", "3"):
-        part = f"{number}.h5"
-        crumple(capsys, "run", "array.toml", "--part", f"{number}/3", "--out", part)
-    some = "has parts 1/3, 3/3 of a sweep"
-    assert "have 1/3, 3/3 of a sweep of 3" in crumple(capsys, "merge", "few.h5", "3.h5", "1.h5")[2]
-    assert some in crumple(capsys, "rank", "few.h5")[1]
-    assert "of a sweep of 3" not in crumple(capsys, "merge", "few.h5", "2.h5")[2]
-    assert "of a sweep" not in crumple(capsys, "rank", "few.h5")[1]
-
-
-@pytest.mark.parametrize("part", ["0/2", "3/2", "1", "a/b", "1/0", "-1/2"])
-def test_a_part_that_is_none_is_refused(array, capsys, part):
-    status, _, err = crumple(capsys, "run", "array.toml", f"--part={part}")
-    assert (status, "such as 2/8" in err) == (2, True)
+        part(capsys, f"{number}/3", f"{number}.h5")
+    shown = ["rank"], ["export", "1", "--to", "part.stl"], ["report"]
+    for parts, told, said in (
+        (["3.h5", "1.h5"], "have 1/3, 3/3 of a sweep of 3 parts", "has parts 1/3, 3/3 of a sweep"),
+        (["2.h5"], "", ""),
+    ):
+        _, _, err = crumple(capsys, "merge", "few.h5", *parts)
+        assert (told in err, "of a sweep of 3" in err) == (True, bool(told))
+        for verb, *rest in shown:
+            status, *output = crumple(capsys, verb, "few.h5", *rest)
+            assert status == 0
+            assert (said in "".join(output), "of a sweep" in "".join(output)) == (True, bool(said))
 
 
 def test_what_cannot_be_run_in_parts_or_merged_is_refused(array, capsys):
-    crumple(capsys, "run", "array.toml", "--part", "1/5", "--out", "one.h5")
+    part(capsys, "1/5", "one.h5")
+    run = ["run", "array.toml"]
     for words, why in (
-        (["run", "array.toml", "--part", "6/6"], "has only 5 cases"),
-        (["run", "array.toml", "--part", "1/2", "--error-bars"], "--error-bars is of a whole"),
+        *(([*run, f"--part={number}"], "such as 2/8") for number in ("0/2", "3/2", "1", "a/b")),
+        *(([*run, f"--part={number}"], "such as 2/8") for number in ("1/0", "-1/2")),
+        ([*run, "--part", "6/6"], "has only 5 cases"),
+        ([*run, "--part", "1/2", "--error-bars"], "--error-bars is of a whole"),
         (["merge", "all.h5", "none.h5"], "none.h5 does not exist"),
         (["merge", "one.h5", "one.h5"], "cannot be one of the files"),
     ):
@@ -107,9 +99,9 @@ def test_what_cannot_be_run_in_parts_or_merged_is_refused(array, capsys):
 
 
 def test_files_of_different_configs_are_told(array, capsys):
-    crumple(capsys, "run", "array.toml", "--part", "1/5", "--out", "one.h5")
+    part(capsys, "1/5", "one.h5")
     (array / "array.toml").write_text(TOML.replace("0.1\n", "0.05\n", 1))
-    crumple(capsys, "run", "array.toml", "--part", "1/5", "--out", "two.h5")
+    part(capsys, "1/5", "two.h5")
     status, said, err = crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")
     assert (status, said) == (0, "all.h5: 2 cases\n")
     assert "of 2 configs; all.h5 keeps that of one.h5" in err

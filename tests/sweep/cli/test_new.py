@@ -1,6 +1,5 @@
 """First configs: each runs unchanged, is explained, and overwrites nobody's file."""
 
-import json
 import re
 import shlex
 import tomllib
@@ -26,6 +25,7 @@ def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind)
     status, out, err = crumple(capsys, "new", "bumper", "--kind", kind)
     assert (status, out) == (0, "bumper.toml: change it, then: crumple run bumper.toml --dry-run\n")
     assert "`kind`" in Path(err.rpartition("all keys: ")[2].strip()).read_text("utf-8")
+    assert crumple(capsys, "schema") == (0, Path("crumple.schema.json").read_text("utf-8"), "")
     config = load_config("bumper.toml")
     assert config.name == "bumper"
     cases = expand(config)
@@ -35,23 +35,12 @@ def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind)
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_commented_out_may_be_used(tmp_path, kind):
-    text = template("a", kind, tmp_path / "a.toml")
+    path = tmp_path / "a.toml"
+    text = template("a", kind, path)
     for line in re.findall(r"^# [\w\"].* = .*$", text, re.MULTILINE):
-        path = tmp_path / "a.toml"
-        path.write_text(text.replace(line, line.removeprefix("# ")))
-        if "energy" in line:
-            path.write_text(re.sub("drop_height.*", "", path.read_text()))
+        used = text.replace(line, line.removeprefix("# "))
+        path.write_text(re.sub("drop_height.*", "", used) if "energy" in line else used)
         assert len(expand(load_config(path))) in (4, 8)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_keys_of_the_case_are_explained(kind):
-    text = template("a", kind, Path("a.toml"))
-    case = text.partition("[lattice]")[2].partition("[grid]")[0]
-    keys = [line for line in case.splitlines() if " = " in line]
-    assert len(keys) > 8
-    assert all("  # " in line for line in keys)
-    assert max(map(len, text.splitlines())) <= 100
 
 
 def test_file_that_is_there_is_left_as_it_is(capsys, tmp_path):
@@ -60,15 +49,6 @@ def test_file_that_is_there_is_left_as_it_is(capsys, tmp_path):
     status, _, err = crumple(capsys, "new", "bumper", "--out", str(path))
     assert (status, path.read_text()) == (2, "mine")
     assert err == f"crumple new: {path} already exists; allowed: another name, or --out\n"
-
-
-def test_commands_in_the_config_are_those_of_a_shell():
-    head = template("a", "crush", Path("my pad.toml")).partition("\nname")[0]
-    commands = [line for line in head.splitlines() if "crumple " in line]
-    words = [shlex.split(line, comments=False)[1:4] for line in commands[:3]]
-    run = ["crumple", "run", "my pad.toml"]
-    assert words == [run, run, ["crumple", "show", "results/a.h5"]]
-    assert len({line.rindex("  ") for line in commands[:3]}) == 1
 
 
 def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
@@ -84,14 +64,6 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
     assert {path.name for path in tmp_path.iterdir()} == {"pad.toml", "crumple.schema.json"}
 
 
-def test_the_schema_beside_a_config_is_printed_too(capsys, tmp_path):
-    assert crumple(capsys, "new", "pad", "--out", str(tmp_path / "pad.toml"))[0] == 0
-    status, out, err = crumple(capsys, "schema")
-    assert (status, err) == (0, "")
-    assert out == (tmp_path / "crumple.schema.json").read_text("utf-8")
-    assert "lattice" in json.loads(out)["properties"]
-
-
 def test_every_family_is_offered(monkeypatch):
     """On as many lines as they take."""
     many = ("square", *(f"family_{number}" for number in range(20)))
@@ -101,3 +73,17 @@ def test_every_family_is_offered(monkeypatch):
         assert tomllib.loads(text)["lattice"]["kind"] == "square"
         assert max(map(len, text.splitlines())) <= 100
         assert {*offered} <= {*re.findall(r"\w+", text)}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_keys_and_commands_of_the_config_are_explained(kind):
+    text = template("a", kind, Path("my pad.toml"))
+    case = text.partition("[lattice]")[2].partition("[grid]")[0]
+    keys = [line for line in case.splitlines() if " = " in line]
+    assert len(keys) > 8
+    assert all("  # " in line for line in keys)
+    assert max(map(len, text.splitlines())) <= 100
+    commands = [line for line in text.splitlines() if "crumple " in line][:3]
+    run = ["crumple", "run", "my pad.toml"]
+    words = [shlex.split(line)[1:4] for line in commands]
+    assert words == [run, run, ["crumple", "show", "results/a.h5"]]

@@ -31,15 +31,10 @@ def poisonous(case, control):
     return simulate(case)
 
 
-def died(out):
-    """Run all cases in a process, which dies."""
-    words = [sys.executable, "-c", PROGRAM, str(out)]
-    return subprocess.run(words, capture_output=True, text=True, timeout=120).returncode == 9
-
-
 def test_the_run_after_a_death_names_the_case_and_keeps_the_others(tmp_path, capsys):
     out = tmp_path / "armor.h5"
-    assert died(out)
+    words = [sys.executable, "-c", PROGRAM, str(out)]
+    assert subprocess.run(words, capture_output=True, timeout=120).returncode == 9
     assert (tmp_path / ".armor.h5.running").exists()
     assert run_sweep(cases(12), out, simulate=poisonous) == 2  # case 7 fails as always
     assert "ran when the last run died" in capsys.readouterr().err

@@ -1,6 +1,6 @@
 """Cases that a config computed before it was edited: kept, counted and reported."""
 
-from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -8,46 +8,37 @@ from sweep.__main__ import main
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_attributes
 from sweep.store.write import Writer
+from tests.conftest import CONFIG
 from tests.support.results.standin import cases, simulate
 
 MISSING = "of the", "cases of the", "of 5 cases of the"
-CONFIG = """
-name = "trial"
-[grid]
-"lattice.imperfection" = {values}
-"""
 
 
 def test_cases_of_other_configs_are_counted_anew_by_every_run(tmp_path):
     out = tmp_path / "sweep.h5"
     for asked, others in ((6, 0), (9, 0), (4, 5), (4, 5), (9, 0)):
-        run_sweep(cases(asked), out, simulate=lambda case, stop: simulate(case))
+        run_sweep(cases(asked), out, simulate=simulate)
         assert read_attributes(out)["other_cases"] == others
 
 
-def test_an_edited_question_is_stored_although_no_case_is_missing(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
-    monkeypatch.chdir(tmp_path)
-    config = tmp_path / "trial.toml"
+def test_an_edited_question_is_stored_although_no_case_is_missing(config, capsys):
+    grid = CONFIG.format(values=[0.1]).partition("[rank]")[0]
     for limit in ("1 g", "2 g"):
-        config.write_text(CONFIG.format(values=[0.1]) + f'[require]\nmax_mass = "{limit}"\n')
-        assert main(["run", str(config)]) == 0
+        Path(config).write_text(f'{grid}[require]\nmax_mass = "{limit}"\n')
+        assert main(["run", config]) == 0
         capsys.readouterr()
         main(["rank", "results/trial.h5"])
         assert f"mass at most {limit}" in capsys.readouterr().out
-    stored = (tmp_path / "results/trial.h5").stat().st_mtime_ns
-    assert main(["run", str(config)]) == 0
-    assert (tmp_path / "results/trial.h5").stat().st_mtime_ns == stored
+    stored = Path("results/trial.h5").stat().st_mtime_ns
+    assert main(["run", config]) == 0
+    assert Path("results/trial.h5").stat().st_mtime_ns == stored
 
 
 @pytest.mark.parametrize("verb", ["run", "rank", "status"])
-def test_other_configs_are_told_of(tmp_path, monkeypatch, capsys, verb):
-    monkeypatch.setattr(import_module("sweep.simulation.retries"), "simulate", simulate)
-    monkeypatch.chdir(tmp_path)
-    config = tmp_path / "trial.toml"
+def test_other_configs_are_told_of(config, capsys, verb):
     for values, others in (([0.1, 0.2, 0.3], ""), ([0.3, 0.4], "2 of 4 cases belong to other")):
-        config.write_text(CONFIG.format(values=values))
-        assert main(["run", str(config)]) == 0
+        Path(config).write_text(CONFIG.format(values=values))
+        assert main(["run", config]) == 0
         if verb != "run":
             capsys.readouterr()
             main([verb, "results/trial.h5"])

@@ -6,6 +6,7 @@ import pytest
 from sweep.config.faults import MisfitError
 from sweep.running.place import chosen_place, open_place
 from sweep.running.processes import PROCESSES, Processes
+from sweep.running.threads import usual_workers
 
 HERE = None
 
@@ -26,6 +27,7 @@ def test_threads_as_far_as_they_pay_and_then_processes(
 ):
     monkeypatch.setattr("dask.system.cpu_count", lambda: cores)
     assert chosen_place(workers, where) == expected
+    assert usual_workers() == min(cores, 8)
 
 
 def test_the_environment_names_a_scheduler_unless_something_else_is_asked(monkeypatch):

@@ -13,20 +13,11 @@ from sweep.running.progress import Progress
 from tests.support.results.standin import cases, simulate
 
 
-class Clock:
-    """Time that passes only on request."""
-
-    def __init__(self):
-        self.now = 100.0
-
-    def monotonic(self):
-        """Seconds."""
-        return self.now
-
-
 @pytest.fixture
 def clock(monkeypatch):
-    clock = Clock()
+    """Time that passes only on request."""
+    clock = SimpleNamespace(now=100.0)
+    clock.monotonic = lambda: clock.now
     monkeypatch.setattr(progress, "time", clock)
     return clock
 
@@ -78,14 +69,19 @@ def test_time_left_is_that_of_the_kinds_that_wait(clock):
 
 
 def test_plain_lines_are_few(clock):
+    """The last one is not repeated if time passes after it."""
     batch, out = cases(100), io.StringIO()
     with Progress(len(batch), ONE, console=Console(file=out)) as told:
         for case in batch:
             clock.now += 0.1
             told.advance([simulate(case)])
+        clock.now += 9.0
     lines = out.getvalue().splitlines()
     assert len(lines) <= 5
-    assert sum("No step was short enough" in line for line in lines) == 1
+    failure = f"case {batch[7].case_id} stopped: No step was short enough: try a smaller time_step."
+    assert lines.count(failure) == 1
+    assert [line for line in lines if "100/100 cases" in line] == lines[-1:]
+    assert lines[-1].endswith("1 failed")
 
 
 def test_notebook_has_one_line_that_is_replaced(clock, monkeypatch):
@@ -122,16 +118,6 @@ def test_terminal_has_a_bar_with_failures():
     assert "12/12 cases" in out.getvalue()
     assert "1 failed" in out.getvalue()
     assert "stopped: No step was short enough" in out.getvalue()
-
-
-def test_last_line_is_told_once(clock):
-    """It is not repeated if time passes after it."""
-    batch, out = cases(2), io.StringIO()
-    with Progress(len(batch), ONE, console=Console(file=out)) as told:
-        clock.now += 9.0
-        told.advance([simulate(case) for case in batch])
-        clock.now += 9.0
-    assert out.getvalue().count("2/2 cases") == 1
 
 
 def test_part_of_a_search_is_told_only_if_it_takes_long(clock):

@@ -2,8 +2,6 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -18,16 +16,16 @@ from sweep.store.read import Rerun, read_history, read_summary
 from tests.conftest import CONFIG
 from tests.support.command import crumple
 from tests.support.results.standin import (
+    Logged,
     cases,
+    killed,
     make_older,
-    number_of,
     simulate,
     slow,
     write,
     write_older,
 )
 
-ROOT = Path(__file__).parents[3]
 OLDER = Rerun(older=True)
 RENEW = """
 from tests.support.results.standin import cases, slow
@@ -45,18 +43,14 @@ def out(tmp_path):
 
 
 @pytest.fixture
-def log():
-    """Numbers of the cases that `logged` has run."""
-    return []
+def logged():
+    return Logged(simulate)
 
 
-@pytest.fixture
-def logged(log):
-    def run(case, stop):
-        log.append(number_of(case))
-        return simulate(case)
-
-    return run
+def numbers(logged):
+    """The numbers of the cases that have run, in order."""
+    known = {case.case_id: number for number, case in enumerate(cases(9))}
+    return sorted(known[case_id] for case_id in logged)
 
 
 def versions(out, batch):
@@ -65,33 +59,33 @@ def versions(out, batch):
     return [int(table["model_version"][case.case_id]) for case in batch]
 
 
-def test_rows_of_an_older_model_stay_and_are_told_of(out, log, logged, capsys):
+def test_rows_of_an_older_model_stay_and_are_told_of(out, logged, capsys):
     write_older(out, cases(3))
     run_sweep(cases(5), out, simulate=logged)
     told = "3 of 3 finished cases are of an older model; crumple run CONFIG --renew computes older"
     assert told in capsys.readouterr().err
-    assert sorted(log) == [3, 4]
+    assert numbers(logged) == [3, 4]
     assert versions(out, cases(5)) == [1, 1, 1, MODEL_VERSION, MODEL_VERSION]
     run_sweep(cases(5, first=3), out, simulate=logged)
     assert "older model" not in capsys.readouterr().err  # these rows are of another sweep
 
 
-def test_renewing_computes_the_older_rows_and_only_those(out, log, logged, capsys):
+def test_renewing_computes_the_older_rows_and_only_those(out, logged, capsys):
     write_older(out, cases(3))
     write(out, cases(2, first=3), fold=True)
     run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
-    assert sorted(log) == [0, 1, 2, 5]
+    assert numbers(logged) == [0, 1, 2, 5]
     assert versions(out, cases(6)) == [MODEL_VERSION] * 6
     assert "older model" not in capsys.readouterr().err
     run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
-    assert len(log) == 4
+    assert len(logged) == 4
 
 
-def test_a_row_of_a_newer_model_is_not_renewed(out, log, logged, monkeypatch):
+def test_a_row_of_a_newer_model_is_not_renewed(out, logged, monkeypatch):
     write(out, cases(3), fold=True)
     monkeypatch.setattr("sweep.store.read.MODEL_VERSION", MODEL_VERSION - 1)
     run_sweep(cases(3), out, rerun=OLDER, simulate=logged)
-    assert log == []
+    assert logged == []
 
 
 def test_an_older_row_gives_way_to_a_failure_of_the_new_model(out):
@@ -104,9 +98,9 @@ def test_an_older_row_gives_way_to_a_failure_of_the_new_model(out):
     assert set(read_summary(out)["status"]) == {"stopped"}
 
 
-def test_an_interruption_keeps_the_rows_that_are_not_renewed_yet(out, log, logged):
+def test_an_interruption_keeps_the_rows_that_are_not_renewed_yet(out, logged):
     def pressed(case, stop):
-        if len(log) == 3:
+        if len(logged) == 3:
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(0.05)
         return logged(case, stop)
@@ -118,23 +112,15 @@ def test_an_interruption_keeps_the_rows_that_are_not_renewed_yet(out, log, logge
     assert 1 in found
     assert MODEL_VERSION in found
     assert [len(read_history(out, case.case_id)) for case in cases(6)] == [*range(10, 16)]
-    log.clear()
+    logged.clear()
     run_sweep(cases(6), out, rerun=OLDER, simulate=logged)
-    assert sorted(log) == [k for k, version in enumerate(found) if version == 1]
+    assert numbers(logged) == [k for k, version in enumerate(found) if version == 1]
     assert versions(out, cases(6)) == [MODEL_VERSION] * 6
 
 
-def test_a_kill_keeps_the_rows_that_are_not_renewed_yet(out, tmp_path, monkeypatch):
-    executions = tmp_path / "executions"
-    monkeypatch.setenv("EXECUTIONS", str(executions))
-    executions.touch()
+def test_a_kill_keeps_the_rows_that_are_not_renewed_yet(out, executions):
     write_older(out, cases(60))
-    program = [sys.executable, "-c", RENEW.format(out=str(out))]
-    with subprocess.Popen(program, env=os.environ | {"PYTHONPATH": str(ROOT)}) as process:
-        limit = time.monotonic() + 20
-        while len(executions.read_text().split()) < 30 and time.monotonic() < limit:
-            time.sleep(0.01)
-        process.kill()
+    killed(RENEW.format(out=str(out)), executions, 30)
     found = versions(out, cases(60))
     assert 0 < found.count(MODEL_VERSION) < 60
     assert found.count(1) + found.count(MODEL_VERSION) == 60
@@ -153,31 +139,27 @@ def test_the_command_line_tells_of_older_rows_and_renews_them(capsys, config):
     assert "Ranked together" not in crumple(capsys, "rank", "results/trial.h5")[1]
 
     Path(config).write_text(CONFIG.format(values=[0.006, 0.007, 0.008, 0.009]))
-    _, _, said = crumple(capsys, "run", config)
-    assert said.count(f"3 of 3 finished cases are of an older model; {renew}\n") == 1
+    assert "older model" in crumple(capsys, "run", config)[2]
     _, said, _ = crumple(capsys, "status", "results/trial.h5")
     assert f"rows of model version 1 (3), {MODEL_VERSION} (1); {renew}\n" in said
     mixed = f"Ranked together: rows of model version 1 (2), {MODEL_VERSION} (1); {renew}.\n"
-    rank = "rank", "results/trial.h5"
-    assert mixed in crumple(capsys, *rank)[1]
-    for form in (["--csv"], ["--out", "folder"]):
-        assert mixed in crumple(capsys, *rank, *form)[2]
+    for form, stream in (([], 1), (["--csv"], 2), (["--out", "folder"], 2)):
+        assert mixed in crumple(capsys, "rank", "results/trial.h5", *form)[stream]
 
     assert "1 of them finished" in crumple(capsys, "run", config, "--renew", "--dry-run")[1]
     assert "older" not in crumple(capsys, "run", config, "--renew")[2]
-    _, said, _ = crumple(capsys, "status", "results/trial.h5")
-    assert "model version" not in said
+    assert "model version" not in crumple(capsys, "status", "results/trial.h5")[1]
 
 
-def test_a_row_that_holds_another_case_runs_again(out, log, logged, capsys):
+def test_a_row_that_holds_another_case_runs_again(out, logged, capsys):
     write(out, cases(5), fold=True)
     with h5py.File(out, "r+") as file:
         texts = file["cases/values/json"]
         other = texts[:].tobytes().replace(b'"imperfection":0.003', b'"imperfection":0.009', 1)
         texts[:] = np.frombuffer(other, np.uint8)
     assert run_sweep(cases(5), out, simulate=logged) == 0
-    assert log == [3]
+    assert numbers(logged) == [3]
     assert f"damaged rows in {out}: 1" in capsys.readouterr().err
     assert crumple(capsys, "verify", str(out), "--again", "0")[0] == 0
     run_sweep(cases(5), out, simulate=logged)
-    assert log == [3]
+    assert numbers(logged) == [3]

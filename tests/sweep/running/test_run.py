@@ -5,7 +5,6 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import dask
-import numpy as np
 import pytest
 
 from sweep.config.load import load_config
@@ -23,23 +22,12 @@ def test_results_are_those_of_the_config(config):
     assert (len(first), len(first.failed)) == (3, 1)
     assert first.path == Path("results/trial.h5")
     assert len(first.curve(0)) > 0
+    assert (first.question.budget, first.question.panel) == ([0.005, 0.02], None)
     text = Path(config).read_text().replace("0.007, ", "")
     Path(config).write_text(text)
     fewer = run(load_config(config))
     assert list(fewer.table["case_id"]) == list(first.table["case_id"].iloc[[0, 2]])
     assert fewer.path == first.path
-
-
-def test_file_may_be_named(config, tmp_path):
-    assert len(run(config, tmp_path / "own.h5", workers=1)) == 3
-    assert (tmp_path / "own.h5").exists()
-    assert not Path("results").exists()
-
-
-def test_pictures_compare_within_the_budgets_of_the_config(config):
-    results = run(config)
-    assert results.question.budget == [0.005, 0.02]
-    assert results.question.panel is None
 
 
 def test_pictures_require_what_the_config_requires(config):
@@ -58,31 +46,15 @@ def test_a_panel_that_holds_no_specimen_is_refused_before_anything_runs(config):
     assert not Path("results").exists()
 
 
-@pytest.mark.parametrize(
-    ("given", "scheduler"),
-    [
-        ({}, "tcp://host:8786"),
-        ({"workers": 1}, None),
-        ({"scheduler": "tcp://other:8786"}, "tcp://other:8786"),
-    ],
-)
-def test_where_cases_run(config, monkeypatch, given, scheduler):
-    """In the given scheduler, else in the scheduler of the environment, unless threads are
-    given.
-    """
+def test_where_cases_run(config, monkeypatch):
+    """In the scheduler of the environment, unless threads are given."""
     places = []
     monkeypatch.setattr("sweep.running.run.run_sweep", lambda *how: places.append(how[3]))
     monkeypatch.setattr("sweep.running.run.open_place", nullcontext)
     with dask.config.set({"scheduler-address": "tcp://host:8786"}):
-        run(config, **given)
-    assert places == [scheduler]
-
-
-def test_a_dict_runs_as_its_file_does(config):
-    tables = tomllib.loads(Path(config).read_text())
-    of_dict, of_file = run(tables), run(config)
-    assert list(of_dict.table["case_id"]) == list(of_file.table["case_id"])
-    assert of_dict.path == of_file.path
+        run(config)
+        run(config, workers=1)
+    assert places == ["tcp://host:8786", None]
 
 
 def test_error_bars_are_columns(config):
@@ -106,10 +78,25 @@ def test_the_best_are_run_again_at_the_ends_of_ranges(config):
     assert (table["lowest"] <= table["value"]).all()
     assert (table["value"] <= table["highest"]).all()
     assert (table["failed"] == 0).all()
+    assert spread(str(results.path), top=1).equals(spread(Results(results.path), top=1))
 
 
-def test_a_file_has_a_spread_too(config):
-    results = run(PRESSED)
-    of_file = spread(str(results.path), top=1)
-    assert of_file.equals(spread(Results(results.path), top=1))
-    assert np.isfinite(of_file["value"]).all()
+def test_a_dict_runs_as_its_file_does_and_the_results_may_be_named(config, tmp_path):
+    of_dict = run(tomllib.loads(Path(config).read_text()), tmp_path / "own.h5", workers=1)
+    assert (tmp_path / "own.h5").exists()
+    assert not Path("results").exists()
+    assert list(of_dict.table["case_id"]) == list(run(config).table["case_id"])
+
+
+@pytest.mark.parametrize(
+    ("loading", "require", "needed"),
+    [
+        ({"base": "ribs", "base_span": "9 mm"}, {"max_base_pressure": "1 kPa"}, "a flat base"),
+        ({"platen": "contact"}, {"max_target_acceleration": "9 g0"}, "loading.target_mass"),
+    ],
+)
+def test_a_requirement_of_which_no_case_has_a_value_is_refused(config, loading, require, needed):
+    struck = {"mode": "impact", "striker_mass": "9 g", "striker_speed": "1 m/s"} | loading
+    with pytest.raises(RankError, match=f"not known of these cases; needed: {needed}"):
+        run({"loading": struck, "require": require})
+    assert not Path("results").exists()

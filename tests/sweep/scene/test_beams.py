@@ -66,13 +66,6 @@ def test_joints_are_straight_and_not_sheared_elements():
     assert np.all(found.area[found.joint] != walls[found.joint])
 
 
-@pytest.mark.parametrize("element", ["cubic", "classical"])
-def test_points_have_no_shear(element):
-    _, found = beams(solid=False, element=element)
-    assert not found.shear.any()
-    assert not found.joint.any()
-
-
 def test_contraction_across_a_fibre():
     material = {plane: material_with(plane=plane, **MATERIAL) for plane in ("stress", "strain")}
     assert contraction(material["stress"]) == NU

@@ -20,17 +20,6 @@ def test_stiffness_of_contact_is_c_times_that_of_a_wall():
     assert touch.tributary.sum() == pytest.approx(24 * WALL)
 
 
-def test_without_contact_its_arrays_are_empty():
-    terms = scene_of(contact=dict(model="none")).terms
-    touch = terms.contact
-    empty = ("edges", "edge_thickness", "subtract", "special_node", "special_weight",
-             "special_distance", "special_subtract", "platen_nodes")  # fmt: skip
-    assert {name: getattr(touch, name).size for name in empty} == dict.fromkeys(empty, 0)
-    assert touch.reach == 0.0
-    assert not touch.special_start.any()
-    assert terms.friction.mu == 0.0
-
-
 @pytest.mark.parametrize("model", ["none", "barrier"])
 @pytest.mark.parametrize("platen", LOADINGS)
 def test_platens_touch_what_is_not_glued_to_them(platen, model):

@@ -62,15 +62,6 @@ def test_an_arm_on_a_glued_row_differs():
     np.testing.assert_array_equal(oblique, free)
 
 
-def test_the_table_has_all_angles():
-    for kind in KINDS:
-        parts = ("axis", "side") if kind in AXIS else ("all",)
-        several = [table()[kind, part][0] for part in parts]
-        for angles in several:
-            np.testing.assert_array_equal(angles, several[0])
-            assert np.all(np.diff(angles) > 0.0)
-
-
 def test_arms_of_equal_thickness_are_as_in_the_table():
     opened = np.array([70.0, 110.0, 70.0, 110.0])
     joint = find_joint(opened, np.zeros(4, np.bool_))

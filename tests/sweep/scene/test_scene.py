@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from kernels.solve.problem import HELD
 from sweep.config.case import Case
 from sweep.design.network import mass
 from sweep.scene.beams import plane_factors
@@ -26,43 +25,6 @@ def test_masses_sum_to_the_printed_mass_in_each_direction(elements, platen):
     assert x.sum() == pytest.approx(expected, rel=1e-12)
     assert x.min() > 0.0
     assert not scene.terms.coordinates.mass[nodes:].any()
-
-
-def test_masses_go_with_the_length_around_a_node():
-    scene = scene_of(3)
-    x = scene.terms.coordinates.mass[: 2 * len(scene.mesh.points) : 2]
-    elements = np.bincount(scene.mesh.edges.ravel())
-    np.testing.assert_allclose(x / x[-1], elements / 2, rtol=1e-12)
-
-
-@pytest.mark.parametrize("elements", [1, 3])
-@pytest.mark.parametrize("platen", LOADINGS)
-def test_the_solver_knows_who_leads_and_where_walls_are(platen, elements):
-    scene = scene_of(elements, platen)
-    layout, walls, mesh = scene.terms.layout, scene.terms.walls, scene.mesh
-    n = len(mesh.points)
-    assert layout.n_nodes == n
-    places = zip(layout.point, layout.slot, strict=True)
-    pairs = [(p, s) for p in range(n) for s in (0, 1)] + [(p, 2) for p in range(n)]
-    assert list(places) == [*pairs, (n, 1), (n, 0)]  # the platens are one block, the upper first
-    np.testing.assert_array_equal(layout.first, np.flatnonzero(layout.slot == 0)[:n])
-    assert layout.driven == scene.terms.coordinates.driven
-    held = scene.terms.coordinates.role == HELD
-    np.testing.assert_array_equal(layout.leader < 0, held)
-    expected = np.full(len(mesh.points) + 1, -1)
-    for w in range(24):
-        chain = walls.edges[walls.start[w] : walls.start[w + 1]]
-        expected[chain[1:, 0]] = w
-        inside = chain[:-1, 1]
-        inner = np.column_stack([2 * inside, 2 * inside + 1, 2 * n + inside])
-        found = layout.inner.reshape(24, elements - 1, 3)[w]
-        np.testing.assert_array_equal(found, inner)
-        ends = np.array([chain[0, 0], chain[-1, 1]])
-        outer = np.column_stack([2 * ends, 2 * ends + 1, 2 * len(mesh.points) + ends])
-        np.testing.assert_array_equal(layout.outer[w], outer.ravel())
-    np.testing.assert_array_equal(layout.wall_of, expected)
-    axial = MATERIAL.modulus * DEPTH * THICKNESS * elements / WALL
-    assert layout.scale == pytest.approx((axial, axial, axial * THICKNESS**2 / 3.0))
 
 
 def test_a_move_is_at_most_a_quarter_of_a_cell():

@@ -9,39 +9,25 @@ from sweep.constants import STANDARD_GRAVITY
 from sweep.ranking.cushion import crush_of, cushion_curve
 from sweep.simulation.simulate import simulate
 from sweep.simulation.striker import rests, second_stop
-from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import is_sound, run, unbalanced
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.springs import STIFFNESS, STRIKER, half_swing, spring
 
-WALL, MASS = 2e-3, 0.05
-COLUMN = lattice_with(cells_x=1, cells_y=1, wall_thickness=WALL, imperfection=0.0)
-STIFFNESS = 2 * MATERIAL.modulus * COLUMN.depth * WALL / COLUMN.height
-SAG = MASS * STANDARD_GRAVITY / STIFFNESS
+SAG = STRIKER * STANDARD_GRAVITY / STIFFNESS
 FALL = 1.5 * SAG
 HEAVY_BOX = dict(kind="hex", width=0.05, height=0.05, depth=0.012, cells_x=4, cells_y=4)
 PAD = dict(lattice=HEAVY_BOX | {"wall_thickness": 8e-4}, material=dict(name="ninjaflex", loss=0.4))
 
 
-def column(steps=2000, integrator="newmark", damping=None, **loading):
-    """Two straight walls without mass under a striker that falls on them; steps in half a swing."""
-    swing = np.pi * np.sqrt(MASS / STIFFNESS)
-    fall = dict(mode="drop", striker_mass=MASS, drop_height=FALL, duration=3 * swing)
-    return Case.of(
-        lattice=COLUMN,
-        material=MATERIAL.model_copy(update={"density": 1e-3}),
-        loading=fall | loading,
-        contact=dict(model="none"),
-        damping=damping or dict(model="none"),
-        solver=dict(joints="points", time_step=swing / steps, integrator=integrator),
-    )
+def column(*how, **loading):
+    """The spring, and a striker that falls on it."""
+    fall = dict(mode="drop", drop_height=FALL, duration=3 * half_swing())
+    return spring(half_swing(), *how, **fall | loading)
 
 
 def test_a_drop_on_a_spring():
-    """With the sag d: x = d (1 - cos w t) + v / w sin w t; G = 1 + (1 + 2 H / d)^0.5 = 3 at H = 1.5
-    d.
-    """
+    """Travel d (1 - cos w t) + v / w sin w t with the sag d; G = 1 + sqrt(1 + 2 H / d) = 3."""
     result = run(column())
-    history, swing = result.history, np.sqrt(STIFFNESS / MASS)
+    history, swing = result.history, np.sqrt(STIFFNESS / STRIKER)
     time, speed = history["time_s"], np.sqrt(2 * STANDARD_GRAVITY * FALL)
     exact = SAG * (1 - np.cos(swing * time)) + speed / swing * np.sin(swing * time)
     assert is_sound(result)
@@ -105,26 +91,6 @@ def test_a_second_stop_is_one_after_a_way_down():
     assert second_stop(np.concatenate([down, up, down[5:] - 0.1])) is None
 
 
-@pytest.mark.parametrize(
-    ("loading", "gravity"),
-    [
-        ({"mode": "drop"}, True),
-        ({"drop_height": 0.1}, True),
-        ({"preset": "ista-1a 5 kg"}, True),
-        ({"mode": "drop", "gravity": False}, False),
-        ({"mode": "impact"}, False),
-        ({"mode": "impact", "energy": 0.1}, False),
-        ({"striker_speed": 2.0, "gravity": True}, True),
-    ],
-)
-def test_drops_have_gravity(loading, gravity):
-    case = Case.of(loading=loading)
-    assert case.loading.gravity is gravity
-    assert case.changed(lattice={"cells_x": 2}).loading.gravity is gravity
-    assert case.changed(loading={"drop_height": 0.3}).loading.gravity is True
-    assert case.changed(loading={"drop_height": 0.3, "gravity": False}).loading.gravity is False
-
-
 def test_a_heavy_box_set_down_hard():
     """544 g from 100 mm: 17 to 20 g0, by the curve of a crush at the speed of the touch.
 
@@ -141,3 +107,30 @@ def test_a_heavy_box_set_down_hard():
     estimate = np.interp(case.loading.weight / (width * depth), static, curve)
     assert 17.0 < peak < 20.0
     assert peak == pytest.approx(estimate, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("loading", "gravity"),
+    [
+        ({"mode": "drop"}, True),
+        ({"drop_height": 0.1}, True),
+        ({"preset": "ista-1a 5 kg"}, True),
+        ({"mode": "drop", "gravity": False}, False),
+        ({"mode": "impact"}, False),
+        ({"mode": "impact", "energy": 0.1}, False),
+        ({"striker_speed": 2.0, "gravity": True}, True),
+    ],
+)
+def test_drops_have_gravity_unless_they_hit_a_target(loading, gravity):
+    case = Case.of(loading=loading)
+    assert case.loading.gravity is gravity
+    for change, then in (
+        ({}, gravity),
+        ({"drop_height": 0.3}, True),
+        ({"drop_height": 0.3, "gravity": False}, False),
+    ):
+        assert case.changed(lattice={"cells_x": 2}, loading=change).loading.gravity is then
+    if "gravity" not in loading:
+        target = case.changed(loading={"target_mass": 1.36}, damping={"mass": 0.0})
+        assert target.loading.gravity is False
+        assert Case.of(loading=loading | {"target_mass": 1.36}).loading.gravity is False

@@ -18,6 +18,10 @@ FAST = Case.of(loading={"mode": "displacement", "strain": 0.1, "speed": 1.0})
 LOAD = Case.of(loading={"mode": "force", "force": 1.0})
 STRIKE = Case.of(loading={"mode": "impact"}, solver={"time_step": 1e-3})
 WHY = "stopped here: try more"
+STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
+COARSE, SLIPS, LATE = (Status.UNRESOLVED, 0), (Status.SLIPPED, 0), (Status.TIMED_OUT, 0)
+USUAL = STRIKE.loading.contact_step(STRIKE.pressed, STRIKE.material.modulus)
+SWING = LOAD.changed(solver={"integrator": "newmark"})
 limits = []  # the seconds that each simulation may take
 
 
@@ -39,35 +43,6 @@ def answers(monkeypatch, *outcomes, curable=True, why=WHY):
     return asked
 
 
-STOPS, LOADS, ENDS = (Status.STOPPED, 0), (Status.STOPPED, 1), (Status.CONVERGED, 1)
-COARSE = (Status.UNRESOLVED, 0)
-SLIPS = (Status.SLIPPED, 0)
-
-
-def test_a_case_that_converges_is_simulated_once(monkeypatch):
-    asked = answers(monkeypatch, ENDS)
-    result = simulate_again(CRUSH)
-    assert (len(asked), result.summary["retry"], result.status) == (1, "", Status.CONVERGED)
-
-
-def test_the_first_retry_has_shorter_steps_and_gives_the_row_its_numbers(monkeypatch):
-    asked = answers(monkeypatch, STOPS, ENDS)
-    result = simulate_again(CRUSH)
-    assert asked[1].solver.load_steps == retries.SHORTER * CRUSH.solver.load_steps
-    assert result.case is CRUSH
-    assert result.summary["case_id"] == CRUSH.case_id
-    assert result.summary["retry"] == f"solver.load_steps = {asked[1].solver.load_steps}"
-    assert (result.status, result.message, result.summary["cpu_s"]) == (Status.CONVERGED, "", 2.0)
-
-
-def test_the_last_retry_has_another_imperfection_and_the_steps_asked_for(monkeypatch):
-    asked = answers(monkeypatch, *[STOPS] * 2, ENDS)
-    result = simulate_again(CRUSH)
-    assert asked[-1].solver.load_steps == CRUSH.solver.load_steps
-    assert asked[-1].lattice.imperfection == 1.5 * CRUSH.lattice.imperfection
-    assert result.summary["retry"] == "lattice.imperfection = 0.015"
-
-
 def test_a_case_whose_loading_was_complete_is_not_given_up_for_one_that_slipped(monkeypatch):
     asked = answers(monkeypatch, LOADS, SLIPS, STOPS)
     result = simulate_again(CRUSH)
@@ -78,22 +53,67 @@ def test_a_case_whose_loading_was_complete_is_not_given_up_for_one_that_slipped(
     assert (simulate_again(CRUSH).status, len(asked)) == (Status.SLIPPED, 2)
 
 
-def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch):
-    answers(monkeypatch, *[STOPS] * 3)
-    result = simulate_again(CRUSH)
-    tried = "solver.load_steps = 1600; lattice.imperfection = 0.015"
-    assert result.message == result.summary["message"] == f"{WHY} (tried without success: {tried})"
-    assert result.summary["retry"] == ""
+@pytest.mark.parametrize(
+    ("case", "outcomes", "last", "retry"),
+    [
+        (CRUSH, [ENDS], {}, ""),
+        (CRUSH, [STOPS, ENDS], {"load_steps": 1600}, "solver.load_steps = 1600"),
+        (CRUSH, [STOPS, STOPS, ENDS], {"load_steps": 400}, "lattice.imperfection = 0.015"),
+        (FAST, [STOPS, ENDS], {"load_steps": 800}, "solver.load_steps = 800"),
+        (LOAD, [STOPS, ENDS], {"time_step": 2.5e-5}, "solver.time_step = 25 us"),
+        (
+            SWING,
+            [STOPS, STOPS, ENDS],
+            {"time_step": SWING.solver.time_step, "integrator": "backward_euler"},
+            'solver.integrator = "backward_euler"',
+        ),
+        (
+            STRIKE,
+            [COARSE, ENDS],
+            {"time_step": USUAL},
+            f"solver.time_step = {with_unit(USUAL, 's')}",
+        ),
+        (
+            STRIKE.changed(solver={"integrator": "newmark"}),
+            [COARSE, COARSE, ENDS],
+            {"time_step": USUAL / 4.0, "integrator": "bdf2"},
+            f'solver.time_step = {with_unit(USUAL / 4.0, "s")}, solver.integrator = "bdf2"',
+        ),
+    ],
+)
+def test_a_retry_gives_the_row_its_numbers(monkeypatch, case, outcomes, last, retry):
+    """Shorter steps first, then another imperfection or integrator; an impact in usual steps."""
+    asked = answers(monkeypatch, *outcomes)
+    result = simulate_again(case)
+    assert len(asked) == len(outcomes)
+    found = {key: getattr(asked[-1].solver, key) for key in last}
+    for key, value in last.items():
+        assert found[key] == (value if isinstance(value, str) else pytest.approx(value))
+    imperfect = asked[-1].lattice.imperfection / case.lattice.imperfection
+    assert imperfect == pytest.approx(1.5 if "imperfection" in retry else 1.0)
+    assert result.case is case
+    assert (result.status, result.message) == (Status.CONVERGED, "")
+    summary = {"case_id": case.case_id, "retry": retry, "cpu_s": float(len(outcomes))}
+    assert {key: result.summary[key] for key in summary} == summary
 
 
 @pytest.mark.parametrize(
     ("advice", "kept"),
-    [("; try more solver.load_steps", ""), ("; try a larger solver.max_iterations", None)],
+    [
+        ("", ""),
+        ("; try more solver.load_steps", ""),
+        ("; try a larger solver.max_iterations", None),
+    ],
 )
-def test_advice_that_was_followed_is_not_given(monkeypatch, advice, kept):
+def test_a_case_that_stops_in_spite_of_them_says_what_was_tried(monkeypatch, advice, kept):
+    """Advice that was followed is not given."""
     answers(monkeypatch, *[STOPS] * 3, why=f"stopped here{advice}")
-    message = simulate_again(CRUSH).message
-    assert message.startswith(f"stopped here{advice if kept is None else kept} (tried without")
+    result = simulate_again(CRUSH)
+    tried = "solver.load_steps = 1600; lattice.imperfection = 0.015"
+    why = f"stopped here{advice if kept is None else kept}"
+    told = f"{why} (tried without success: {tried})"
+    assert result.message == result.summary["message"] == told
+    assert result.summary["retry"] == ""
 
 
 def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch):
@@ -101,17 +121,6 @@ def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch
     result = simulate_again(CRUSH)
     assert (result.summary["loaded"], result.summary["retry"]) == (1, "solver.load_steps = 1600")
     assert result.message.endswith("(tried without success: lattice.imperfection = 0.015)")
-
-
-@pytest.mark.parametrize(
-    ("case", "words"),
-    [(FAST, "solver.load_steps = 800"), (LOAD, "solver.time_step = 25 us")],
-)
-def test_steps_in_time_are_shorter_too(monkeypatch, case, words):
-    asked = answers(monkeypatch, STOPS, ENDS)
-    result = simulate_again(case)
-    assert result.summary["retry"] == words
-    assert asked[1].solver.time_step == pytest.approx(case.solver.time_step / retries.SHORTER)
 
 
 @pytest.mark.parametrize(
@@ -157,31 +166,6 @@ def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
     assert result.summary["steps"] > case.solver.load_steps
 
 
-def test_an_unresolved_impact_is_retried_from_its_usual_step_on(monkeypatch):
-    asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
-    result = simulate_again(STRIKE)
-    usual = STRIKE.loading.contact_step(STRIKE.pressed, STRIKE.material.modulus)
-    steps = [case.solver.time_step for case in asked]
-    assert steps == pytest.approx([1e-3, usual, usual / 4.0])
-    assert result.summary["retry"] == f"solver.time_step = {with_unit(usual / 4.0, 's')}"
-
-
-def test_an_impact_is_retried_with_its_usual_integrator_too(monkeypatch):
-    asked = answers(monkeypatch, *[COARSE] * 2, ENDS)
-    result = simulate_again(STRIKE.changed(solver={"integrator": "newmark"}))
-    assert [case.solver.integrator for case in asked] == ["newmark", "bdf2", "bdf2"]
-    assert result.summary["retry"].endswith('us, solver.integrator = "bdf2"')
-
-
-def test_a_motion_of_second_order_is_retried_by_backward_euler(monkeypatch):
-    asked = answers(monkeypatch, *[STOPS] * 2, ENDS)
-    swinging = LOAD.changed(solver={"integrator": "newmark"})
-    result = simulate_again(swinging)
-    assert asked[2].solver.time_step == swinging.solver.time_step
-    assert asked[2].solver.integrator == "backward_euler"
-    assert result.summary["retry"] == 'solver.integrator = "backward_euler"'
-
-
 @pytest.mark.parametrize(
     ("integrator", "step", "tried"),
     [("newmark", 1e-3, 2), ("newmark", 4e-4, 1), ("backward_euler", 1e-3, 1)],
@@ -190,7 +174,7 @@ def test_a_swing_in_steps_that_take_too_long_leaves_time_for_backward_euler(
     monkeypatch, integrator, step, tried
 ):
     """Not in steps of up to four times the usual ones, nor where that integrator took too long."""
-    asked = answers(monkeypatch, (Status.TIMED_OUT, 0), ENDS, curable=False)
+    asked = answers(monkeypatch, LATE, ENDS, curable=False)
     solver = {"integrator": integrator, "time_step": step, "time_limit": 40.0}
     simulate_again(LOAD.changed(solver=solver))
     assert len(asked) == tried
@@ -206,15 +190,10 @@ def test_another_imperfection_is_no_advice_for_steps_that_are_too_long(monkeypat
 
 
 def test_an_impact_in_steps_that_take_too_long_leaves_time_for_the_usual_ones(monkeypatch):
-    asked = answers(monkeypatch, (Status.TIMED_OUT, 0), ENDS)
-    case = STRIKE.changed(solver={"time_limit": 40.0})
-    result = simulate_again(case)
-    assert result.status is Status.CONVERGED
-    assert limits[0] == 10.0
-    assert limits[1] == pytest.approx(40.0, abs=1.0)
-    assert asked[1].solver.time_step == case.loading.contact_step(
-        case.pressed, case.material.modulus
-    )
+    asked = answers(monkeypatch, LATE, ENDS)
+    assert simulate_again(STRIKE.changed(solver={"time_limit": 40.0})).status is Status.CONVERGED
+    assert limits == [10.0, pytest.approx(40.0, abs=1.0)]
+    assert asked[1].solver.time_step == USUAL
 
 
 def test_a_drawn_impact_in_steps_that_are_too_long_is_resolved_in_shorter_ones():

@@ -130,15 +130,6 @@ def test_a_specimen_that_has_turned_over_is_as_long_as_before():
     assert shortening(frames(SQUARE, *turned), BOTTOM, TOP) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_crossings_by_hand():
-    """Diagonals of a square cross once; its sides only meet; the worst shape counts."""
-    cross = [[0, 2], [1, 3]]
-    assert crossings(frames(SQUARE, edges=SIDES)) == 0
-    assert crossings(frames(SQUARE, edges=SIDES + cross)) == 1
-    bow_tie = [[0, 0], [1, 1], [1, 0], [0, 1]]
-    assert crossings(frames(SQUARE, bow_tie, SQUARE)) == 1
-
-
 def crossings_by_shapely(shapes, edges):
     """Every pair of elements without a common node, in every shape."""
     lines = [shapely.linestrings(np.asarray(points)[edges]) for points in shapes]

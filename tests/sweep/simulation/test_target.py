@@ -9,29 +9,20 @@ from sweep.config.kinds.table import RefusedError
 from sweep.scene.lattice import build_scene
 from sweep.scene.sides import build_tied
 from sweep.simulation.simulate import simulate
-from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import is_sound, run, unbalanced
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.springs import STIFFNESS, half_swing, spring
+from tests.support.designs.springs import STRIKER as MASS
 
-WALL, MASS, TARGET, SPEED = 2e-3, 0.05, 0.2, 0.5
+TARGET, SPEED = 0.2, 0.5  # kg, m/s
 REDUCED = MASS * TARGET / (MASS + TARGET)
-COLUMN = lattice_with(cells_x=1, cells_y=1, wall_thickness=WALL, imperfection=0.0)
-STIFFNESS = 2 * MATERIAL.modulus * COLUMN.depth * WALL / COLUMN.height
-SWING = np.pi * np.sqrt(REDUCED / STIFFNESS)
+SWING = half_swing(REDUCED)
 CELLS = dict(kind="hex", cells_x=3, cells_y=3, wall_thickness=1e-3)
 
 
-def column(steps=2000, integrator="newmark", damping=None, **loading):
-    """Two straight walls without mass between striker and target; steps in half a swing."""
-    hit = dict(striker_mass=MASS, striker_speed=SPEED, target_mass=TARGET, duration=2 * SWING)
-    return Case.of(
-        lattice=COLUMN,
-        material=MATERIAL.model_copy(update={"density": 1e-3}),
-        loading=hit | loading,
-        contact=dict(model="none"),
-        damping=damping or dict(model="none"),
-        solver=dict(joints="points", time_step=SWING / steps, integrator=integrator),
-    )
+def column(damping=None):
+    """The spring between striker and target."""
+    hit = dict(striker_speed=SPEED, target_mass=TARGET, duration=2 * SWING)
+    return spring(SWING, damping=damping, **hit)
 
 
 def hit(platen, target=TARGET, solver=None, damping=None, sides="free", **shape):
@@ -156,35 +147,19 @@ def test_steps_follow_the_reduced_mass():
 
 
 @pytest.mark.parametrize(
-    ("loading", "refused"),
+    ("tables", "refused"),
     [
-        ({"gravity": True}, "loading.gravity = True; allowed: false if loading.target_mass"),
-        ({"direction": "out_of_plane"}, "loading.direction = out_of_plane; allowed: "),
+        (
+            {"loading": {"gravity": True}},
+            "loading.gravity = True; allowed: false if loading.target",
+        ),
+        ({"loading": {"direction": "out_of_plane"}}, "loading.direction = out_of_plane; allowed: "),
+        ({"contact": {"model": "position_based"}}, r"if loading\.target_mass is given"),
+        ({"damping": {"mass": 5.0}}, "damping.mass = 5.0; allowed: 0 if loading.target_mass"),
     ],
 )
-def test_what_a_target_does_not_have(loading, refused):
-    with pytest.raises(RefusedError, match=refused):
-        Case.of(loading={"target_mass": 1.36} | loading)
-
-
-def test_a_target_is_not_in_contact_by_position():
-    with pytest.raises(RefusedError, match=r"if loading\.target_mass is given"):
-        Case.of(loading={"target_mass": 1.36}, contact={"model": "position_based"})
-
-
-def test_nothing_holds_a_lattice_back_in_space():
+def test_what_a_target_does_not_have(tables, refused):
+    """Nothing holds a lattice back in space."""
     assert Case.of(loading={"target_mass": 1.36}).damping.mass == 0.0
-    with pytest.raises(
-        RefusedError, match=r"damping.mass = 5.0; allowed: 0 if loading.target_mass"
-    ):
-        Case.of(loading={"target_mass": 1.36}, damping={"mass": 5.0})
-
-
-def test_a_drop_on_a_target_has_no_gravity():
-    case = Case.of(loading={"mode": "drop", "drop_height": 0.1, "target_mass": 1.36})
-    assert case.loading.gravity is False
-    falling = Case.of(loading={"mode": "drop", "drop_height": 0.1})
-    assert (
-        falling.changed(loading={"target_mass": 1.36}, damping={"mass": 0.0}).loading.gravity
-        is False
-    )
+    with pytest.raises(RefusedError, match=refused):
+        Case.of(**tables | {"loading": {"target_mass": 1.36} | tables.get("loading", {})})

@@ -152,17 +152,14 @@ def test_a_path_of_too_few_rows_has_no_bound_of_its_error(integrator):
     assert (error == np.inf) == (order > 1)
 
 
-def test_a_stated_error_of_steps_is_compared_with_the_path():
-    case = loaded(step_error=1e-6)
-    error = path_error(case, {"strain": np.array([0.0, 0.1, 0.05])}, 0.2)
-    assert error == pytest.approx(0.1e-6 / (0.2 * case.height))
-
-
 def test_only_dead_loads_have_a_path_and_one_that_does_not_move_has_none():
+    """A stated error of steps is compared with the path."""
     history = {"strain": np.array([0.0, 0.1, 0.05])}
     assert np.isnan(path_error(struck(), history, 0.1))
     assert np.isnan(path_error(pressed(2, 0.1, 5), history, 0.1))
     assert np.isnan(path_error(loaded(), {"strain": np.zeros(3)}, 0.0))
+    case = loaded(step_error=1e-6)
+    assert path_error(case, history, 0.2) == pytest.approx(0.1e-6 / (0.2 * case.height))
 
 
 def test_peaks_between_rows_are_those_of_the_steps():
@@ -187,7 +184,3 @@ def test_the_force_of_a_blow_between_two_rows_is_not_known():
     hard, soft = (simulate(loaded(integrator=each)).summary for each in ("bdf2", "backward_euler"))
     assert np.isnan([hard["peak_force_N"], hard["peak_force_at_densification_N"]]).all()
     assert soft["peak_force_N"] == soft["peak_force_at_densification_N"] >= 10.0
-
-
-def test_static_steps_have_no_share():
-    assert np.isnan(simulate(pressed(2, 0.1, 5)).summary["integrator_share"])

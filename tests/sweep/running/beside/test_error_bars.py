@@ -1,15 +1,12 @@
 """Error bars: the companions of a design, their results, and that nothing runs twice."""
 
-import json
 import math
 from dataclasses import replace
 
 import pytest
 
-from sweep.columns import describe_column, is_grid_key
 from sweep.config.case import Case
 from sweep.config.grid import Config, Recipe, Written, expand, expanded
-from sweep.config.structures.structure_file import read_structure
 from sweep.ranking.rank import rank
 from sweep.result import Status
 from sweep.running.batches import cost
@@ -18,8 +15,7 @@ from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.sweep import run_sweep
 from sweep.simulation.simulate import simulate as crush
 from sweep.store.read import Rerun, read_attributes, read_summary
-from tests.support.designs.structures import BEAM
-from tests.support.results.standin import make_older, simulate
+from tests.support.results.standin import Logged, make_older, simulate
 
 ENERGY, BAR = "absorbed_energy_J", "error_absorbed_energy_J"
 PRESSED = dict(mode="displacement", strain=0.3)
@@ -53,33 +49,14 @@ def out(tmp_path):
 
 
 @pytest.fixture
-def log():
-    """Ids of the cases that `logged` has run."""
-    return []
-
-
-@pytest.fixture
-def logged(log):
-    def run(case, control):
-        log.append(case.case_id)
-        return first_order(case)
-
-    return run
+def logged():
+    return Logged(first_order)
 
 
 def without_coarse_meshes(case, control):
     """`first_order`, but one element a wall stops where the imperfection is 0.002."""
-    result = first_order(case)
-    if case.lattice.nodes_per_wall == 0 and case.lattice.imperfection == 0.002:
-        return stopped(result)
-    return result
-
-
-def stopped(result):
-    """The same result of a case that stopped while loading."""
-    summary = {**result.summary, "loaded": 0}
-    why = "No step was short enough."
-    return replace(result, status=Status.STOPPED, message=why, summary=summary)
+    fails = case.lattice.nodes_per_wall == 0 and case.lattice.imperfection == 0.002
+    return (stopped if fails else first_order)(case)
 
 
 @pytest.mark.parametrize(
@@ -98,23 +75,21 @@ def test_other_mesh_is_half_as_fine_or_twice_where_there_is_no_half(pieces, othe
 @pytest.mark.parametrize(
     ("design", "solver", "weight"),
     [
-        (Case.of(loading=PRESSED), {"load_steps": 200, "accuracy": 2e-3}, 1.0),
-        (Case.of(loading=PRESSED, solver=dict(load_steps=5)), {"load_steps": 2}, 2 / 3),
-        (Case.of(loading=PRESSED, solver=dict(load_steps=1)), {"load_steps": 2}, 2.0),
-        (Case.of(solver=dict(time_step=1e-4)), {"time_step": 2e-4}, 1.0),
+        ({}, {"load_steps": 200, "accuracy": 2e-3}, 1.0),
+        ({"load_steps": 5}, {"load_steps": 2}, 2 / 3),
+        ({"load_steps": 1}, {"load_steps": 2}, 2.0),
+        ({"time_step": 1e-4}, {"time_step": 2e-4}, 1.0),
         (
-            Case.of(solver=dict(integrator="backward_euler", step_error=1e-6)),
+            {"integrator": "backward_euler", "step_error": 1e-6},
             {"time_step": 2e-4, "step_error": 4e-6},
             1.0,
         ),
-        (
-            Case.of(solver=dict(integrator="bdf2", step_error=1e-6)),
-            {"time_step": 2e-4, "step_error": 8e-6},
-            1.0,
-        ),
+        ({"integrator": "bdf2", "step_error": 1e-6}, {"time_step": 2e-4, "step_error": 8e-6}, 1.0),
     ],
 )
 def test_longer_steps_are_all_that_differs(design, solver, weight):
+    crushed = not {"time_step", "integrator"} & {*design}
+    design = Case.of(loading=PRESSED if crushed else {}, solver=design)
     _, steps = companions(design)
     expected = design.model_copy(update={"solver": design.solver.model_copy(update=solver)})
     assert steps.case.case_id == expected.case_id != design.case_id
@@ -139,28 +114,13 @@ def test_companions_take_less_work_than_the_design(mode):
     assert sum(work) < 2.0 * cost(design)
 
 
-@pytest.mark.parametrize(
-    ("subdivide", "others", "weight"), [(8, (4,), 1.0), (3, (1,), 0.5), (1, (2,), 2.0)]
-)
-def test_walls_of_a_structure_are_divided_otherwise(tmp_path, subdivide, others, weight):
-    file = tmp_path / "beam.json"
-    file.write_text(json.dumps(BEAM | {"subdivide": subdivide}))
-    lattice = dict(kind="custom", structure=read_structure(file), file=str(file))
-    mesh, _ = companions(Case.of(lattice=lattice, loading=dict(mode="custom")))
-    assert mesh.case.lattice.structure.pieces == others
-    assert mesh.weight == weight
-
-
 def test_estimate_is_exact_at_first_order():
     """Two errors, 3 J / 3 and 20 J / 40, each from the difference of a pair: Richardson by hand.
 
     The other column, the peak strain, does not change, and so does not raise these errors.
     """
     design, *_ = expand(config())
-    rows = {
-        c.case_id: first_order(c).summary for c in [design, *(c.case for c in companions(design))]
-    }
-    bars = error_bars(design, rows)
+    bars = error_bars(design, measured(design, first_order))
     assert bars[BAR] == pytest.approx(3.0 / 3 + 20.0 / 40)
     assert bars["error_peak_strain"] == 0.0
     assert "error_min_gap_m" not in bars
@@ -170,10 +130,11 @@ def test_estimate_is_exact_at_first_order():
 def test_correction_is_exact_at_second_order_in_the_mesh():
     def second_order(case):
         element = 1.0 / (case.lattice.nodes_per_wall + 1)
-        return simulate(case).summary | {ENERGY: 5.0 + 3.0 * element**2}
+        result = simulate(case)
+        return replace(result, summary=result.summary | {ENERGY: 5.0 + 3.0 * element**2})
 
     design, *_ = expand(config())
-    rows = {c.case_id: second_order(c) for c in [design, *(c.case for c in companions(design))]}
+    rows = measured(design, second_order)
     correction = error_bars(design, rows)["correction_absorbed_energy_J"]
     assert correction == pytest.approx(5.0 - rows[design.case_id][ENERGY])
 
@@ -182,11 +143,7 @@ def test_column_that_agrees_by_chance_has_the_error_of_the_others():
     """Three columns change by 20, 20 and 40 % of their value, the energy does not change."""
     own = {"peak_force_N": 10.0, "packing_strain": 0.5, "efficiency": 0.1, ENERGY: 5.0}
     coarse = {"peak_force_N": 8.0, "packing_strain": 0.6, "efficiency": 0.14, ENERGY: 5.0}
-    design, *_ = expand(config())
-    mesh, steps = companions(design)
-    version = {"model_version": 1}
-    rows = {design.case_id: own | version, steps.case.case_id: own | version}
-    bars = error_bars(design, rows | {mesh.case.case_id: coarse | version})
+    bars, mesh = coarsened(own, coarse)
     assert bars[BAR] == pytest.approx(mesh.weight * 0.2 * 5.0)
     assert bars["error_peak_force_N"] == pytest.approx(mesh.weight * math.hypot(2.0, 2.0))
     assert bars["correction_absorbed_energy_J"] == 0.0
@@ -195,76 +152,47 @@ def test_column_that_agrees_by_chance_has_the_error_of_the_others():
 
 def test_what_follows_from_other_columns_has_a_bar_and_no_part_in_the_others():
     """With 40 and 80 % for the columns of losses and cycles, the energy still has 20 %."""
-    own = {"peak_force_N": 10.0, ENERGY: 5.0}
     following = dict.fromkeys(("lost_energy_J", "lost_share", "absorbed_energy_in_cycle_2_J"), 1.0)
+    own = {"peak_force_N": 10.0, ENERGY: 5.0} | following
     coarse = {"peak_force_N": 8.0, ENERGY: 4.0} | dict.fromkeys(following, 1.6)
-    design, *_ = expand(config())
-    mesh, steps = companions(design)
-    version = {"model_version": 1}
-    rows = {
-        design.case_id: own | following | version,
-        steps.case.case_id: own | following | version,
-    }
-    bars = error_bars(design, rows | {mesh.case.case_id: coarse | version})
+    bars, mesh = coarsened(own, coarse)
     assert bars[BAR] == pytest.approx(mesh.weight * math.hypot(1.0, 1.0))
     for name in following:
         assert bars[f"error_{name}"] == pytest.approx(mesh.weight * math.hypot(0.6, 0.2))
 
 
-def test_peak_force_under_a_load_that_is_put_on_at_once_has_no_error_bar():
-    design = Case.of()
-    rows = {c.case_id: simulate(c).summary for c in [design, *(c.case for c in companions(design))]}
-    bars = error_bars(design, rows)
-    assert math.isnan(bars["error_peak_force_N"])
-    assert bars[BAR] == 0.0
-
-
-def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, log, logged, capsys):
-    ids = [case.case_id for case in expand(config())]
-    assert run_sweep(config(), out, simulate=logged) == 0
-    assert BAR not in read_summary(out)
-    assert log == ids or log == ids[::-1]
-
-    assert add_error_bars(config(), out, How(simulate=logged)) == 0
-    assert "error bars of 2 designs: 4 companions, in" in capsys.readouterr().err
-    assert len(log) == len(set(log)) == 6
-    summary = read_summary(out)
-    assert list(summary["case_id"]) == ids
-    assert list(summary[BAR]) == pytest.approx([1.5, 1.5])
-    assert list(summary["lattice.imperfection"]) == [0.001, 0.002]
-    assert set(read_summary(file_beside(out, "companions"))["case_id"]) == set(log[2:])
-
-    before = out.stat().st_mtime_ns
-    assert add_error_bars(config(), out, How(simulate=logged)) == 0
-    assert run_sweep(config(), out, simulate=logged) == 0
-    assert len(log) == 6
-    assert out.stat().st_mtime_ns == before
-    assert list(read_summary(out)[BAR]) == pytest.approx([1.5, 1.5])
-    assert '"name": "trial"' in read_attributes(out)["config"]
-
-
-def test_longer_grid_runs_only_the_companions_of_what_is_new(out, log, logged):
-    longer = config(lattice__imperfection=(0.001, 0.002, 0.003))
-    for sweep in (config(), longer):
-        run_sweep(sweep, out, simulate=logged)
-        add_error_bars(sweep, out, How(simulate=logged))
-    assert len(log) == len(set(log)) == 9
-
-
-def test_companion_that_is_a_design_of_the_sweep_runs_once(out, log, logged):
+def test_companion_that_is_a_design_of_this_or_an_earlier_sweep_runs_once(out, logged):
     sweep = config(lattice__nodes_per_wall=(2, 5))
     run_sweep(sweep, out, simulate=logged)
+    add_error_bars(config(lattice__nodes_per_wall=(5,)), out, How(simulate=logged))
+    assert len(logged) == len(set(logged)) == 3  # three and six elements; six in 20 steps
+    summary = read_summary(out).set_index("lattice.nodes_per_wall")
+    assert summary[BAR].notna().to_dict() == {2: False, 5: True}
     add_error_bars(sweep, out, How(simulate=logged))
-    assert len(log) == len(set(log)) == 5  # one, three, six elements; three and six in 20 steps
+    assert len(logged) == len(set(logged)) == 5  # and one element, three in 20 steps
     assert list(read_summary(out)[BAR]) == pytest.approx([1.0 + 0.5, 0.5 + 0.5])
 
 
-def test_companion_that_an_earlier_sweep_left_does_not_run(out, log, logged):
-    run_sweep(config(lattice__nodes_per_wall=(2, 5)), out, simulate=logged)
-    add_error_bars(config(lattice__nodes_per_wall=(5,)), out, How(simulate=logged))
-    assert len(log) == len(set(log)) == 3
-    summary = read_summary(out).set_index("lattice.nodes_per_wall")
-    assert summary[BAR].notna().to_dict() == {2: False, 5: True}
+def test_error_bars_are_added_to_what_is_there_and_nothing_runs_twice(out, logged, capsys):
+    ids = [case.case_id for case in expand(config())]
+    assert run_sweep(config(), out, simulate=logged) == 0
+    assert BAR not in read_summary(out)
+    assert sorted(logged) == sorted(ids)
+
+    written = set()
+    for run in (add_error_bars, add_error_bars, run_sweep):
+        how = {"simulate": logged} if run is run_sweep else {"how": How(simulate=logged)}
+        assert run(config(), out, **how) == 0
+        assert len(logged) == len(set(logged)) == 6
+        summary = read_summary(out)
+        assert list(summary["case_id"]) == ids
+        assert list(summary[BAR]) == pytest.approx([1.5, 1.5])
+        written.add(out.stat().st_mtime_ns)
+    assert len(written) == 1
+    assert "error bars of 2 designs: 4 companions, in" in capsys.readouterr().err
+    assert list(summary["lattice.imperfection"]) == [0.001, 0.002]
+    assert set(read_summary(file_beside(out, "companions"))["case_id"]) == set(logged[2:])
+    assert '"name": "trial"' in read_attributes(out)["config"]
 
 
 def test_failed_companion_leaves_the_design_without_a_bar_and_is_told(out, capsys):
@@ -303,25 +231,12 @@ def test_renewed_companions_are_no_older_rows_of_another_sweep(out):
     assert add_error_bars(sweep, out, How(simulate=first_order)) == 0
 
 
-def test_failed_design_has_no_companions(out, log, logged):
-    def stopped(case, control):
-        return stopped(first_order(case))
-
+def test_failed_design_has_no_companions(out, logged):
     sweep = config(lattice__imperfection=(0.001,))
     run_sweep(sweep, out, simulate=stopped)
     assert add_error_bars(sweep, out, How(simulate=logged)) == 0
-    assert log == []
+    assert logged == []
     assert BAR not in read_summary(out)
-
-
-def test_error_columns_have_the_unit_of_what_they_are_about():
-    assert describe_column(BAR).units == "J"
-    assert describe_column("error_absorbed_energy_at_50N_J").units == "J"
-    assert describe_column("error_peak_strain").units == "1"
-    assert describe_column("correction_peak_strain").units == "1"
-    assert not is_grid_key("correction_peak_strain")
-    assert "no bound" in describe_column(BAR).description
-    assert not is_grid_key(BAR)
 
 
 def test_error_bar_covers_the_error_of_a_crush():
@@ -331,25 +246,35 @@ def test_error_bar_covers_the_error_of_a_crush():
     design = Case.of(lattice=cells, loading=loading, solver=dict(load_steps=50))
     fine = dict(**cells, nodes_per_wall=11)
     reference = crush(Case.of(lattice=fine, loading=loading, solver=dict(load_steps=200))).summary
-    rows = {c.case_id: crush(c).summary for c in [design, *(c.case for c in companions(design))]}
+    rows = measured(design, crush)
     for name in (ENERGY, "plateau_stress_Pa", "peak_force_N", "absorbed_energy_until_packed_J"):
         error = abs(rows[design.case_id][name] - reference[name])
         bar = error_bars(design, rows)[f"error_{name}"]
         assert 0.0 < error <= bar < 0.25 * rows[design.case_id][name], name
 
 
-def test_other_mesh_of_plates_has_other_layers_too():
-    case = Case.of(loading=dict(direction="out_of_plane", strain=0.3))
-    coarse, longer = (companion.case.lattice for companion in companions(case))
-    assert (case.lattice.nodes_per_wall, case.lattice.layers) == (5, 14)
-    assert (coarse.nodes_per_wall, coarse.layers) == (2, 7)
-    assert longer == case.lattice
+def measured(design, simulate):
+    """The rows of a design and of its companions, by their ids."""
+    cases = [design, *(companion.case for companion in companions(design))]
+    return {case.case_id: simulate(case).summary for case in cases}
 
 
-def test_other_mesh_of_plates_has_no_quads_lower_than_walls_are_thick():
-    """One quad a wall: the other mesh is finer, and quads of 20 layers would be too low."""
-    lattice = dict(nodes_per_wall=0, layers=10)
-    case = Case.of(lattice=lattice, loading=dict(direction="out_of_plane", strain=0.3))
-    fine = companions(case)[0].case.lattice
-    assert fine.nodes_per_wall == 1
-    assert fine.layers == int(case.lattice.depth / case.lattice.wall_thickness) < 20
+def coarsened(own, coarse):
+    """Error bars of a design whose coarser mesh alone has other values; the coarser mesh."""
+    design, *_ = expand(config())
+    mesh, steps = companions(design)
+    rows = {design.case_id: own, steps.case.case_id: own, mesh.case.case_id: coarse}
+    return error_bars(design, {key: row | {"model_version": 1} for key, row in rows.items()}), mesh
+
+
+def test_peak_force_under_a_load_that_is_put_on_at_once_has_no_error_bar():
+    bars = error_bars(Case.of(), measured(Case.of(), simulate))
+    assert math.isnan(bars["error_peak_force_N"])
+    assert bars[BAR] == 0.0
+
+
+def stopped(case, control=None):
+    """A case that stops while loading."""
+    result = first_order(case)
+    summary = {**result.summary, "loaded": 0}
+    return replace(result, status=Status.STOPPED, message="No.", summary=summary)

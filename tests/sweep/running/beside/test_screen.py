@@ -13,6 +13,7 @@ from sweep.result import Result, Status, design_columns
 from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.screen import best_of, has_column, run_columns, unit_column
 from sweep.store.read import read_summary
+from tests.support.results.standin import Logged
 from tests.support.results.standin import simulate as invent
 
 ALONG = dict(direction="out_of_plane", strain=0.3, allowed_forces=(50.0,))
@@ -122,17 +123,12 @@ def test_estimates_are_those_of_the_whole_where_walls_are_alike(tmp_path):
 
 
 def test_no_column_runs_twice_and_a_stopped_one_gives_no_estimate(tmp_path):
-    log, out = [], tmp_path / "trial.h5"
-
-    def logged(case, control):
-        log.append(case.case_id)
-        return crush(case)
-
+    logged, out = Logged(crush), tmp_path / "trial.h5"
     run_columns(DESIGNS[:1], out, How(simulate=logged))
     designs = [*DESIGNS, along("brick")]
     for _ in range(2):
         found = run_columns(designs, out, How(simulate=logged))
-    assert sorted(log) == sorted(unit_column(design).case_id for design in designs)
+    assert sorted(logged) == sorted(unit_column(design).case_id for design in designs)
     assert set(found["case_id"]) == {design.case_id for design in DESIGNS}
     assert file_beside(out, "screen").name == "trial.screen.h5"
     assert not out.exists()

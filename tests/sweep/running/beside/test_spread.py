@@ -15,7 +15,7 @@ from sweep.running.beside.spread import (
 from sweep.scene.material import stress_law
 from sweep.store.read import read_summary
 from tests.support.materials.records import HEADER
-from tests.support.results.standin import cases, simulate, write
+from tests.support.results.standin import Logged, cases, simulate, write
 
 PRESSED = dict(mode="displacement", strain=0.3)
 FRICTIONS = [f"friction {value:g}" for value in FRICTION]
@@ -118,19 +118,14 @@ def test_measured_loss_with_a_range_has_corners(own_record):
 
 
 def test_only_missing_corners_of_the_best_run(tmp_path):
-    out, log = tmp_path / "trial.h5", []
-
-    def logged(case, control):
-        log.append(case.case_id)
-        return simulate(case)
-
+    out, logged = tmp_path / "trial.h5", Logged(simulate)
     designs = cases(3)
     found = corners_of(designs, [designs[1].case_id], out)
     assert list(found) == [designs[1].case_id]
     ids = {corner.case_id for corner in found[designs[1].case_id]}
     for _ in range(2):
         run_corners(found, out, How(simulate=logged))
-    assert sorted(log) == sorted(ids)
+    assert sorted(logged) == sorted(ids)
     summary = read_summary(file_beside(out, "spread"))
     assert file_beside(out, "spread").name == "trial.spread.h5"
     assert set(summary["case_id"]) == ids

@@ -19,11 +19,11 @@ POINTS = np.random.default_rng(1).random((40, 2))
 
 @pytest.fixture
 def space(tmp_path):
-    """The space of some lines below [search]."""
+    """The space of some lines below [search], and of lines before it."""
 
-    def made(*lines, **limits):
+    def made(*lines, head="", **limits):
         path = tmp_path / "sought.toml"
-        path.write_text("\n".join(['[lattice]\nwidth = "25 mm"', "[search]", *lines]))
+        path.write_text("\n".join(['[lattice]\nwidth = "25 mm"', head, "[search]", *lines]))
         return DesignSpace(load_config(path), **limits)
 
     return made
@@ -43,12 +43,52 @@ def panel_grams(case, panel):
 
 @pytest.mark.parametrize("size", [WALLS, MASS])
 def test_all_designs_are_within_the_budget_and_some_use_it_up(space, size):
-    found = [space(CELLS, size, budget=1.5e-3).case(point) for point in POINTS]
+    of = space(CELLS, size, budget=1.5e-3)
+    found = [of.case(point) for point in POINTS]
     masses = [grams(case) for case in found]
     assert max(masses) <= 1.5 * (1.0 + 1e-9)
     assert max(masses) > 1.499
     assert len({case.lattice.cells_x for case in found}) == 5
     assert min(case.lattice.wall_thickness for case in found) < 0.5e-3
+    if size == WALLS:
+        assert of.case((0.5, 1.0)) == of.case((0.5, 1.001 / USED_UP))
+        assert of.case((0.5, 1.0)) != of.case((0.5, 0.99 / USED_UP))
+
+
+@pytest.mark.parametrize("pattern", ["grid", "honeycomb"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        '"lattice.infill" = {from = "8 %", to = "60 %"}',
+        '"lattice.mass" = {from = "2 g", to = "8 g"}',
+    ],
+)
+def test_budget_counts_what_a_slicer_extrudes(space, pattern, line):
+    head = f'height = "25 mm"\nslicer = "prusa"\npattern = "{pattern}"'
+    found = [space(line, head=head, budget=3e-3).case([share]) for share in (0.0, 0.5, 1.0)]
+    masses = [printed_mass(case) for case in found]
+    assert masses == sorted(masses)
+    assert 2.9 < masses[-1] <= 3.0 * (1.0 + 1e-9)
+    assert grams(found[-1]) < 0.99 * masses[-1]
+    panel = space(line, head=head, budget=40e-3, panel=(0.1, 0.05))
+    case = panel.case([1.0])
+    assert panel.weight(case) == pytest.approx(1e-3 * 4 * 4 * printed_mass(case))
+    assert 39.0 < 1e3 * panel.weight(case) <= 40.0 * (1.0 + 1e-9)
+    if "infill" in line:  # the least one weighs more
+        assert space(line, head=head, budget=0.5e-3).case([0.0]) is None
+
+
+def test_panel_of_what_is_pressed_along_its_cells_is_filled_by_plans(space):
+    """A plan of 25 x 12.5 mm over centre lines: 4 x 4 of them fill 100 x 50 mm."""
+    of = space(
+        '"lattice.wall_thickness" = {from = "0.4 mm", to = "0.5 mm"}',
+        head='[loading]\ndirection = "out_of_plane"',
+        panel=(0.1, 0.05),
+        budget=1.0,
+    )
+    case = of.case((0.0,))
+    assert case.loading.direction == "out_of_plane"
+    assert of.weight(case) == pytest.approx(16e-3 * grams(case))
 
 
 @pytest.mark.parametrize("size", [WALLS, MASS])
@@ -65,12 +105,6 @@ def test_one_specimen_more_does_not_exceed_the_budget(space, width):
     panel = (float(width), 0.05)
     case = space(CELLS, WALLS, budget=20e-3, panel=panel).case((0.5, 1.0))
     assert 0.7 * 20.0 < panel_grams(case, panel) <= 20.0
-
-
-def test_share_of_the_cube_that_uses_the_budget_up(space):
-    of = space(CELLS, WALLS, budget=1.5e-3)
-    assert of.case((0.5, 1.0)) == of.case((0.5, 1.001 / USED_UP))
-    assert of.case((0.5, 1.0)) != of.case((0.5, 0.99 / USED_UP))
 
 
 def test_without_a_budget_the_ends_are_those_of_the_config(space):
@@ -105,55 +139,3 @@ def test_designs_of_one_thickness_are_weighed(space):
 def test_panel_that_holds_no_specimen_has_no_designs(space):
     assert space(CELLS, WALLS, panel=(0.1, 0.005)).case((0.5, 0.5)) is None
     assert space(CELLS, WALLS, budget=20e-3, panel=(0.012, 0.05)).case((0.5, 0.5)) is None
-
-
-SLICER = 'slicer = "prusa"\npattern = "{}"\n'
-
-
-@pytest.fixture
-def laid(tmp_path):
-    """The space of a slicer's pattern with one line below [search]."""
-
-    def made(pattern, line, **limits):
-        path = tmp_path / "sought.toml"
-        table = '[lattice]\nwidth = "25 mm"\nheight = "25 mm"\n' + SLICER.format(pattern)
-        path.write_text(f"{table}[search]\n{line}\n")
-        return DesignSpace(load_config(path), **limits)
-
-    return made
-
-
-@pytest.mark.parametrize("pattern", ["grid", "honeycomb"])
-@pytest.mark.parametrize(
-    "line",
-    [
-        '"lattice.infill" = {from = "8 %", to = "60 %"}',
-        '"lattice.mass" = {from = "2 g", to = "8 g"}',
-    ],
-)
-def test_budget_counts_what_a_slicer_extrudes(laid, pattern, line):
-    found = [laid(pattern, line, budget=3e-3).case([share]) for share in (0.0, 0.5, 1.0)]
-    masses = [printed_mass(case) for case in found]
-    assert masses == sorted(masses)
-    assert 2.9 < masses[-1] <= 3.0 * (1.0 + 1e-9)
-    assert grams(found[-1]) < 0.99 * masses[-1]
-    panel = laid(pattern, line, budget=40e-3, panel=(0.1, 0.05))
-    case = panel.case([1.0])
-    assert panel.weight(case) == pytest.approx(1e-3 * 4 * 4 * printed_mass(case))
-    assert 39.0 < 1e3 * panel.weight(case) <= 40.0 * (1.0 + 1e-9)
-
-
-def test_budget_below_the_least_infill_has_no_designs(laid):
-    of = laid("grid", '"lattice.infill" = {from = "20 %", to = "60 %"}', budget=2e-3)
-    assert of.case([0.0]) is None
-
-
-def test_panel_of_what_is_pressed_along_its_cells_is_filled_by_plans(tmp_path):
-    """A plan of 25 x 12.5 mm over centre lines: 4 x 4 of them fill 100 x 50 mm."""
-    path = tmp_path / "along.toml"
-    head = '[lattice]\nwidth = "25 mm"\n[loading]\ndirection = "out_of_plane"\n[search]\n'
-    path.write_text(f'{head}"lattice.wall_thickness" = {{from = "0.4 mm", to = "0.5 mm"}}')
-    space = DesignSpace(load_config(path), panel=(0.1, 0.05), budget=1.0)
-    case = space.case((0.0,))
-    assert case.loading.direction == "out_of_plane"
-    assert space.weight(case) == pytest.approx(16e-3 * grams(case))

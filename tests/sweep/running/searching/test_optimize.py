@@ -64,25 +64,13 @@ def test_what_is_asked_is_what_the_ranking_answers(tables):
     ("changed", "asked", "error", "told"),
     [
         ({"search": {}}, {}, OptimizeError, r"sought has no \[search\]"),
-        ({"rank": {"budgets": ["5 g", "9 g"]}}, {}, OptimizeError, "2 budgets; needed: one"),
         ({}, {"budget": 25}, RankError, "a bare number"),
         ({}, {"require": {"max_mass": 1}}, RankError, "a bare number"),
-        (
-            {},
-            {"require": {"max_weight": "1 g"}},
-            RankError,
-            "max_weight = .1 g.: unknown requirement",
-        ),
-        ({}, {"per": "panel"}, OptimizeError, "needed: a panel"),
+        ({}, {"require": {"max_weight": "1 g"}}, RankError, "max_weight = .1 g.: unknown req"),
         ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
-        ({}, {"by": "cells_x"}, RankError, '"cells_x" is no column'),
-        ({}, {"budget": "0.01 g"}, OptimizeError, "1,024 points .* at most 0.01 g"),
-        ({"lattice": {"kind": "gyroid"}}, {}, OptimizeError, "gyroid in .* drawn with lines"),
     ],
 )
 def test_what_cannot_be_sought_is_refused(tables, changed, asked, error, told):
-    tables |= changed
-    if "lattice" in changed:
-        tables["search"] = {"lattice.cell_size": ["5 mm", "7 mm"]}
+    """Other refusals: `tests/sweep/cli/test_optimize.py`."""
     with pytest.raises(error, match=told):
-        optimize(tables, **asked)
+        optimize(tables | changed, **asked)

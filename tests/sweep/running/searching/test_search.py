@@ -11,6 +11,7 @@ from sweep.running.searching.design_space import DesignSpace
 from sweep.running.searching.search import MOST_TRIED, Search, Settings
 from sweep.store.read import read_attributes, read_summary
 from tests.support.results.searches import BEST, THIN, TOML, energy, simulate
+from tests.support.results.standin import Logged
 
 QUESTION = {"budget": None, "panel": None, "by": "absorbed_energy_J", "allowed_force": None}
 
@@ -20,18 +21,13 @@ def searched(tmp_path):
     """A finished search, and the cases that it ran."""
 
     def run(evaluations=100, seed=1, text=TOML, by="absorbed_energy_J", **question):
-        path, log = tmp_path / "sought.toml", []
+        path, logged = tmp_path / "sought.toml", Logged(simulate)
         path.write_text(text)
-
-        def logged(case, control):
-            log.append(case.case_id)
-            return simulate(case)
-
         space, how = DesignSpace(load_config(path)), Settings(evaluations, seed, workers=1)
         asked = Question(**QUESTION | {"by": by} | question)
         search = Search(space, asked, tmp_path / "sought.h5", how, logged)
         search.run()
-        return search, log
+        return search, logged
 
     return run
 

@@ -35,21 +35,6 @@ def test_quads_are_the_walls_times_the_height(mesh):
     assert mesh.size.min() >= T * (1.0 - 1e-9)
 
 
-def test_flat_corners_are_where_the_size_of_the_quad_says(mesh):
-    flat = build_mesh(along(kind=mesh_kind(mesh), imperfection=0.0).lattice)
-    corner = flat.rest[flat.quads]
-    across, up = corner[:, 1] - corner[:, 0], corner[:, 3] - corner[:, 0]
-    assert np.linalg.norm(across, axis=1) == pytest.approx(flat.size[:, 0], rel=1e-9)
-    assert np.abs(up - flat.size[:, 1:] * [0.0, 0.0, 1.0]).max() < 1e-15
-    assert np.abs(corner[:, 2] - corner[:, 1] - up).max() < 1e-15
-
-
-def mesh_kind(mesh):
-    """The family whose plan this is; a quarter is compared with the whole of its family."""
-    walls = {len(build_mesh(along(kind=k).lattice).plan.walls): k for k in FAMILIES}
-    return walls.get(len(mesh.plan.walls), "square")
-
-
 def test_directors_are_the_normals_of_the_walls(mesh):
     start, end = mesh.plan.points[mesh.plan.walls].swapaxes(0, 1)
     along_wall = (end - start) / mesh.plan.length[:, None]
@@ -69,18 +54,6 @@ def test_third_axis_is_the_normal_just_where_all_quads_are_in_one_plane(mesh):
     np.minimum.at(least, mesh.quads.ravel(), third.ravel())
     assert np.array_equal(least > 1.0 - 1e-12, mesh.flat)
     assert np.abs(mesh.directors[mesh.flat[mesh.quads]][:, :2]).max() < 1e-12
-
-
-def test_nodes_of_a_wall_have_its_axes(mesh):
-    """Rows of frames: a quad has the same axes as its inner corners."""
-    inner = mesh.flat[mesh.quads] & (np.abs(mesh.directors[..., 2] - 1.0) < 1e-12)
-    quad, corner = np.nonzero(inner)
-    frames = mesh.frames.reshape(-1, 3, 3)[mesh.quads[quad, corner]]
-    start, end = mesh.plan.points[mesh.plan.walls[mesh.wall[quad]]].swapaxes(0, 1)
-    along_wall = (end - start) / mesh.plan.length[mesh.wall[quad], None]
-    own = frames[:, :2, 0] * np.sign((frames[:, :2, 0] * along_wall).sum(axis=1))[:, None]
-    assert np.abs(own - along_wall).max() < 1e-9
-    assert np.array_equal(frames[:, :, 1], np.tile([0.0, 0.0, 1.0], (len(frames), 1)))
 
 
 def test_walls_share_the_nodes_of_their_joints(mesh):
@@ -114,28 +87,6 @@ def test_triangles_cover_the_quads_and_share_their_edges(mesh):
     assert np.array_equal(uses, wanted)
     faces = len(mesh.triangles)
     assert 3 * faces == uses.sum()
-
-
-def test_normals_of_triangles_are_those_of_their_quads():
-    flat = build_mesh(along(kind="hex", imperfection=0.0).lattice)
-    corner = flat.rest[flat.triangles]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    frames = flat.frames.reshape(-1, 3, 3)[flat.quads[:, 0]]
-    director = np.einsum("eij,ej->ei", frames, flat.directors[:, 0]).repeat(2, axis=0)
-    assert np.all((normal * director).sum(axis=1) > 0.0)
-
-
-def test_diagonals_alternate():
-    mesh = extruded(plan_of(network([[0, 0], [2, 0]], [[0, 1]])), np.array([2]), 2, 2e-3)
-    quads = [set(np.intersect1d(*mesh.triangles[k : k + 2]).tolist()) for k in range(0, 8, 2)]
-    corners = [set(q.tolist()) for q in mesh.quads]
-    main = [d == {q[0], q[2]} for d, q in zip(quads, mesh.quads.tolist(), strict=True)]
-    assert all(d <= c for d, c in zip(quads, corners, strict=True))
-    column = mesh.quads[:, 0] // 3
-    place = np.argsort(np.argsort(mesh.rest[3 * column, 0]))
-    assert sorted(zip(place // 2, mesh.level[mesh.quads[:, 0]], main, strict=True)) == [
-        (0, 0, True), (0, 1, False), (1, 0, False), (1, 1, True),
-    ]  # fmt: skip
 
 
 def test_a_wall_through_a_straight_joint_is_one_plane():

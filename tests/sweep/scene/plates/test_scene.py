@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.plates.element import shell
-from kernels.solve.problem import FREE, HELD, LED, TIED
+from kernels.solve.problem import HELD, LED, TIED
 from sweep.config.case import Case
 from sweep.config.kinds.table import TABLES
 from sweep.scene.plates.scene import build_scene
@@ -21,19 +21,6 @@ def struck(platen="glued", **lattice):
 @pytest.fixture(scope="module")
 def pressed():
     return build_scene(along(cells_x=2, cells_y=2, imperfection=0.3))
-
-
-def test_unknowns_are_numbered_node_by_node(pressed):
-    layout, coordinates = pressed.terms.layout, pressed.terms.coordinates
-    free = np.flatnonzero(coordinates.role == FREE)
-    assert np.array_equal(layout.unknown[free], np.arange(len(free)))
-    assert layout.size.sum() == len(free) == len(layout.scale) == len(layout.weight)
-    start = np.cumsum(layout.size) - layout.size
-    node = free // 6
-    assert np.array_equal(start[layout.block[node]] + layout.slot[free], np.arange(len(free)))
-    assert len(layout.point) == len(layout.size)
-    assert not layout.is_length[layout.unknown[free[free % 6 > 2]]].any()
-    assert layout.is_length[layout.unknown[free[free % 6 < 3]]].all()
 
 
 def test_led_ends_have_no_unknown_and_follow(pressed):

@@ -16,6 +16,7 @@ from sweep.design.surfaces.nets import build_net
 from sweep.scene.plates.coordinates import leaders
 from sweep.scene.plates.scene import build_scene, scene_of
 from sweep.scene.plates.sheet import bowed, build_sheet, mesh_of_sheet
+from tests.support.designs.plates import repeated
 from tests.support.kernels.pressed_plates import (
     hessian_error,
     reduction,
@@ -176,12 +177,8 @@ def test_two_periods_take_twice_the_energy_of_one():
             for count in (1, 2)
         )
     )
-    x, y = squeezed(single), double.x_rest.copy()
-    moves = (x - single.x_rest)[:-2].reshape(-1, 6)
-    distance, near = cKDTree(single.mesh.rest).query(double.mesh.rest % [*box.size[:2], np.inf])
-    assert distance.max() < 1e-9
-    y[:-2].reshape(-1, 6)[:] += moves[single.mesh.original[near]]
-    y[-2:] = x[-2:]
+    x = squeezed(single)
+    y = repeated(single, double, x, box.size[:2])
     one, two = (whole(of, at).found(at)[1].stored for of, at in ((single, x), (double, y)))
     assert one[CONTACT] > 0.02 * one.sum()
     np.testing.assert_allclose(two, 2.0 * one, rtol=1e-9)

@@ -4,12 +4,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 
 from kernels.shared.rows import CONTACT
 from sweep.config.case import Case
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.simulate import simulate
+from tests.support.designs.plates import repeated
 from tests.support.kernels.pressed_plates import shaken, whole
 
 PITCH, T = 4e-3, 0.4e-3
@@ -66,39 +66,18 @@ def test_positions_of_images_follow_from_those_that_are_stored():
 def test_two_periods_take_twice_the_energy_of_one():
     """In any shape that repeats: walls bulge until they touch the walls of the next cell."""
     single, double = (build_scene(case(cells=(count, 2))) for count in (2, 4))
-    x, y = single.x_rest.copy(), double.x_rest.copy()
-    mesh, nodes = single.mesh, x[:-2].reshape(-1, 6)
+    mesh, x = single.mesh, single.x_rest.copy()
     bulge = np.sin(np.pi * mesh.rest[:, 2] / PITCH) * (0.5 * PITCH - 0.35 * T)
     middle = np.isclose(mesh.rest[:, 0] % PITCH, 0.5 * PITCH, atol=0.2 * T)
-    nodes[middle, 1] += bulge[middle] * np.where(mesh.rest[middle, 1] % (2 * PITCH) < T, 1, -1)
-    x = (
-        single.x_rest
-        + (shaken(single, x, 1, 0.02) - single.x_rest)[
-            np.append((6 * mesh.original[:, None] + np.arange(6)).ravel(), [x.size - 2, x.size - 1])
-        ]
-    )
-    moves = (x - single.x_rest)[:-2].reshape(-1, 6)
-    flat = mesh.rest[mesh.own]
-    distance, near = cKDTree(flat).query(_wrapped(double.mesh.rest, mesh.period, flat))
-    assert distance.max() < 1e-9
-    y[:-2].reshape(-1, 6)[:] += moves[mesh.own][near]
-    y[-2:] = x[-2:]
+    way = np.where(mesh.rest[middle, 1] % (2 * PITCH) < T, 1, -1)
+    x[:-2].reshape(-1, 6)[middle, 1] += bulge[middle] * way
+    moves = shaken(single, x, 1, 0.02) - single.x_rest
+    moves[:-2] = moves[:-2].reshape(-1, 6)[mesh.original].ravel()
+    x = single.x_rest + moves
+    y = repeated(single, double, x, mesh.period)
     one, two = (whole(of, at).found(at)[1].stored for of, at in ((single, x), (double, y)))
     assert one[CONTACT] > 1e-3 * one.sum()
     np.testing.assert_allclose(two, 2.0 * one, rtol=1e-9)
-
-
-def _wrapped(points, period, targets):
-    """Points moved by whole periods to where they are next to one of ``targets``."""
-    best, tree = points.copy(), cKDTree(targets)
-    distance = np.full(len(points), np.inf)
-    for i in range(-3, 4):
-        for j in range(-3, 4):
-            moved = points + np.append([i, j] * period, 0.0)
-            found = tree.query(moved)[0]
-            nearer = found < distance
-            best[nearer], distance[nearer] = moved[nearer], found[nearer]
-    return best
 
 
 @pytest.mark.parametrize("made", ["square", "gyroid"])
@@ -106,12 +85,12 @@ def test_both_platens_bear_the_same_force(made):
     """Images at the ends of walls bear force, too; and the book is closed."""
     of = case()
     if made == "gyroid":
+        sheet = dict(kind="gyroid", depth=PITCH, cell_size=PITCH, nodes_per_wall=2)
+        loading = dict(strain=0.1, direction="out_of_plane", unload=False)
         of = Case.of(
-            lattice=dict(
-                kind="gyroid", depth=PITCH, cell_size=PITCH, nodes_per_wall=2, wall_thickness=T
-            ),
+            lattice=sheet | {"wall_thickness": T},
             material=dict(of.material.inputs()),
-            loading=dict(strain=0.1, direction="out_of_plane", unload=False),
+            loading=loading,
             solver=dict(load_steps=4),
         )
     result = simulate(of)
