@@ -32,7 +32,7 @@ def forces(size):
     return np.random.default_rng(3).uniform(-1, 1, size)
 
 
-@pytest.mark.parametrize("name", ["glued", "struck"])
+@pytest.mark.parametrize("name", CASES)
 def test_solutions_are_those_of_the_dense_matrix(name):
     of = scene(name)
     x, R = near_rest(of), reduction(of)
@@ -128,16 +128,6 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
             of.x_rest, args.step, there.found(of.x_rest)[1], False, False
         )
         assert (result != NO_ROOM) == has_room
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_solutions_obey_the_constraints(name):
-    of = scene(name)
-    args = whole(of, bent(of))
-    args.factored(bent(of), through=True)
-    y, R = args.solve(forces(of.x_rest.size)), reduction(of)
-    short = np.linalg.lstsq(R, y)[0]
-    np.testing.assert_allclose(R @ short, y, rtol=0, atol=1e-12 * np.abs(y).max())
 
 
 @pytest.mark.parametrize("name", ["glued", "loose quarter"])
