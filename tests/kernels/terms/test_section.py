@@ -1,12 +1,10 @@
 """Bent sections: stretch of fibres, the law and its derivatives, elements that bend through it."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 
 from kernels.terms import section
-from kernels.terms.section import fibre, radial, stop
+from kernels.terms.section import fibre, stop
 from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 from sweep.scene.lattice import build_scene
@@ -89,13 +87,6 @@ def test_derivatives_of_the_stretch_of_a_fibre(nu):
         np.testing.assert_allclose(rows[0, :2], fibre(1 / m, q)[1:], rtol=1e-6, atol=1e-8)
     below, above = (np.array(fibre(1 / m, least * (1.0 + side))) for side in (-1e-9, 1e-9))
     np.testing.assert_allclose(below, above, rtol=1e-7, atol=1e-12)
-
-
-@pytest.mark.parametrize("part", [stop, partial(radial, 3.0)], ids=["stop", "radial"])
-@pytest.mark.parametrize("theta", [0.0, 0.1, 0.7, 1.0, -1.3, 2.0, 3.0])
-def test_derivatives_of_the_stop_and_the_radial_part(theta, part):
-    rows = differences(lambda x: np.array(part(x[0])), np.array([theta]), np.array([1e-3]))
-    np.testing.assert_allclose(rows[0, :2], part(theta)[1:], rtol=0, atol=1e-8)
 
 
 def test_the_stop_begins_where_faces_meet():
