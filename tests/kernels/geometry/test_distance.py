@@ -16,39 +16,27 @@ def placed(along, across):
     return np.array([*(np.array(SEGMENT[:2]) + along * ALONG + across * ACROSS), *SEGMENT])
 
 
-def half_square(d):
-    """Energy, slope and curvature of 1/2 (d - 1)^2."""
-    return 0.5 * (d - 1.0) ** 2, d - 1.0, 1.0
-
-
-def term_of_segment():
-    """Energy 1/2 (d - 1)^2 of the distance from the segment."""
+def term_of(distance_at, push, stiffen):
+    """Energy 1/2 (d - 1)^2 of a distance."""
 
     def slope(x, g):
-        value, force, _ = half_square(np.sqrt(distance.squared_distance(x, POINT, START, END)))
-        distance.push(g, x, POINT, START, END, force)
-        return value
+        d = distance_at(x)
+        push(g, x, d - 1.0)
+        return 0.5 * (d - 1.0) ** 2
 
-    def add(x, matrix):
-        _, force, stiffness = half_square(np.sqrt(distance.squared_distance(x, POINT, START, END)))
-        distance.push_stiffen(matrix, x, POINT, START, END, stiffness, force)
-
-    return of_points(slope, add)
+    return of_points(slope, lambda x, matrix: stiffen(matrix, x, 1.0, distance_at(x) - 1.0))
 
 
-def term_of_node():
-    """The same for the distance from the start of the segment."""
-
-    def slope(x, g):
-        value, force, _ = half_square(distance.direction(x, START, POINT)[2])
-        distance.push_point(g, x, POINT, START, force)
-        return value
-
-    def add(x, matrix):
-        _, force, stiffness = half_square(distance.direction(x, START, POINT)[2])
-        distance.push_point_stiffen(matrix, x, POINT, START, stiffness, force)
-
-    return of_points(slope, add)
+SEGMENT_TERM = term_of(
+    lambda x: np.sqrt(distance.squared_distance(x, POINT, START, END)),
+    lambda g, x, force: distance.push(g, x, POINT, START, END, force),
+    lambda matrix, x, *slopes: distance.push_stiffen(matrix, x, POINT, START, END, *slopes),
+)
+NODE_TERM = term_of(
+    lambda x: distance.direction(x, START, POINT)[2],
+    lambda g, x, force: distance.push_point(g, x, POINT, START, force),
+    lambda matrix, x, *slopes: distance.push_point_stiffen(matrix, x, POINT, START, *slopes),
+)
 
 
 @pytest.mark.parametrize(
@@ -99,20 +87,11 @@ def test_derivatives_against_differences(along, across, length):
     The length 1 of the energy stays, so that forces push in one unit and pull in the other.
     """
     x = length * placed(along, across)
-    assert derivative_error(term_of_segment(), x, length, 1e-4) < 1e-8
-    assert derivative_error(term_of_node(), x, length, 1e-4) < 1e-8
+    assert derivative_error(SEGMENT_TERM, x, length, 1e-4) < 1e-8
+    assert derivative_error(NODE_TERM, x, length, 1e-4) < 1e-8
 
 
 @pytest.mark.parametrize("tau", [0.0, 1.0])
 def test_the_slope_is_continuous_where_the_closest_point_reaches_an_end(tau):
-    sides = [term_of_segment().gradient(placed(tau + e, 0.5)) for e in (-1e-9, 1e-9)]
+    sides = [SEGMENT_TERM.gradient(placed(tau + e, 0.5)) for e in (-1e-9, 1e-9)]
     np.testing.assert_allclose(*sides, rtol=0, atol=1e-8)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_a_push_has_neither_resultant_nor_moment(seed):
-    x = np.random.default_rng(seed).uniform(-1, 1, 6)
-    g = term_of_segment().gradient(x).reshape(3, 2)
-    arms = x.reshape(3, 2)
-    np.testing.assert_allclose(g.sum(axis=0), 0.0, atol=1e-14)
-    assert np.sum(arms[:, 0] * g[:, 1] - arms[:, 1] * g[:, 0]) == pytest.approx(0.0, abs=1e-14)

@@ -10,7 +10,6 @@ from tests.support.kernels.pressed_plates import (
     CASES,
     SIDE,
     STATES,
-    bent,
     neighbours_of,
     pinched,
     reduction,
@@ -32,7 +31,7 @@ def forces(size):
     return np.random.default_rng(3).uniform(-1, 1, size)
 
 
-@pytest.mark.parametrize("name", ["glued", "struck"])
+@pytest.mark.parametrize("name", CASES)
 def test_solutions_are_those_of_the_dense_matrix(name):
     of = scene(name)
     x, R = near_rest(of), reduction(of)
@@ -61,13 +60,6 @@ def test_directions_of_descent_have_the_negative_pivot(name, state):
         assert short @ H @ short == pytest.approx(pivot, rel=1e-6)
         args.factored(x, through=True)
         assert args.problem.unstable() == np.count_nonzero(np.linalg.eigvalsh(H) < 0.0)
-
-
-def test_some_of_these_states_are_unstable():
-    """Else nothing is tested above; and others are not."""
-    found = [whole(scene(n), s(scene(n))).factored(s(scene(n)))[0] for n in CASES
-             for s in (bent, pinched, near_rest)]  # fmt: skip
-    assert {NEGATIVE, POSITIVE} == set(found)
 
 
 def test_a_shift_is_added_to_the_hessian():
@@ -128,16 +120,6 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
             of.x_rest, args.step, there.found(of.x_rest)[1], False, False
         )
         assert (result != NO_ROOM) == has_room
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_solutions_obey_the_constraints(name):
-    of = scene(name)
-    args = whole(of, bent(of))
-    args.factored(bent(of), through=True)
-    y, R = args.solve(forces(of.x_rest.size)), reduction(of)
-    short = np.linalg.lstsq(R, y)[0]
-    np.testing.assert_allclose(R @ short, y, rtol=0, atol=1e-12 * np.abs(y).max())
 
 
 @pytest.mark.parametrize("name", ["glued", "loose quarter"])

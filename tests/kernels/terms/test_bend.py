@@ -1,7 +1,5 @@
 """Bending: derivatives, exact beams, joints, both elements and measures."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -66,14 +64,10 @@ def test_derivatives_of_a_bent_wall(turn, measure, length):
 
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("measure", MEASURES)
-@pytest.mark.parametrize("seed", range(4))
-def test_derivatives_in_random_states(seed, measure, element):
-    x = shaken(FRAME, seed, 0.3)
+@pytest.mark.parametrize(("seed", "amount"), [(0, 0.0), (1, 0.3), (2, 0.3)])
+def test_derivatives_at_rest_and_in_random_states(seed, amount, measure, element):
+    x = shaken(FRAME, seed, amount)
     assert derivative_error(term_of(FRAME, measure, element), x, FRAME.unit, 2e-4) < 1e-7
-
-
-def test_derivatives_at_rest():
-    assert derivative_error(term_of(FRAME), FRAME.rest, FRAME.unit, 2e-4) < 1e-7
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
@@ -98,17 +92,15 @@ def test_a_straight_wall_of_cubics_is_exactly_a_beam(pieces, element):
 
 
 def test_a_classical_wall_has_discrete_hinges():
-    """Eliminating phi of the node leaves Y I / h (turn of the hinge)^2 / 2."""
-    x = bent(0.8)
+    """Eliminating phi of the node leaves Y I / h (turn of the hinge)^2 / 2; twice that at the
+    clamped end.
+    """
+    x, k = bent(0.8), HINGE.rigidity[0]
     x[8] = 0.4
-    k = HINGE.rigidity[0]
-    ends = 0.5 * 2.0 * k * 0.8**2  # of the second element against its clamped end
     for measure, turned in ((bend.ANGLE, 0.8), (bend.TANGENT, 2 * np.tan(0.4))):
         term = term_of(HINGE, measure, "classical")
         assert np.abs(term.gradient(x)[8]) < 1e-9 * k
-        clamped = ends if measure == bend.ANGLE else 0.5 * 2.0 * k * (2 * np.tan(0.4)) ** 2
-        expected = 0.5 * k * turned**2 + clamped
-        assert term.energy(x) == pytest.approx(expected, rel=1e-12)
+        assert term.energy(x) == pytest.approx((0.5 + 1.0) * k * turned**2, rel=1e-12)
 
 
 @pytest.mark.parametrize("turn", [0.5 * np.pi, 0.6 * np.pi, -2.0])
@@ -120,13 +112,11 @@ def test_half_a_hinge_that_turns_too_far_takes_infinite_energy(turn):
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("seed", range(3))
-def test_the_measures_agree_to_the_second_order(seed, element):
+def test_the_measures_agree_to_the_second_order(element):
     """C tan(d/c) = d + d^3/(3 c^2): energies differ in the fourth power of d."""
-    move = shaken(FRAME, seed) - FRAME.rest
     apart = []
-    for size in (0.1, 0.05):
-        x = FRAME.rest + size * move
+    for size in (0.02, 0.01):
+        x = shaken(FRAME, 0, size)
         one, two = (term_of(FRAME, measure, element).energy(x) for measure in MEASURES)
         apart.append(two - one)
     assert apart[0] > 0
@@ -143,13 +133,3 @@ def test_eliminating_the_rotation_leaves_a_hinge_between_every_pair_of_arms():
     x[8], x[9:12] = k @ turn / k.sum(), turn
     pairs = 0.5 * np.outer(k, k) / k.sum() * 0.5 * (turn[:, None] - turn) ** 2
     assert term_of(of, element="classical").energy(x) == pytest.approx(pairs.sum(), rel=1e-12)
-
-
-def test_units_change_nothing():
-    metre = scaled(FRAME, 1e-3)
-    x = shaken(FRAME, 3)
-    small = x.copy()
-    small[: 2 * len(FRAME.points)] *= 1e-3
-    in_mm = term_of(FRAME).energy(x)
-    assert term_of(metre).energy(small) == pytest.approx(1e-3 * in_mm, rel=1e-12)
-    assert term_of(replace(FRAME, modulus=24.0)).energy(x) == pytest.approx(2 * in_mm)

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from kernels.geometry import distance, near_pairs
+from kernels.geometry import near_pairs
 from kernels.laws.barrier import barrier
 from kernels.terms import contact
 from tests.support.kernels.frames import (
-    carried,
-    frame,
     grid,
     only,
     scaled,
@@ -16,7 +14,7 @@ from tests.support.kernels.frames import (
     touching,
     two_walls,
 )
-from tests.support.kernels.terms import Term, derivative_error, least_share, of_points, touch_of
+from tests.support.kernels.terms import Term, derivative_error, least_share, touch_of
 
 T = 0.8
 ONE = two_walls(0.5, (1, 1))
@@ -44,38 +42,6 @@ def node_at(x, node, place):
     x = x.copy()
     x[2 * node : 2 * node + 2] = place
     return x
-
-
-def push(x, g):
-    distance.push(g, x, 0, 1, 2, 1.0)
-    return distance.squared_distance(x, 0, 1, 2) ** 0.5
-
-
-DISTANCE = of_points(push, lambda x, matrix: distance.push_stiffen(matrix, x, 0, 1, 2, 0.0, 1.0))
-
-
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
-@pytest.mark.parametrize("height", [0.02, 0.5, 3.0])
-@pytest.mark.parametrize("along", [-0.7, -0.01, 0.01, 0.3, 0.99, 1.01, 1.6])
-def test_derivatives_of_the_distance(along, height, length):
-    """Inside, beyond both ends, and just on either side of where the closest point is an end."""
-    x = length * (
-        np.array([along, height, 0, 0, 1, 0]) @ np.kron(np.eye(3), [[0.8, 0.6], [-0.6, 0.8]])
-    )
-    assert derivative_error(DISTANCE, x, length, 1e-3 * min(height, 1.0)) < 1e-6
-    assert DISTANCE.energy(x) == pytest.approx(
-        length * np.hypot(height, min(along, 0) + max(along - 1, 0))
-    )
-
-
-@pytest.mark.parametrize("end", [0.0, 1.0])
-def test_the_gradient_of_the_distance_is_continuous_at_an_end(end):
-    inside, at, outside = (
-        DISTANCE.gradient(np.array([end + side, 0.4, 0, 0, 1, 0]))
-        for side in (1e-9 - 2e-9 * end, 0.0, 2e-9 * end - 1e-9)
-    )
-    np.testing.assert_allclose(inside, at, atol=1e-8)
-    np.testing.assert_allclose(outside, at, atol=1e-8)
 
 
 @pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
@@ -116,14 +82,6 @@ def test_the_gradient_is_continuous_over_a_vertex(along):
     np.testing.assert_allclose(slopes[1], slopes[0], atol=1e-5)
 
 
-@pytest.mark.parametrize("turn", [0.3, 1.6, -2.9])
-def test_a_rigid_motion_changes_no_energy(turn):
-    x = shaken(WALLS, 3, 0.1)
-    moved = carried(WALLS, x, turn)
-    before, after = (term_of(WALLS, y).energy(y) for y in (x, moved))
-    assert after == pytest.approx(before, rel=1e-10)
-
-
 @pytest.mark.parametrize("gap", [0.1, 0.5, 0.75])
 @pytest.mark.parametrize("pieces", [(n, m) for n in (1, 3, 6, 12, 24, 48) for m in (n, n + 1, 5)])
 def test_parallel_walls_count_once_at_any_mesh(pieces, gap):
@@ -131,31 +89,10 @@ def test_parallel_walls_count_once_at_any_mesh(pieces, gap):
     of = two_walls(gap, pieces)
     term = term_of(of, of.rest)
     assert term.energy(of.rest) == pytest.approx(4.0 * phi(gap), rel=1e-12)
+    assert contact.least_gap(of.rest, *near(of, of.rest), 0.0) == pytest.approx(gap)
     upper = 2 * np.unique(of.edges[pieces[0] :]) + 1
     expected = 4.0 * of.modulus * of.depth * barrier(gap / T)[1]
     assert term.gradient(of.rest)[upper].sum() == pytest.approx(expected, rel=1e-12)
-
-
-@pytest.mark.parametrize("pieces", [(1, 1), (6, 5)])
-def test_normal_forces_of_parallel_walls_add_up(pieces):
-    """The forces that friction uses: forces counted twice are subtracted again."""
-    of = two_walls(0.3, pieces)
-    touch, listed = near(of, of.rest)
-    found = contact.no_contacts(listed)
-    contact.detect(of.rest, touch, listed, 0.0, found)
-    forces = [contact.normal_force(touch, listed, found, n) for n in range(found.count[0])]
-    expected = -4.0 * of.modulus * of.depth * barrier(0.3 / T)[1]
-    assert sum(forces) == pytest.approx(expected, rel=1e-12)
-
-
-@pytest.mark.parametrize("gap", [0.2, 0.5, 0.7])
-@pytest.mark.parametrize("pieces", [3, 6, 12, 24, 48])
-def test_walls_staggered_by_half_an_element_count_once_but_for_their_ends(pieces, gap):
-    """The excess is due to the ends: nodes beyond the other wall are near its end."""
-    shift = 0.5 * 4.0 / pieces
-    of = two_walls(gap, (pieces, pieces), shift=shift)
-    energy = term_of(of, of.rest).energy(of.rest)
-    assert 1 - 1e-12 < energy / ((4.0 - shift) * phi(gap)) < 1.035
 
 
 def test_tilted_walls_converge_with_the_square_of_the_element():
@@ -168,14 +105,6 @@ def test_tilted_walls_converge_with_the_square_of_the_element():
     np.testing.assert_allclose(np.log2(change[:-1] / change[1:]), 2.0, atol=0.15)
 
 
-def test_contact_starts_at_the_mean_thickness():
-    of = frame([(0, 0), (4, 0), (0, 1), (4, 1)], [(0, 1), (2, 3)], 3, [0.8, 0.4])
-    for gap, touches in ((0.6 + 1e-9, False), (0.599, True)):
-        x = of.rest.copy()
-        x[2 * np.unique(of.edges[3:]) + 1] = gap
-        assert (term_of(of, x).energy(x) > 0) == touches
-
-
 @pytest.mark.parametrize("gap", [0.0, 1e-12])
 @pytest.mark.parametrize("along", [0.0, 4 / 3, 0.5, 4.0])
 def test_touching_centre_lines_take_infinite_energy(along, gap):
@@ -185,13 +114,6 @@ def test_touching_centre_lines_take_infinite_energy(along, gap):
     of = two_walls(0.5, (3, 1))
     x = node_at(node_at(of.rest, 4, (4 / 3, 0.0)), 2, (along, gap))
     assert term_of(of, x).energy(x) == np.inf
-
-
-def test_units_change_nothing():
-    x = shaken(WALLS, 0, 0.1)
-    metre = scaled(WALLS, 1e-3)
-    in_mm = term_of(WALLS, x).energy(x)
-    assert term_of(metre, 1e-3 * x).energy(1e-3 * x) == pytest.approx(1e-3 * in_mm)
 
 
 def between_platens(low, high):
@@ -224,27 +146,6 @@ def test_a_wall_on_a_platen_has_its_length_times_phi_at_half_the_thickness():
     assert term.energy(between_platens(0.0, 30.0)) == np.inf
     assert term.energy(between_platens(0.1, 30.0)) == np.inf
     assert term.energy(between_platens(-0.4, 0.9)) == 0.0
-
-
-@pytest.mark.parametrize("fall", [0.1, 0.6, 5.0])
-def test_step_limit_is_the_first_contact_with_a_wall_or_a_platen(fall):
-    touch, listed = near(WALLS, WALLS.rest)
-
-    def limit(dx):
-        return contact.step_limit(WALLS.rest, dx, np.abs(dx).max(), touch, listed, 0.0)
-
-    down = np.zeros_like(WALLS.rest)
-    down[2 * np.unique(WALLS.edges[3:]) + 1] = -fall
-    if fall > 0.5:
-        assert limit(down) == pytest.approx(0.5 / fall)
-    else:
-        assert limit(down) > 1.0
-    assert limit(-down) == pytest.approx(99.5 / fall)
-    assert limit(np.zeros_like(down)) == np.inf
-    assert contact.least_gap(WALLS.rest, touch, listed, 0.0) == pytest.approx(0.5)
-    low = np.zeros_like(down)
-    low[-2] = 200.0
-    assert limit(low) == pytest.approx(0.5)
 
 
 GRID = grid(2, 8.0, 4)

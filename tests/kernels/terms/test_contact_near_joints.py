@@ -5,7 +5,7 @@ import pytest
 
 from kernels.geometry import near_pairs
 from kernels.laws.barrier import barrier
-from kernels.terms import contact, contact_near_joints
+from kernels.terms import contact
 from tests.support.kernels.frames import (
     carried,
     contact_of,
@@ -13,7 +13,6 @@ from tests.support.kernels.frames import (
     grid,
     joint_of_four,
     only,
-    scaled,
 )
 from tests.support.kernels.terms import touch_of
 
@@ -220,42 +219,6 @@ def test_contact_of_a_closing_corner_converges():
     assert np.all(change[2] < 0.7 * change[1])
 
 
-@pytest.mark.parametrize("opening", [15.0, 25.0, 35.0, 50.0])
-def test_straight_arms_touch_about_as_far_as_their_faces_overlap(opening):
-    """In a solid, up to t / (2 tan(g/2)) along both arms; here, up to where s sin(g) = t_c."""
-    of, g = star(0.0, 90.0, pieces=96), np.radians(opening)
-    touch, x = contact_of(of), folded(of, 96, g)
-    listed = near_pairs.find(x, touch, 2.0)
-    found = contact.no_contacts(listed)
-    contact.detect(x, touch, listed, 0.0, found)
-    kept = found.pair[: found.count[0]][found.end[: found.count[0]] < 0]
-    farthest = np.linalg.norm(of.points[listed.node[kept]], axis=1).max()
-    path = T * np.sqrt(np.tan(g / 2) ** -2 - 1)
-    assert farthest * (1 + np.cos(g)) == pytest.approx(path, abs=2.5 * 4.0 / 96)
-    assert 0.97 < farthest / (0.5 * T / np.tan(g / 2)) < 1.1
-
-
-def test_a_pair_near_at_rest_starts_at_nine_tenths_of_its_distance():
-    of = frame([(0, 0), (4, 0), (0, 0.5), (4, 0.5)], [(0, 1), (2, 3)], [3, 4])
-    touch = contact_of(of)
-    for gap, expected in ((0.46, 0.0), (0.44, barrier(0.44 / 0.45)[0])):
-        x = of.rest.copy()
-        x[2 * np.unique(of.edges[3:]) + 1] = gap
-        energy = touch_of(touch, near_pairs.find(x, touch, 2.0), x).energy(x)
-        assert energy == pytest.approx(4.0 * of.modulus * of.depth * 0.45 * expected, rel=1e-3)
-
-
-def test_what_is_far_along_the_network_touches_with_its_full_length():
-    """Legs of a U of thick walls are apart by more than t, and may touch but near the bend."""
-    of = frame([(0, 0), (6, 0), (6, 1.0), (0, 1.0)], [(0, 1), (1, 2), (2, 3)], [12, 2, 12])
-    touch = contact_of(of)
-    weight, distance, _ = rules(touch, 0)
-    assert weight[-1] == touch.tributary[0]
-    assert distance[-1] == T
-    bend = np.flatnonzero(np.any(of.edges == 2, axis=1))
-    assert np.all(rules(touch, 1)[0][bend[1:]] < touch.tributary[1])
-
-
 def test_no_contact_starts_beyond_the_thickness_of_the_walls():
     """Walls that leave a sharp corner and bend apart: neighbour lists reach one thickness far."""
     ends = [(3 + 4 * np.cos(1.2), -4 * np.sin(1.2)), (3, 0), (0, 0), (3, 0.26)]
@@ -268,24 +231,6 @@ def test_no_contact_starts_beyond_the_thickness_of_the_walls():
     apart = listed.distance > 5.0 * T
     assert np.any(touch.special_weight[listed.rule[apart & (listed.rule >= 0)]] == 0.0)
     assert listed.d_contact.max() <= touch.reach
-
-
-@pytest.mark.parametrize("of", [joint_of_four(), grid(2, 8.0, 4), star(0, 10, 20)])
-def test_every_node_has_one_owner(of):
-    subtract = contact_near_joints.owners(len(of.points), of.edges)
-    owned = np.bincount(of.edges.ravel(), (1.0 - subtract).ravel(), len(of.points))
-    np.testing.assert_array_equal(owned, 1.0)
-
-
-def test_units_change_nothing():
-    of = star(0, 45, 200, pieces=[3, 6, 3], thickness=[0.8, 0.4, 1.2])
-    metre = contact_of(scaled(of, 1e-3))
-    touch = contact_of(of)
-    assert len(touch.special_node) > 20
-    np.testing.assert_array_equal(metre.special_node, touch.special_node)
-    np.testing.assert_array_equal(metre.special_subtract, touch.special_subtract)
-    np.testing.assert_allclose(metre.special_weight, 1e-3 * touch.special_weight, atol=1e-15)
-    np.testing.assert_allclose(metre.special_distance, 1e-3 * touch.special_distance)
 
 
 def polyline(rng, rise):

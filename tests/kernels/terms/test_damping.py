@@ -26,18 +26,13 @@ from tests.support.kernels.terms import (
 
 FRAME = joint_of_four()
 DT = 0.02
-MASS, RAYLEIGH, VISCOUS = (
-    damping.Damp(3.0, 0, 0),
-    damping.Damp(3.0, 0.5, 0),
-    damping.Damp(0, 0, 0.4),
-)
-ALL = damping.Damp(3.0, 0.5, 0.4)
-MODELS = [MASS, RAYLEIGH, VISCOUS, ALL]
+RAYLEIGH, VISCOUS = damping.Damp(3.0, 0.5, 0.0), damping.Damp(0.0, 0.0, 0.4)
+MODELS = [damping.Damp(3.0, 0.0, 0.0), RAYLEIGH, VISCOUS, damping.Damp(3.0, 0.5, 0.4)]
 MEASURES = [bend.ANGLE, bend.TANGENT]
 
 
 def damped(of, model, measure=bend.ANGLE, law=curve_law):
-    return terms_of(of, point_of(law(of.modulus)), measure, damping.Damp(*map(float, model)))
+    return terms_of(of, point_of(law(of.modulus)), measure, model)
 
 
 def term_of(terms, x0) -> Term:
@@ -58,17 +53,10 @@ def elastic(terms, x, projected=False):
 
 @pytest.mark.parametrize("measure", MEASURES)
 @pytest.mark.parametrize("damping", MODELS)
-@pytest.mark.parametrize("seed", range(2))
-def test_derivatives_in_random_states(seed, damping, measure):
-    term = term_of(damped(FRAME, damping, measure), shaken(FRAME, 10 + seed))
-    assert derivative_error(term, shaken(FRAME, seed), FRAME.unit, 3e-4) < 1e-7
-
-
-@pytest.mark.parametrize("damping", [RAYLEIGH, VISCOUS])
-@pytest.mark.parametrize("length", [1e-3, 1e3])
-def test_derivatives_in_other_units(damping, length):
+@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+def test_derivatives_in_random_states(length, damping, measure):
     of = scaled(FRAME, length)
-    term = term_of(damped(of, damping), shaken(of, 10))
+    term = term_of(damped(of, damping, measure), shaken(of, 10))
     assert derivative_error(term, shaken(of, 1), of.unit, 3e-4) < 1e-7
 
 
@@ -97,8 +85,7 @@ def test_rayleigh_is_mass_and_projected_stiffness(seed, measure):
     assert term.gradient(x) @ move == pytest.approx(2 * term.energy(x))
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_viscous_stiffness_at_rest_is_the_elastic_one(seed):
+def test_viscous_stiffness_at_rest_is_the_elastic_one():
     """Kelvin-Voigt: relaxation time x the stiffness of the straight frame, couplings included."""
     terms = damped(FRAME, VISCOUS, law=linear_law)
     term = term_of(terms, FRAME.rest)
@@ -106,34 +93,18 @@ def test_viscous_stiffness_at_rest_is_the_elastic_one(seed):
     np.testing.assert_allclose(
         term.hessian(FRAME.rest), expected, rtol=0, atol=1e-12 * np.abs(expected).max()
     )
-    small = 1e-5 * (shaken(FRAME, seed) - FRAME.rest)
-    work = term.gradient(FRAME.rest + small) @ small
-    assert work == pytest.approx(small @ expected @ small, rel=1e-3)
-
-
-@pytest.mark.parametrize("turn", [0.0, 0.3, 2.5])
-def test_a_rigid_motion_has_no_viscous_cost(turn):
-    """The motion is less than half a turn: turns are measured against the start of the step."""
-    x0 = shaken(FRAME, 4)
-    x = carried(FRAME, x0, turn)
-    term = term_of(damped(FRAME, VISCOUS), x0)
-    apart = term.energy(shaken(FRAME, 5))
-    assert apart > 1.0
-    assert term.energy(x) < 1e-20 * apart
-    assert np.abs(term.gradient(x)).max() < 1e-9
 
 
 @pytest.mark.parametrize("turn", [0.5, 2.5])
 def test_viscous_cost_is_objective(turn):
+    """Motions are less than half a turn: turns are measured against the start of the step."""
     terms, x0, x = damped(FRAME, VISCOUS), shaken(FRAME, 4), shaken(FRAME, 5)
-    plain = term_of(terms, x0).energy(x)
-    both = term_of(terms, carried(FRAME, x0, 1.0)).energy(carried(FRAME, x, turn))
-    assert both == pytest.approx(plain, rel=1e-11)
-
-
-def test_the_exact_viscous_hessian_can_be_indefinite():
-    term, x = term_of(damped(FRAME, VISCOUS), shaken(FRAME, 30, 0.4)), shaken(FRAME, 0, 0.4)
-    assert np.linalg.eigvalsh(term.hessian(x))[0] < -1.0
+    plain, turned = term_of(terms, x0), term_of(terms, carried(FRAME, x0, 1.0))
+    assert plain.energy(x) > 1.0
+    assert turned.energy(carried(FRAME, x, turn)) == pytest.approx(plain.energy(x), rel=1e-11)
+    moved = carried(FRAME, x0, turn)
+    assert plain.energy(moved) < 1e-20 * plain.energy(x)
+    assert np.abs(plain.gradient(moved)).max() < 1e-9
 
 
 def test_viscous_stress_of_a_bar_that_is_pulled():

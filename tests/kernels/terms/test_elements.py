@@ -10,7 +10,6 @@ from tests.support.kernels.terms import (
     assembled,
     derivative_error,
     least_share,
-    motions,
     of_walls,
     room,
 )
@@ -18,15 +17,6 @@ from tests.support.kernels.terms import (
 FRAME = joint_of_four()
 WALLS = walls_of(FRAME)
 BAR = frame([(0, 0), (2.0, 1.0)], [(0, 1)], 1)
-
-
-def random_stiffness(seed):
-    """Any symmetric one."""
-    *_, stiffness = room(WALLS)
-    rng = np.random.default_rng(seed)
-    for part in stiffness:
-        part[:] = rng.uniform(-1, 1, part.shape)
-    return stiffness
 
 
 def measured(x, x0=None, of=FRAME):
@@ -56,17 +46,6 @@ def quadratic(of, seed, definite=True) -> Term:
     return of_walls(walls_of(of), write)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_measure_fills_directions_and_lengths(seed):
-    x = shaken(FRAME, seed)
-    shortest, shape = measured(x)
-    along = (motions(WALLS, x.size) @ x)[:, :2]
-    length = np.linalg.norm(along, axis=1)
-    assert shortest == pytest.approx(length.min(), rel=1e-14)
-    np.testing.assert_allclose(shape.length, length, rtol=1e-14)
-    np.testing.assert_allclose(shape.t, (along / length[:, None]).T, rtol=0, atol=1e-14)
-
-
 @pytest.mark.parametrize("turn", [0.3, np.pi / 2, 3.1, 3.2, -40.0])
 def test_a_rigid_motion_changes_no_deformation(turn):
     """Any number of turns: ends are measured against their own rotation and never wrap."""
@@ -89,12 +68,6 @@ def test_a_point_that_is_no_number_has_turns_that_are_none(place, monkeypatch):
     for measure in (elements.measure, plain):
         monkeypatch.setattr(elements, "measure", measure)
         assert np.isnan(measured(x, FRAME.rest)[1].turn[:, 0]).all()
-
-
-def test_the_rest_state_has_no_turns():
-    _, shape = measured(FRAME.rest)
-    np.testing.assert_allclose(shape.turn, 0.0, atol=1e-15)
-    np.testing.assert_allclose(shape.length, FRAME.l0, rtol=1e-15)
 
 
 @pytest.mark.parametrize("definite", [True, False])
@@ -123,42 +96,3 @@ def test_without_the_geometric_part_a_pulled_bar_resists_nothing_across():
         across = np.array([-1.0, 2.0]) / np.sqrt(5.0)
         found = across @ assembled(walls, stiffness, x.size)[2:4, 2:4] @ across
         assert found == pytest.approx(expected, abs=1e-14)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_a_product_is_that_of_the_whole_matrix(seed):
-    stiffness, (shape, *_) = random_stiffness(seed), room(WALLS)
-    u = np.random.default_rng(seed + 9).uniform(-1, 1, FRAME.rest.size)
-    shape.slope[:] = 0.3  # of another term: it stays
-    before, found = np.zeros((2, u.size))
-    elements.gather(WALLS, shape, before)
-    form = elements.product(WALLS, stiffness, u, 0.7, shape)
-    elements.gather(WALLS, shape, found)
-    expected = assembled(WALLS, stiffness, u.size) @ u
-    assert np.abs(expected).max() > 0.1
-    np.testing.assert_allclose(found - before, 0.7 * expected, rtol=0, atol=1e-13)
-    assert form == pytest.approx(u @ expected, rel=1e-12)
-
-
-def test_gather_is_the_transpose_of_the_motions():
-    """Earlier entries stay."""
-    shape, *_ = room(WALLS)
-    shape.slope[:] = np.random.default_rng(1).uniform(-1, 1, shape.slope.shape)
-    g = np.ones(FRAME.rest.size)
-    elements.gather(WALLS, shape, g)
-    expected = np.einsum("kpi,pk->i", motions(WALLS, g.size), shape.slope)
-    np.testing.assert_allclose(g, 1.0 + expected, rtol=0, atol=1e-14)
-
-
-def test_sums_are_scaled_and_cleared():
-    one, other, (shape, *_) = random_stiffness(1), random_stiffness(2), room(WALLS)
-    expected = [a + 0.3 * b for a, b in zip(one, other, strict=True)]
-    elements.add_scaled(one, other, 0.3)
-    for found, part in zip(one, expected, strict=True):
-        np.testing.assert_allclose(found, part, rtol=1e-14)
-    elements.product(WALLS, other, np.ones(FRAME.rest.size) + FRAME.rest, 1.0, shape)
-    shape.length[:] = 1.0
-    assert shape.slope.any()
-    elements.clear(shape, one)
-    assert not any(part.any() for part in (*one, shape.slope))
-    assert np.all(shape.length == 1.0)

@@ -13,7 +13,6 @@ from tests.support.kernels.terms import (
     differences,
     least_share,
     of_points,
-    touch_of,
 )
 
 MU, T = 0.3, 0.8
@@ -54,12 +53,6 @@ def slid(amount):
     x = WALLS.rest.copy()
     x[2 * UPPER] += amount
     return x
-
-
-def moment(g, x):
-    """Return the moment of nodal forces about the origin."""
-    n = 2 * len(WALLS.points)
-    return float(np.sum(x[0:n:2] * g[1:n:2] - x[1:n:2] * g[0:n:2]))
 
 
 def normal_force(gap, of=WALLS):
@@ -123,8 +116,9 @@ def test_derivatives_in_random_states(seed, slip, length):
     x0 = shaken(of, seed, 0.1)
     contacts, _, _ = lagged_of(of, x0)
     assert len(contacts.load) > 5
-    term = term_of(x0, contacts, slip * length)
-    assert derivative_error(term, shaken(of, seed + 9, 0.1), of.unit, 1e-5) < 1e-6
+    term, x = term_of(x0, contacts, slip * length), shaken(of, seed + 9, 0.1)
+    assert derivative_error(term, x, of.unit, 1e-5) < 1e-6
+    assert slip < 0.5 or least_share(term, x) > -1e-12  # all slides with the smaller one
 
 
 @pytest.mark.parametrize("amount", [0.0, 0.002, -0.009, 0.011, 0.5])
@@ -144,65 +138,22 @@ def test_walls_that_turn_together_do_not_slip(bearing):
     assert term_of(x, moved, 1e-3).energy(turned) < 1e-9 * slides
 
 
-def test_a_step_that_stays_costs_nothing():
-    x = shaken(WALLS, 1, 0.1)
-    contacts, _, _ = lagged_of(WALLS, x)
-    assert term_of(x, contacts, 0.01).energy(x) == pytest.approx(0.0, abs=1e-15)
-    assert not term_of(x, contacts, 0.01).gradient(x).any()
-
-
 @pytest.mark.parametrize("pieces", [(1, 1), (3, 2), (12, 7), (24, 24)])
-@pytest.mark.parametrize("gap", [0.2, 0.6])
-def test_the_load_is_mu_times_the_normal_force_of_contact(gap, pieces):
-    """Counted once with any mesh, half of it from each side."""
+@pytest.mark.parametrize(("gap", "way"), [(0.2, 1.0), (0.6, -1.0)])
+def test_sliding_walls_resist_with_mu_times_the_normal_force(gap, way, pieces):
+    """Counted once with any mesh."""
     of = two_walls(gap, pieces)
-    contacts, touch, listed = lagged_of(of, of.rest)
+    contacts, _, _ = lagged_of(of, of.rest)
+    x, limit = of.rest.copy(), MU * 4.0 * normal_force(gap)
     upper = np.unique(of.edges[pieces[0] :])
-    lift = touch_of(touch, listed, of.rest).gradient(of.rest)[2 * upper + 1].sum()
-    assert contacts.load.sum() == pytest.approx(-MU * lift, rel=1e-11)
-    assert contacts.load.sum() == pytest.approx(MU * 4.0 * normal_force(gap), rel=1e-11)
-
-
-@pytest.mark.parametrize("way", [1.0, -1.0])
-def test_sliding_walls_resist_with_mu_times_the_normal_force(way):
-    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
-    limit = MU * 4.0 * normal_force(0.5)
-    g = term_of(WALLS.rest, contacts, 1e-3).gradient(slid(0.1 * way))
-    assert g[2 * UPPER].sum() == pytest.approx(way * limit, rel=1e-11)
-    assert g[0 : 2 * len(WALLS.points) : 2].sum() == pytest.approx(0.0, abs=1e-9)
-    assert abs(moment(g, WALLS.rest)) < 1e-9 * limit
-    energy = term_of(WALLS.rest, contacts, 1e-3).energy(slid(0.1 * way))
+    x[2 * upper] += 0.1 * way
+    energy, g = term_of(of.rest, contacts, 1e-3).energy_gradient(x)
+    assert g[2 * upper].sum() == pytest.approx(way * limit, rel=1e-11)
+    forces = g[: 2 * len(of.points)].reshape(-1, 2)
+    assert forces[:, 0].sum() == pytest.approx(0.0, abs=1e-9)
+    moment = of.points[:, 0] @ forces[:, 1] - of.points[:, 1] @ forces[:, 0]
+    assert abs(moment) < 1e-9 * limit
     assert energy == pytest.approx(limit * (0.1 - 1e-3 / 3), rel=1e-11)
-
-
-@pytest.mark.parametrize("share", [1e-3, 0.1, 0.5, 0.9])
-def test_sticking_walls_resist_with_less_than_the_limit(share):
-    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
-    limit = MU * 4.0 * normal_force(0.5)
-    g = term_of(WALLS.rest, contacts, 1e-3).gradient(slid(share * 1e-3))
-    assert g[2 * UPPER].sum() == pytest.approx(limit * share * (2 - share), rel=1e-9)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_no_force_exceeds_the_load_whatever_the_motion(seed):
-    contacts, _, _ = lagged_of(WALLS, WALLS.rest, node=2)
-    assert np.all(contacts.load > 0)
-    for x in (shaken(WALLS, seed, 1e-4), shaken(WALLS, seed, 1.0)):
-        g = term_of(WALLS.rest, contacts, 1e-3).gradient(x)
-        assert np.linalg.norm(g[4:6]) <= contacts.load.sum() * (1 + 1e-12)
-
-
-def test_motion_along_the_normal_meets_no_friction():
-    x = WALLS.rest.copy()
-    x[2 * UPPER + 1] += 0.1
-    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
-    assert np.abs(term_of(WALLS.rest, contacts, 1e-3).gradient(x)).max() < 1e-9
-
-
-def test_a_common_translation_costs_nothing():
-    contacts, _, _ = lagged_of(WALLS, WALLS.rest)
-    x = carried(WALLS, WALLS.rest, 0.0, (0.8, -0.3))
-    assert term_of(WALLS.rest, contacts, 1e-3).energy(x) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_no_friction_or_no_contact_means_no_force():
@@ -265,14 +216,6 @@ def test_friction_opposes_every_move(seed):
         for _ in range(20):
             move = size * of.unit * rng.uniform(-1, 1, of.unit.size)
             assert move @ term.gradient(x0 + move) > 0.0
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_the_hessian_is_semi_definite(seed):
-    of = two_walls(0.5, (12, 7))
-    x0 = shaken(of, seed, 0.1)
-    term = term_of(x0, lagged_of(of, x0)[0], 0.5)
-    assert least_share(term, shaken(of, seed + 20, 0.1)) > -1e-12
 
 
 @pytest.mark.parametrize(("low", "high", "side"), [(-0.2, 30.0, 0), (-30.0, 0.75, 1)])

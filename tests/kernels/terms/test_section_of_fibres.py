@@ -66,11 +66,6 @@ def test_the_moment_beyond_yield_tends_to_the_closed_form(count, most):
     assert 0.5 * most < error_beyond_yield(count) < most
 
 
-@pytest.mark.parametrize(("count", "most"), [(5, 0.06), (6, 0.025), (7, 0.03), (9, 0.02)])
-def test_the_full_moment_is_one_and_a_half_of_that_at_yield(count, most):
-    assert abs(moment(plastic(count), 1e4 * FIRST) / FULL - 1.0) < most
-
-
 @pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
 def test_force_and_moment_interact(share):
     """(N / N_p)^2 + M / M_p = 1 with the axis that stays straight off the middle."""

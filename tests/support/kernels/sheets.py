@@ -55,6 +55,18 @@ def sheet_of_rubber() -> Sheet:
     return sheet.measured(rubber, LEAST, MODULUS)
 
 
+def strain(stretches: Any, angle: float = 0.0) -> Floats:
+    """c11 - 1, c22 - 1, c12 of principal stretches whose first direction is at ``angle``."""
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    c = turn @ np.diag(np.square(stretches)) @ turn.T
+    return np.array([c[0, 0] - 1.0, c[1, 1] - 1.0, c[0, 1]])
+
+
+def square(t: Any) -> Floats:
+    """A symmetric matrix from its upper triangle: 11, 12, 13, 22, 23, 33."""
+    return np.array([[t[0], t[1], t[2]], [t[1], t[3], t[4]], [t[2], t[4], t[5]]])
+
+
 def elastic_only(elastic: Any) -> RelaxingSheet:
     """A sheet as a law without branches."""
     return RelaxingSheet(elastic, np.empty(0), np.empty(0), elastic.shear_modulus)

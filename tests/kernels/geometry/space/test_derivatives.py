@@ -96,16 +96,3 @@ def test_the_gradient_is_continuous_over_sides_and_corners():
             off = 1e-9 * np.array([np.cos(angle), np.sin(angle)])
             slopes.append(TRIANGLE.gradient(turned([(*(place + off), 0.3), *CORNERS], 1.0)))
         np.testing.assert_allclose(slopes, np.tile(slopes[0], (7, 1)), atol=1e-7)
-
-
-def test_a_rigid_rotation_turns_the_force_with_it():
-    """The Hessian times a rotation of all points about an axis is the rotation of the gradient."""
-    for seed in range(10):
-        rng = np.random.default_rng(seed)
-        y, axis = rng.normal(size=12), rng.normal(size=3)
-        for term in (TRIANGLE, EDGES):
-            g = term.gradient(y).reshape(4, 3)
-            np.testing.assert_allclose(
-                term.hessian(y) @ np.cross(axis, y.reshape(4, 3)).ravel(),
-                np.cross(axis, g).ravel(), atol=1e-10,
-            )  # fmt: skip

@@ -85,22 +85,15 @@ def test_images_see_nothing_and_pairs_of_two_images_are_left_out():
     assert 100 < len(found) == len(set(found))
 
 
-@pytest.mark.parametrize("length", [1e-3, 1e3])
-def test_in_other_units_and_far_from_the_origin(length):
+@pytest.mark.parametrize(
+    ("length", "flat"), [(1e-3, ()), (1e3, ()), *((1.0, f) for f in [(0,), (2,), (0, 1), (1, 2)])]
+)
+def test_in_other_units_far_from_the_origin_in_a_plane_and_on_a_line(length, flat):
     points, triangles, edges = scattered(7)
-    x = placed(length * (points + 30.0))
-    radius = 0.2 * length
+    points[:, flat] = 0.25
+    x, radius = placed(length * (points + 30.0)), 0.2 * length
     assert triangles_near(x, 40, triangles, radius) == all_triangles(x, 40, triangles, radius)
     assert edges_near(x, edges, radius) == all_edges(x, edges, radius)
-
-
-@pytest.mark.parametrize("flat", [(0,), (2,), (0, 1), (1, 2)])
-def test_in_a_plane_and_on_a_line(flat):
-    points, triangles, edges = scattered(3)
-    points[:, flat] = 0.25
-    x = placed(points)
-    assert triangles_near(x, 40, triangles, 0.2) == all_triangles(x, 40, triangles, 0.2)
-    assert edges_near(x, edges, 0.2) == all_edges(x, edges, 0.2)
 
 
 def test_nothing_is_near_nothing():

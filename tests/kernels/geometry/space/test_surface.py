@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from kernels.geometry.space import surface
-from kernels.geometry.space.vectors import combined, cross, inner, length, minus, plus, row, times
 from tests.support.kernels.surfaces import Sheet
 
 
@@ -39,18 +38,3 @@ def test_strips_cover_the_surface_once():
     lengths = np.linalg.norm(np.diff(sheet.points[edges], axis=1)[:, 0], axis=1)
     assert widths @ lengths == pytest.approx(3.0)
     assert surface.area(sheet.points, sheet.triangles, 0) == pytest.approx(0.125)
-
-
-def test_vectors():
-    rng = np.random.default_rng(0)
-    a, b, c, d = rng.normal(size=(4, 3))
-    np.testing.assert_allclose(cross(a, b), np.cross(a, b), atol=1e-15)
-    np.testing.assert_allclose(minus(a, b), a - b)
-    np.testing.assert_allclose(plus(a, 2.0, b), a + 2.0 * b)
-    np.testing.assert_allclose(times(3.0, a), 3.0 * a)
-    assert inner(a, b) == pytest.approx(a @ b)
-    assert length(a) == pytest.approx(np.linalg.norm(a))
-    np.testing.assert_allclose(
-        combined((-1.5, -2.0, 0.5, 3.0), a, b, c, d), -1.5 * a - 2.0 * b + 0.5 * c + 3.0 * d
-    )
-    assert row(np.stack([a, b]), 1) == tuple(b)

@@ -69,14 +69,6 @@ def test_no_move_makes_surfaces_cross(speed):
     assert limited > 10
 
 
-def test_moves_that_cross_without_a_limit_do():
-    """The check of the check above."""
-    x, touch = wavy(0, 0.5, 0.1)
-    dx = np.zeros_like(x)
-    dx[:-2].reshape(-1, SIZE)[9:11, 2] = -1.0
-    assert crossings(x + dx, touch)[0] > 0
-
-
 @pytest.mark.parametrize("speed", [0.3, 3.0, 3e3])
 def test_an_edge_does_not_pass_an_edge(speed):
     """Ridges at right angles, pressed upon each other with all nodes far away."""

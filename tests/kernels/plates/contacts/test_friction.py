@@ -135,18 +135,6 @@ def test_what_moves_as_one_does_not_slip(seed):
             assert friction._slip(u, contacts, k) == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_forces_have_no_resultant(seed):
-    x0, touch = two(seed)
-    move = np.random.default_rng(seed).uniform(-0.1, 0.1, positions(x0).shape)
-    g = term_of(x0, lagged(x0, touch), 1e-2).gradient(moved(x0, move))
-    forces = g[:-2].reshape(-1, SIZE)[:, :3]
-    size = np.abs(forces).sum()
-    assert size > 0.5
-    np.testing.assert_allclose(forces.sum(axis=0), 0.0, atol=1e-13 * size)
-    np.testing.assert_allclose(np.cross(positions(x0), forces).sum(axis=0), 0, atol=1e-12 * size)
-
-
 def test_platens_hold_in_both_directions():
     sheet = Sheet(2, 2, 3.0, 3.0)
     points = sheet.points[:, [0, 2, 1]]

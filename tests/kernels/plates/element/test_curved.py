@@ -1,4 +1,4 @@
-"""Shells of any quads: derivatives, patches, and the benchmarks of curved shells.
+"""Benchmarks of curved shells.
 
 The benchmarks and their numbers are due to R. MacNeal and R. Harder (Finite Elements in Analysis
 and Design 1, 1985) and to T. Belytschko et al. (CMAME 51, 1985).
@@ -9,129 +9,11 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
-from kernels.plates.element import rotation, shell
 from tests.support.kernels import sheets
 from tests.support.kernels.shells import (
-    LINEAR,
-    Structure,
     element_hessians,
-    mapped,
-    shaken,
-    smooth,
-    stored,
     surface,
-    term_of,
 )
-from tests.support.kernels.terms import derivative_error
-
-RUBBER = sheets.elastic_only(sheets.sheet_of_rubber())
-
-
-def saddle(shake=0.2, grid=(2, 2)):
-    """A warped patch of a saddle, with quads that are neither flat nor rectangles."""
-
-    def place(u, v):
-        return np.column_stack([u + 0.3 * v, v, 0.4 * (u - 0.5) * (v - 0.4)])
-
-    def normal(u, v):
-        slopes = np.column_stack([-0.4 * (v - 0.4), -0.4 * (u - 0.5) + 0.12 * (v - 0.4)])
-        n = np.column_stack([slopes, np.ones(len(u))])
-        return n / np.linalg.norm(n, axis=1)[:, None]
-
-    return surface(grid, place, normal, shake=shake)
-
-
-def flat(shake, grid=(3, 3)):
-    """A skew plate in the plane of x and y, of distorted quads."""
-    return surface(
-        grid,
-        lambda u, v: np.column_stack([1.2 * u + 0.3 * v, v, 0.0 * u]),
-        lambda u, v: np.tile([0.0, 0.0, 1.0], (len(u), 1)),
-        shake=shake,
-    )
-
-
-@pytest.mark.parametrize("law", [LINEAR, RUBBER], ids=["linear", "rubber"])
-@pytest.mark.parametrize("state", [(0.0, 0.0), (0.05, 0.05), (0.15, 0.2)])
-def test_derivatives(state, law):
-    of = saddle()
-    x = shaken(of, 1, *state)
-    step, tolerance = (2e-4, 1e-9) if law is LINEAR else (1e-5, 1e-5)
-    assert derivative_error(term_of(of, law), x, of.unit, step) < tolerance
-
-
-def test_the_rest_shape_is_free_of_stress():
-    of = saddle()
-    energy, gradient = term_of(of).energy_gradient(of.rest)
-    assert energy == pytest.approx(0.0, abs=1e-25)
-    np.testing.assert_allclose(gradient, 0.0, atol=1e-12)
-
-
-@pytest.mark.parametrize("w", [(0.1, 0.2, -0.3), (1.5, -2.0, 0.7)])
-def test_rigid_motions_cost_nothing(w):
-    of, w = saddle(), np.array(w)
-    x = mapped(of, lambda p: np.array([rotation.turned(w, tuple(q)) for q in p]) + 0.3)
-    for i, frame in enumerate(of.frames):
-        x[6 * i + 3 : 6 * i + 6] = frame.reshape(3, 3).T @ w
-    energy, gradient = term_of(of).energy_gradient(x)
-    assert energy < 1e-24
-    np.testing.assert_allclose(gradient, 0.0, atol=1e-11)
-
-
-def test_areas_are_those_of_the_quads():
-    assert flat(0.25).walls.area.sum() == pytest.approx(1.2, rel=1e-12)
-
-
-@pytest.mark.parametrize("law", [LINEAR, RUBBER], ids=["linear", "rubber"])
-def test_uniform_stretch_is_exact_on_distorted_quads(law):
-    of, f = flat(0.25), np.array([[1.2, 0.1, 0.0], [-0.2, 0.9, 0.0], [0.0, 0.0, 1.0]])
-    c = (f.T @ f)[:2, :2]
-    expected = 0.12 * law.elastic.respond(c[0, 0] - 1, c[1, 1] - 1, c[0, 1])[0]
-    membrane, bending, sheared = stored(of, mapped(of, lambda p: p @ f.T), law)
-    assert membrane == pytest.approx(expected, rel=1e-12)
-    assert (bending, sheared) == pytest.approx((0.0, 0.0), abs=1e-12 * expected)
-
-
-def test_uniform_curvature_is_exact_on_distorted_quads():
-    """A cylinder, to the second order of its curvature, held across."""
-    k, of = 1e-5, flat(0.25)
-    x = of.rest
-    rows, s = x[:-2].reshape(-1, 6), of.points[:, 0]
-    rows[:, 2] += 0.5 * k * s**2
-    turn = np.zeros((len(s), 3))
-    turn[:, 1] = -0.25 * k * s  # about y, so that the normal leans by -k s
-    rows[:, 3:] = np.einsum("nij,ni->nj", of.frames.reshape(-1, 3, 3), turn)
-    expected = 0.5 * 12.0 * 0.1**3 / 12 / 0.75 * k**2 * 1.2
-    assert stored(of, x).sum() == pytest.approx(expected, rel=1e-5)
-
-
-def test_an_element_does_not_depend_on_its_first_corner():
-    of = saddle(grid=(1, 1))
-    x, whole = shaken(of, 3, 0.1, 0.1), []
-    for first in range(4):
-        other = smooth(
-            of.points, of.frames.reshape(-1, 3, 3)[:, :, 2], np.roll(of.walls.quads, first, 1)
-        )
-        whole.append(stored(Structure(of.points, of.frames, other.walls), x).sum())
-    np.testing.assert_allclose(whole, whole[0], rtol=1e-12)
-
-
-def test_a_rectangle_is_a_special_case():
-    of = flat(0.0, (2, 2))
-    plain = surface(
-        (2, 2),
-        lambda u, v: np.column_stack([1.2 * u, v, 0.0 * u]),
-        lambda u, v: np.tile([0.0, 0.0, 1.0], (len(u), 1)),
-    )
-    walls = plain.walls
-    as_flat = shell.rectangles(
-        walls.quads, walls.size, walls.thickness, walls.directors, walls.shear_modulus,
-        walls.fold_modulus,
-    )  # fmt: skip
-    x = shaken(plain, 2, 0.1, 0.1)
-    flat_one = Structure(plain.points, plain.frames, as_flat)
-    np.testing.assert_allclose(stored(plain, x), stored(flat_one, x), rtol=1e-12)
-    assert of.walls.axes.shape[0] == 4
 
 
 def solved(of, law, held, load):
