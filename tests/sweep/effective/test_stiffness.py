@@ -34,6 +34,15 @@ def test_slender_walls_follow_the_closed_forms(kind):
     assert np.abs(compliance[2, :2]).max() < 1e-6 * compliance[2, 2]
 
 
+def test_walls_much_deeper_than_thick_are_in_plane_strain():
+    thin, deep = (
+        response(frame_of(infill_of(slender("hex", plane=plane))))[0]
+        for plane in ("stress", "strain")
+    )
+    ratio = np.linalg.inv(thin)[1, 1] / np.linalg.inv(deep)[1, 1]
+    assert ratio == pytest.approx(1 / (1 - 0.3**2), rel=1e-3)
+
+
 @pytest.mark.parametrize("kind", ["square", "hex", "reentrant", "kagome", "circle"])
 def test_a_crush_of_the_engine_begins_with_this_modulus(kind):
     """Stocky walls that shear, with solid joints, of a linear material."""

@@ -13,12 +13,15 @@ from sweep.design.lattice import build_network
 from sweep.design.slicer.joining import joined
 from sweep.design.slicer.network import extruded_area
 from sweep.design.slicer.patterns import SLICERS
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.tables import DENSITY, lattice_with
+
+SIZES = [(20e-3, 20e-3), (24e-3, 24e-3)]
+SHARES = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8]
 
 
 def laid(size, slicer, pattern, infill, perimeters):
     """A sliced lattice, or the key by which it is refused."""
-    values = {"width": size, "height": size, "infill": infill, "perimeters": perimeters}
+    values = {"width": size[0], "height": size[1], "infill": infill, "perimeters": perimeters}
     try:
         return lattice_with(slicer=slicer, pattern=pattern, **values)
     except RefusedError as refused:
@@ -26,8 +29,8 @@ def laid(size, slicer, pattern, infill, perimeters):
 
 
 def check_frame(network, box, least):
-    """Each side (m) of a square is one chain from corner to corner, and all walls hang together; of
-    the infill, none that ends on a side is shorter than ``least`` (m).
+    """Each side is one chain from corner to corner, and all walls hang together; of the infill,
+    none that ends on a side is shorter than ``least`` (m).
     """
     ends = network.points[network.walls]
     on = (ends == 0.0) | (ends == box)
@@ -35,10 +38,10 @@ def check_frame(network, box, least):
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     assert length[on.any(axis=(1, 2)) & ~along].min() > (1.0 - 1e-6) * least
     for axis, side in product((0, 1), (0, 1)):
-        on = (ends[..., axis] == side * box).all(axis=1)
+        on = (ends[..., axis] == side * box[axis]).all(axis=1)
         along = np.sort(ends[on][..., 1 - axis], axis=1)
         along = along[np.argsort(along[:, 0])]
-        assert (along[0, 0], along[-1, 1]) == (0.0, box)
+        assert (along[0, 0], along[-1, 1]) == (0.0, box[1 - axis])
         assert (along[1:, 0] == along[:-1, 1]).all()
     assert (np.ptp(network.points, axis=0) == box).all()
     graph = coo_array((np.ones(len(ends)), network.walls.T), shape=(len(network.points),) * 2)
@@ -46,31 +49,37 @@ def check_frame(network, box, least):
 
 
 def test_no_drawing_loses_its_frame():
-    """Infills with cells less than twice as wide as their walls are refused."""
-    patterns = [("prusa", own) for own in SLICERS["prusa"]]
-    patterns += [("orca", own) for own in SLICERS["orca"] if own.startswith("lateral")]
-    patterns += [("cura", "grid")]
+    """All slicers and patterns, 10 to 80 %, 1 to 6 perimeters. Infills with cells less than twice
+    as wide as their walls are refused.
+    """
+    patterns = [(slicer, own) for slicer, patterns in SLICERS.items() for own in patterns]
     outcome = Counter()
-    for names, infill, perimeters in product(patterns, [0.1, 0.2, 0.4, 0.6, 0.8], [1, 2, 3, 6]):
-        lattice = laid(20e-3, *names, infill, perimeters)
+    for size, names, infill, perimeters in product(SIZES, patterns, SHARES, range(1, 7)):
+        lattice = laid(size, *names, infill, perimeters)
         outcome[lattice if isinstance(lattice, str) else "drawn"] += 1
         if not isinstance(lattice, str):
             least = lattice.line + 0.5 * lattice.outline[0]
-            check_frame(build_network(lattice.geometry), 20e-3, least)
-    assert outcome == {"drawn": 136, "lattice.infill": 24}
+            check_frame(build_network(lattice.geometry), size, least)
+    assert outcome == {"drawn": 1152, "lattice.infill": 288}
 
 
-def test_dense_grids_have_the_mass_that_is_extruded():
+@pytest.mark.parametrize(
+    ("infill", "grams"), [(0.5, 3.43), (0.55, 3.61), (0.6, 3.79), (0.7, 4.15), (0.8, 4.51)]
+)
+def test_dense_grids_have_the_mass_that_is_extruded(infill, grams):
     """Lines overlap where they cross: of shares r / 2 of both directions, r^2 / 4 is one."""
-    for infill in (0.5, 0.8):
-        lattice = laid(20e-3, "prusa", "grid", infill, 4)
-        between = (20e-3 - lattice.outline[0]) * (20e-3 - lattice.outline[1])
-        drawn = build_network(lattice.geometry).printed_area + 0.25 * infill**2 * between
-        assert drawn == pytest.approx(extruded_area(lattice.geometry), rel=0.04)
+    lattice = laid((20e-3, 15e-3), "prusa", "grid", infill, 4)
+    per_area = 1e3 * DENSITY * lattice.depth
+    extruded = per_area * extruded_area(lattice.geometry)
+    assert extruded == pytest.approx(grams, abs=0.005)
+    between = (20e-3 - lattice.outline[0]) * (15e-3 - lattice.outline[1])
+    crossings = per_area * 0.25 * infill**2 * between
+    drawn = per_area * build_network(lattice.geometry).printed_area
+    assert drawn + crossings == pytest.approx(extruded, rel=0.04)
 
 
 def test_a_dense_drawing_is_the_same_upside_down():
-    points = build_network(laid(24e-3, "prusa", "grid", 0.8, 4).geometry).points
+    points = build_network(laid(SIZES[1], "prusa", "grid", 0.8, 4).geometry).points
     turned = 24e-3 - points
     assert np.linalg.norm(points[:, None] - turned, axis=2).min(axis=1).max() < 1e-9
 
@@ -79,7 +88,7 @@ def test_parallel_lines_stay_apart_under_many_perimeters():
     """Their ends are nearer to one another than the length over which a single short wall is
     joined.
     """
-    lattice = laid(20e-3, "prusa", "alignedrectilinear", 0.4, 6)
+    lattice = laid(SIZES[0], "prusa", "alignedrectilinear", 0.4, 6)
     network = build_network(lattice.geometry)
     ends = network.points[network.walls[network.wall_thickness < 1.5 * lattice.line]]
     step = lattice.fill_distance * 2.0**0.5
