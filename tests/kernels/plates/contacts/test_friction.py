@@ -135,6 +135,18 @@ def test_what_moves_as_one_does_not_slip(seed):
             assert friction._slip(u, contacts, k) == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_friction_is_the_same_wherever_the_sheets_point(seed):
+    x0, touch = two(seed)
+    rng = np.random.default_rng(seed)
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    x = moved(x0, rng.uniform(-0.1, 0.1, positions(x0).shape))
+    turned0, turned = (placed(positions(y) @ turn.T) for y in (x0, x))
+    expected = term_of(x0, lagged(x0, touch), 1e-2).energy(x)
+    found = term_of(turned0, lagged(turned0, touch), 1e-2).energy(turned)
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
 def test_platens_hold_in_both_directions():
     sheet = Sheet(2, 2, 3.0, 3.0)
     points = sheet.points[:, [0, 2, 1]]
