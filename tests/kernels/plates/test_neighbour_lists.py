@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 
+from kernels.geometry.space import crossing
 from kernels.plates import neighbour_lists
 from kernels.plates.neighbour_lists import MOST_TURN
 from tests.support.kernels.pressed_plates import (
     SIDE,
     T,
     neighbours_of,
+    pinched,
     scene,
+    shaken,
     whole,
 )
 
@@ -52,6 +55,23 @@ def test_no_node_turns_far():
     dx, inner = np.zeros(of.x_rest.size), np.flatnonzero(of.mesh.flat)[0]
     dx[6 * inner + 3 : 6 * inner + 6] = 0.6 * turn, -0.8 * turn, 0.0
     assert limit(of, of.x_rest, dx) == pytest.approx(MOST_TURN / turn)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_any_admissible_move_leaves_walls_apart(seed):
+    of = scene("glued")
+    x, touch = pinched(of), of.terms.contact
+    dx = shaken(of, np.zeros_like(x), seed, 3.0)
+    share = limit(of, x, dx)
+    assert 0.0 < share < 1.0
+    assert crossings(x, touch) == (0, 0)
+    assert crossings(x + share * dx, touch) == (0, 0)
+    assert crossings(x + dx, touch)[0] > 0
+
+
+def crossings(x, touch):
+    points = np.ascontiguousarray(x[:-2].reshape(-1, 6)[:, :3])
+    return crossing.count(points, touch.triangles, touch.edges, np.empty((1, 2), np.int64))
 
 
 def test_lists_hold_while_nodes_move_less_than_half_of_the_margin():
