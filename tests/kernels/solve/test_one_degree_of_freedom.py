@@ -28,7 +28,7 @@ def single(loading, damping=UNDAMPED, **solver):
         loading=loading,
         contact=dict(model="none"),
         damping=damping,
-        solver=dict(tolerance=1e-22, joints="points", **solver),
+        solver=dict(tolerance=1e-12, joints="points", **solver),
     )
 
 
