@@ -18,7 +18,6 @@ from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
-RESIDUAL = 0.1  # of the root of a tolerance: the energy book of a crush closes to 1e-6 with it
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
@@ -144,18 +143,16 @@ def _parts(stage: march.Stage) -> list[march.Stage]:
 
 
 def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tolerance:
-    """Tolerances of a stage, not below round-off. Energies are quadratic in residuals: a residual
-    is allowed in the order of the root of ``solver.tolerance``; but under a dead load, whose error
-    does work on the whole way, in its order.
+    """Tolerances of a stage: ``solver.tolerance`` x scale of energies for what a minimisation may
+    leave, its root x scale of forces for the residual, as energies are quadratic in residuals.
+    Neither is below round-off.
     """
-    coordinates, size, share = scene.terms.coordinates, scene.size, case.solver.tolerance
-    load = np.abs(coordinates.load * coordinates.lever).max(initial=0.0)
-    force = max(scene.force_scale, load)
-    allowed = (share if load else RESIDUAL * sqrt(share)) * force
-    allowed = max(allowed, ROUND_OFF * scene.largest_force(stage))
+    coordinates, size = scene.terms.coordinates, scene.size
+    force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
+    allowed = max(sqrt(case.solver.tolerance) * force, ROUND_OFF * scene.largest_force(stage))
     return Tolerance(
         force=allowed,
-        decrement=1e-3 * allowed * case.lattice.wall_thickness,
+        decrement=allowed**2 / force * size,
         noise=ROUND_OFF * force * size,
         resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,

@@ -20,7 +20,7 @@ from tests.support.designs.structures import APART, BEAM, LENGTH, MM, probe, pus
 NEAR = 12  # elements a wall of the shape at which the search for exact rods begins
 FINEST = 48
 STIFF = (12.0 / 1e5) ** 0.5  # thickness / length of arms with Y A = 1e5 Y I / L^2
-TOLERANCE = 1e-18
+TOLERANCE = 1e-9
 REACTIONS = ("reaction_x_N", "reaction_y_N", "reaction_moment_Nm")
 
 
