@@ -143,16 +143,13 @@ def _parts(stage: march.Stage) -> list[march.Stage]:
 
 
 def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tolerance:
-    """Tolerances of a stage: ``solver.tolerance`` x scale of energies for what a minimisation may
-    leave, its root x scale of forces for the residual, as energies are quadratic in residuals.
-    Neither is below round-off.
-    """
+    """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off."""
     coordinates, size = scene.terms.coordinates, scene.size
     force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
-    allowed = max(sqrt(case.solver.tolerance) * force, ROUND_OFF * scene.largest_force(stage))
+    allowed = max(case.solver.tolerance * force, ROUND_OFF * scene.largest_force(stage))
     return Tolerance(
         force=allowed,
-        decrement=allowed**2 / force * size,
+        decrement=1e-3 * allowed * case.lattice.wall_thickness,
         noise=ROUND_OFF * force * size,
         resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,

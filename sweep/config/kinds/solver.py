@@ -16,9 +16,7 @@ Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"
 
 
 class _Solver(Table):
-    """The keys of all solvers. tolerance: of energies, see `scene.loading.tolerances`. joints: None
-    along the cells. retry: `simulation.retries`.
-    """
+    """The keys of all solvers. joints: None along the cells. retry: `simulation.retries`."""
 
     # Neither changes the results of a case that converges as it is.
     labels: ClassVar[tuple[str, ...]] = ("time_limit", "retry")

@@ -30,7 +30,7 @@ def loaded(duration, steps, integrator, damping, platen="none", release=0.5, **l
     loads = dict(platen=platen, duration=duration, release_time=release * duration, **loading)
     touch = {"none": APART, "contact": dict(friction=0.3, slip_speed=0.5)}[platen]
     solver = dict(
-        time_step=duration / steps, integrator=integrator, tolerance=1e-20, joints="points"
+        time_step=duration / steps, integrator=integrator, tolerance=1e-10, joints="points"
     )
     return Case.of(
         material=MATERIAL, loading=loads, contact=touch, damping=damping, solver=solver

@@ -72,7 +72,7 @@ def critical(clamped):
 
     def value(pieces):
         parts = column(0.95, SIDEWAYS, clamped) | {"subdivide": pieces // 2}
-        result = pushed(parts, steps=20, tolerance=1e-20)
+        result = pushed(parts, steps=20, tolerance=1e-10)
         factor = result.history["load_factor"][8:]
         stiffness = SIDEWAYS * factor * L / probe(result, 1, "y_m")[8:]
         through = np.polynomial.Polynomial.fit(factor, stiffness, 6)

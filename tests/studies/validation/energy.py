@@ -12,7 +12,7 @@ HEAD = ("energy gained, %", *INTEGRATORS)
 SOFT, STIFF = 12e6, 12e9  # Pa
 
 
-def moving(parts, duration, steps, integrator, damping=UNDAMPED, material=MATERIAL, tolerance=1e-16):
+def moving(parts, duration, steps, integrator, damping=UNDAMPED, material=MATERIAL, tolerance=1e-8):
     """A structure that moves for a while, s."""
     return Case.of(
         lattice=dict(kind="custom", structure=structure(**parts)),
@@ -27,7 +27,7 @@ def moving(parts, duration, steps, integrator, damping=UNDAMPED, material=MATERI
 def cantilever(integrator):
     """A hundred periods of the first mode, 1 % of the length wide."""
     period, parts = set_off(8, 0.01)
-    return simulate(moving(parts, 100 * period, 5000, integrator, tolerance=1e-22))
+    return simulate(moving(parts, 100 * period, 5000, integrator, tolerance=1e-11))
 
 
 def pendulum(integrator, modulus):

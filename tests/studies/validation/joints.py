@@ -31,7 +31,7 @@ def joint(kind):
             "loads": [{"node": 0, "moment_Nmm": SMALL * stiffness / MM}],
             "probes": [0],
         }
-        return probe(pushed(parts, steps=1, tolerance=1e-24), 0, "rotation_rad")[-1] / SMALL
+        return probe(pushed(parts, steps=1, tolerance=1e-12), 0, "rotation_rad")[-1] / SMALL
 
     return value
 

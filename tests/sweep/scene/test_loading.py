@@ -115,6 +115,6 @@ def test_the_tolerance_goes_with_the_load_and_not_below_round_off():
         return tolerances(case, scene, stages(case, scene)[0].stage)
 
     nodes = 10  # of the row that bears the load
-    assert allowed(4e3, 1e-12).force == pytest.approx(4e3 / nodes * 1e-6)
-    assert allowed(4e3, 1e-12).decrement == pytest.approx(4e3 / nodes * 1e-12 * 12.5e-3)
-    assert allowed(4e3, 1e-60).force == allowed(4e3, 1e-80).force > 0.0
+    assert allowed(4e3, 1e-6).force == pytest.approx(4e3 / nodes * 1e-6)
+    assert allowed(4e3, 1e-6).decrement == pytest.approx(1e-3 * 4e-4 * 0.8e-3)
+    assert allowed(4e3, 1e-30).force == allowed(4e3, 1e-40).force > 0.0
