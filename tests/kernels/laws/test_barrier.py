@@ -7,7 +7,7 @@ from kernels.laws.barrier import barrier, phi
 from tests.support.kernels.terms import differences
 
 
-@pytest.mark.parametrize("s", [1e-9, 1e-3, 0.02, 0.3, 0.9, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6])
+@pytest.mark.parametrize("s", [1e-6, 1e-3, 0.02, 0.3, 0.9, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6])
 def test_derivatives(s):
     step = np.array([1e-3 * min(s, abs(1 - s))])
     value, slope, curvature = barrier(s)
@@ -20,7 +20,7 @@ def test_it_is_smooth_where_it_starts_and_infinite_where_it_ends():
     assert barrier(1.0) == (0.0, 0.0, 0.0)
     assert barrier(1.0 - 1e-7) == pytest.approx((0.0, 0.0, 6e-7), abs=1e-13)
     assert barrier(0.0) == (np.inf, -np.inf, np.inf)
-    assert barrier(1e-11) == (np.inf, -np.inf, np.inf)
+    assert barrier(1e-8) == (np.inf, -np.inf, np.inf)
     assert barrier(-1.0)[0] == np.inf
 
 

@@ -54,10 +54,10 @@ def test_a_linear_law_is_half_the_modulus_times_strain_squared(strain):
 
 
 def test_crushing_to_nothing_takes_infinite_energy():
-    strain = -1.0 + np.logspace(-0.6, -10, 60)
+    strain = -1.0 + np.logspace(-0.6, -7, 60)
     density, stress, tangent = np.transpose([respond(linear_law(MODULUS), e) for e in strain])
     assert np.all(np.diff(stress) < 0)
     assert np.all(np.diff(density) > 0)
     assert np.all(tangent > MODULUS)
-    assert stress[-1] < -1e8 * MODULUS
+    assert stress[-1] < -1e5 * MODULUS
     assert respond(linear_law(MODULUS), -1.0)[0] == np.inf
