@@ -23,7 +23,7 @@ pytestmark = pytest.mark.filterwarnings(
     "ignore:Exception ignored in. <socket:pytest.PytestUnraisableExceptionWarning"
 )
 
-HERE = {"processes": False, "dashboard_address": None, "silence_logs": 50}
+HERE = {"processes": False, "dashboard_address": ":0", "silence_logs": 50}
 
 
 @pytest.fixture
