@@ -37,7 +37,7 @@ from kernels.solve.outcomes import (
     UNRESOLVED,
 )
 from kernels.solve.problem import Step
-from kernels.solve.residual import patient
+from kernels.solve.residual import loosened, patient
 from kernels.solve.workspace import make_workspace
 
 SMALLEST_SHARE = 2.0**-24  # share of a step
@@ -390,7 +390,8 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
         step = _step(stage, state, problem.scene.coordinates.mass, workspace, progress)
         descent.target = _target(stage, progress)
         load = resolution.largest_load(problem, step.factor, workspace.work)
-        fitting = resolution.fit(tolerance, step, problem.scene.coordinates, load)
+        usual = loosened(tolerance, state.totals[0].force)
+        fitting = resolution.fit(usual, step, problem.scene.coordinates, load)
         if not step.dynamic or step.h > stage.fall:
             fitting = patient(fitting, min(progress.failed, MOST_DOUBLINGS))
         outcome = _equilibrate(
@@ -404,7 +405,7 @@ def _run(problem, tolerance, stage, state, out, control, workspace, descent, pro
             outcome, ratio = _judge(
                 problem, stage, state, step, fitting, load, workspace, descent, progress
             )
-        elif resolution.is_tighter(fitting, tolerance) and outcome in (ITERATIONS, STALLED):
+        elif resolution.is_tighter(fitting, usual) and outcome in (ITERATIONS, STALLED):
             outcome = UNRESOLVED
         if outcome == CONVERGED:
             _accept(problem, stage, step, state, workspace, load, descent, progress)

@@ -13,6 +13,7 @@ class Tolerance(NamedTuple):
     force: largest residual, N. decrement: largest Newton decrement, J. noise: energy differences
     below it are round-off, J. resolution: smallest move that positions can resolve, m. iterations:
     most Newton iterations of one minimisation. cut_moves: most shortened moves of a dynamic step.
+    share: of the largest force so far, which the residual may reach where that is more.
     """
 
     force: float
@@ -21,6 +22,7 @@ class Tolerance(NamedTuple):
     resolution: float
     iterations: int
     cut_moves: int = MOST_CUT_MOVES
+    share: float = 0.0
 
 
 @jit_exact
@@ -72,6 +74,25 @@ def scaled(tolerance, factor, sharpness):
         sharpness * tolerance.resolution,
         tolerance.iterations,
         tolerance.cut_moves,
+        tolerance.share,
+    )
+
+
+@jit_exact
+def loosened(tolerance, largest):
+    """Return the tolerance whose residual is at least its share of the ``largest`` force so far, N.
+
+    The decrement, the energy of that residual in a move, grows in proportion.
+    """
+    factor = max(1.0, tolerance.share * largest / tolerance.force)
+    return Tolerance(
+        factor * tolerance.force,
+        factor * tolerance.decrement,
+        tolerance.noise,
+        tolerance.resolution,
+        tolerance.iterations,
+        tolerance.cut_moves,
+        tolerance.share,
     )
 
 
@@ -88,4 +109,5 @@ def patient(tolerance, doublings):
         tolerance.resolution,
         iterations,
         iterations,
+        tolerance.share,
     )

@@ -18,6 +18,7 @@ from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 ROUND_OFF = 4e-15
+LOADED = 100.0  # share of the largest force / share of the force that bends a wall, of a residual
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
@@ -143,7 +144,11 @@ def _parts(stage: march.Stage) -> list[march.Stage]:
 
 
 def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tolerance:
-    """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off."""
+    """Tolerances of forces and energies: ``solver.tolerance`` x scales, not below round-off.
+
+    Where nothing moves they grow with the largest force so far, by `LOADED`; in a motion what is
+    left over is momentum, which adds up from step to step.
+    """
     coordinates, size = scene.terms.coordinates, scene.size
     force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
     allowed = max(case.solver.tolerance * force, ROUND_OFF * scene.largest_force(stage))
@@ -153,4 +158,5 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
         noise=ROUND_OFF * force * size,
         resolution=ROUND_OFF * size,
         iterations=case.solver.max_iterations,
+        share=0.0 if stage.dynamic else LOADED * case.solver.tolerance,
     )

@@ -42,7 +42,7 @@ def test_the_book_is_closed_and_the_material_takes_its_share():
     assert np.diff(book).min() >= -1e-9 * book.max()
     assert folded.status == "converged"
     summary = folded.summary
-    assert abs(summary["energy_residual_J"]) < 1e-8 * summary["absorbed_energy_J"]
+    assert abs(summary["energy_residual_J"]) < 1e-7 * summary["absorbed_energy_J"]
     spent = summary["dissipated_material_J"] / summary["absorbed_energy_J"]
     assert LOSS < summary["lost_share"] < 0.62
     assert LOSS < spent < 0.6

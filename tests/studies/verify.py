@@ -151,7 +151,7 @@ def beyond(file):
 
 def failure():
     """Message of a case that may not iterate enough."""
-    solver = dict(load_steps=20, max_iterations=4)
+    solver = dict(load_steps=20, max_iterations=2)
     case = Case.of(loading=dict(mode="displacement"), solver=solver)
     result = simulate(case)
     return f'`{result.status}`, "{result.message}"'

@@ -13,8 +13,8 @@ from kernels.planar.problem import Planar
 from kernels.shared.rows import STORED
 from kernels.solve import march, newton
 from kernels.solve.workspace import make_workspace
+from sweep.scene import loading
 from sweep.scene.lattice import build_scene
-from sweep.scene.loading import tolerances
 from tests.studies.bench.measuring import cases
 from tests.studies.bench.measuring.crushes import Crush
 from tests.support.kernels.solving import at_rest, ramp, whole
@@ -56,7 +56,7 @@ def guess():
         u[:], u[driven], u[0] = 0.0, -last, move
         stage = ramp(scene, 1, travel=(0.0, STEP))
         state_, workspace_ = by_reference(state), by_reference(workspace)
-        allowed = tolerances(case, scene, stage)
+        allowed = loading.tolerances(case, scene, stage)
         march._begin_share(problem, allowed, stage, state_, workspace_, descent, progress)
         return workspace.work.dx.copy(), u.copy(), scene.terms.coordinates
 
@@ -78,7 +78,8 @@ def test_no_step_sets_out_as_a_snap_went(guess):
     assert np.any(guess(1.5 * cap, 2.0 * STEP)[0])  # half of it is asked for
 
 
-def test_a_factor_outlives_the_list_of_pairs():
+def test_a_factor_outlives_the_list_of_pairs(monkeypatch):
+    monkeypatch.setattr(loading, "LOADED", 0.0)  # so that last moves are short
     crush = Crush(3, cases.SMOOTH, (0.0, 0.1), 40)
     calls, iterations = counted(crush), crush.onwards()[0].iterations
     assert 1.0 < calls["list"] * iterations < crush.steps + 1.5

@@ -14,7 +14,7 @@ from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.studies.verify import MATERIAL
-from tests.support.designs.scenes import UNDAMPED, unbalanced
+from tests.support.designs.scenes import TIGHT, UNDAMPED, unbalanced
 from tests.support.kernels.solving import at_rest, floating, go_on, ramp
 from tests.support.kernels.states import nodes
 from tests.support.kernels.terms import touch_of
@@ -189,7 +189,7 @@ def crush(steps, speed=None, **solver):
 
 @pytest.mark.parametrize("speed", [None, 10.0])
 def test_a_step_that_fails_is_halved_and_the_stage_ends_on_time(speed):
-    case = crush(3, speed, max_iterations=6)
+    case = crush(3, speed, max_iterations=6, **TIGHT)
     result = simulate(case)
     history = result.history
     assert result.status == "converged"

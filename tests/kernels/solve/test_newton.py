@@ -5,13 +5,13 @@ import pytest
 
 from kernels.solve import newton, outcomes
 from kernels.solve.problem import HELD
-from kernels.solve.residual import Tolerance, allowed, allowed_decrement
+from kernels.solve.residual import Tolerance, allowed, allowed_decrement, loosened
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
 from tests.studies.verify import MATERIAL
 from tests.support.converged import converged
-from tests.support.designs.scenes import grid, slopes
+from tests.support.designs.scenes import grid, pressed, run, slopes
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
@@ -230,6 +230,23 @@ def test_a_soft_coordinate_is_not_excused_by_a_stiff_one():
     assert allowed(1e17, tolerance) == pytest.approx(10.0)
     assert allowed_decrement(1e17, tolerance, 92) == 1e-12
     assert allowed_decrement(1e20, tolerance, 92) == pytest.approx(9.2e-11)
+
+
+def test_the_residual_and_its_energy_grow_with_the_largest_force():
+    tolerance = Tolerance(1e-9, 1e-12, 1e-15, 1e-16, 100, share=1e-6)
+    assert loosened(tolerance, 1e-3) == tolerance
+    grown = loosened(tolerance, 2.0)
+    assert (grown.force, grown.decrement) == pytest.approx((2e-6, 2e-9))
+    assert grown._replace(force=1e-9, decrement=1e-12) == tolerance
+
+
+@pytest.mark.parametrize("strain", [1e-4, 0.5])
+def test_a_crush_is_balanced_to_a_millionth_of_its_force(strain):
+    """At any strain, as tolerance and force go with each other."""
+    history = run(pressed(3, strain, 10, "contact")).history
+    force = history["reaction_top_N"]
+    off = np.abs(force - history["reaction_bottom_N"])
+    assert 1e-12 < off.max() / force.max() < 1e-5
 
 
 def test_a_residual_that_positions_do_not_resolve_is_round_off():

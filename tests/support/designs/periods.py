@@ -39,7 +39,7 @@ def pressed(
         material=MATERIAL,
         loading=dict(mode="displacement", strain=strain, unload=unload, platen=platen),
         contact=dict(model=model, friction=friction),
-        solver=dict(load_steps=steps, joints="points"),
+        solver=dict(load_steps=steps, joints="points", tolerance=1e-10),
     )
 
 

@@ -18,6 +18,9 @@ STORED = ("kinetic_J", "stretch_J", "bend_J", "contact_J")
 LOST = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 
 
+TIGHT = {"tolerance": 1e-10}  # of a solver whose forces balance to 1e-8 of the largest
+
+
 def pressed(
     elements,
     strain,

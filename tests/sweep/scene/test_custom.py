@@ -9,6 +9,7 @@ from sweep.config.grid import expand
 from sweep.config.load import load_config
 from tests.studies.validation.elastica import cantilever
 from tests.support.converged import converged
+from tests.support.designs.scenes import TIGHT
 from tests.support.designs.structures import (
     AXIAL,
     BEAM,
@@ -125,7 +126,7 @@ def test_led_end_needs_the_force_that_moves_it_as_far():
         {"node": 1, "direction": "x", "displacement_mm": (x - L) / MM},
         {"node": 1, "direction": "rotation", "angle_rad": angle},
     ]
-    led = pushed(BEAM | {"prescribed": moves[:1]})
+    led = pushed(BEAM | {"prescribed": moves[:1]}, **TIGHT)
     assert probe(led, 1, "reaction_y_N")[-1] == pytest.approx(-force, rel=1e-6)
     assert probe(led, 1, "x_m")[-1] == pytest.approx(x, rel=1e-7)
     led = pushed(BEAM | {"prescribed": moves}, steps=20)

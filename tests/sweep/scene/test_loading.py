@@ -118,3 +118,13 @@ def test_the_tolerance_goes_with_the_load_and_not_below_round_off():
     assert allowed(4e3, 1e-6).force == pytest.approx(4e3 / nodes * 1e-6)
     assert allowed(4e3, 1e-6).decrement == pytest.approx(1e-3 * 4e-4 * 0.8e-3)
     assert allowed(4e3, 1e-30).force == allowed(4e3, 1e-40).force > 0.0
+
+
+@pytest.mark.parametrize(
+    ("loading", "share"),
+    [({"mode": "displacement"}, 1e-6), ({"mode": "displacement", "speed": 1.0}, 0.0), ({}, 0.0)],
+)
+def test_the_residual_may_grow_with_the_forces_of_a_crush_not_of_a_motion(loading, share):
+    case = Case.of(loading=loading)
+    scene = build_scene(case)
+    assert tolerances(case, scene, stages(case, scene)[0].stage).share == pytest.approx(share)

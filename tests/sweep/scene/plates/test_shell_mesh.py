@@ -25,7 +25,7 @@ def case(kind="square", cells=(2, 2), strain=0.02, **lattice):
         | lattice,
         material=dict(name="ultimaker_tpu95a", stretch="linear"),
         loading=dict(mode="displacement", strain=strain, direction="out_of_plane", unload=False),
-        solver=dict(load_steps=4),
+        solver=dict(load_steps=4, tolerance=1e-10),
     )  # fmt: skip
 
 
