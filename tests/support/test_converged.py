@@ -13,8 +13,8 @@ PRESSED = Case.of(
 )
 STOPPED = Case.of(
     loading=dict(mode="displacement"),
-    solver=dict(load_steps=20, max_iterations=4),
-    axes={"solver.max_iterations": 4},
+    solver=dict(load_steps=20, max_iterations=2),
+    axes={"solver.max_iterations": 2},
 )
 
 
@@ -25,7 +25,7 @@ def test_what_converges_goes_on(tmp_path):
 
 
 def test_what_stops_ends_a_study(tmp_path):
-    named = rf"^case {STOPPED.case_id}, solver.max_iterations = 4: no equilibrium .* while loading"
+    named = rf"^case {STOPPED.case_id}, solver.max_iterations = 2: no equilibrium .* while loading"
     with pytest.raises(SystemExit, match=named):
         converged(STOPPED)
     file = tmp_path / "some.h5"

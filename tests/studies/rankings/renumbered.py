@@ -64,6 +64,7 @@ def scene(friction, imperfection=0.01):
         material=dict(name="ultimaker_tpu95a"),
         loading=dict(mode="displacement", strain=0.5, platen="contact"),
         contact=dict(friction=friction),
+        solver=dict(tolerance=1e-10),
     )
 
 

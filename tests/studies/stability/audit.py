@@ -33,6 +33,7 @@ CLOCK = SimpleNamespace(monotonic=time.process_time)  # of this process, which h
 GRACE = 10.0  # s beyond its limit that a case may take
 SAME = 1e-9  # of the largest force: two sums of the same forces
 EARNED = 1e-6  # allowed error of an energy, as a share of the work done
+LEFT = 1e-5  # energy that may be left over, as a share of the work done
 REACH = 4.0  # times the reach of contact: pairs that may touch where friction is lagged
 MADE = 5e-3  # energy that backward Euler may generate, as a share of the work done
 STALE = 2.0  # residual over the allowed one, which goes with the stiffness of the last factor:
@@ -76,12 +77,13 @@ class Watch:
         self.noise += stage.steps * tolerance.force * np.ptp(state.x[: 2 * terms.layout.n_nodes])
         for piece, rows in _pieces(stage):
             (step, ahead), steps = _next_step(terms, piece, state), state.totals[0].steps
+            usual = residual.loosened(tolerance, state.totals[0].force)
             outcome, more = MARCH(terms, tolerance, piece, state, _part(out, rows), control)
             written += more
             if outcome != outcomes.CONVERGED:
                 return outcome, written
             self.still += _unborne(terms, state, step)
-        self._keep(terms, tolerance, step, ahead, state, state.totals[0].steps == steps + 1)
+        self._keep(terms, usual, step, ahead, state, state.totals[0].steps == steps + 1)
         return outcome, written
 
     def follow(self, terms, tolerance, stage, state, out, control, arc):
@@ -243,7 +245,7 @@ def _energies(result, case, noise):
     paid = book["work_in_J"] + book["injected_by_projection_J"]
     held, lost = summed(book, KEPT), summed(book, LOST)
     size = max(np.abs(paid).max(), held.max(), np.abs(lost).max(), 1e-300)
-    if np.abs(book["energy_residual_J"]).max() > EARNED * size + noise:
+    if np.abs(book["energy_residual_J"]).max() > LEFT * size + noise:
         yield f"{np.abs(book['energy_residual_J']).max() / size:.1e} of the energy is left over"
     given_back = np.max(-np.diff(book["dissipated_material_J"], prepend=0.0))
     if case.material.remembers and given_back > EARNED * size + noise:
