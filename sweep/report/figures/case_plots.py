@@ -38,6 +38,7 @@ from sweep.report.figures.storyboard import (
     turns,
 )  # fmt: skip
 from sweep.report.outlines import outlines
+from sweep.whole_file import whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,8 +78,8 @@ def blank(width: float, height: float) -> Figure:
 
 def save(figure: Figure, path: Path) -> Path:
     """Write a figure as PNG."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=160, facecolor="white")
+    with whole(path) as file:
+        figure.savefig(file, dpi=160, facecolor="white")
     return path
 
 
