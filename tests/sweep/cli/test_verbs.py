@@ -112,6 +112,16 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, argumen
     assert err.count("\n") <= 2
 
 
+@pytest.mark.parametrize("columns", [60, 200])
+def test_help_fits_the_terminal(capsys, monkeypatch, columns):
+    """But for lines that are indented, such as examples."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    for verb in VERBS:
+        _, shown, _ = crumple(capsys, verb, "--help")
+        prose = [line for line in shown.splitlines() if not line.startswith((" ", "usage:"))]
+        assert max(map(len, prose)) <= min(columns, 100), verb
+
+
 def test_disk_that_is_full_is_told_in_a_line(tmp_path):
     """Also where h5py finds it, which says more."""
     long = "Can't synchronously write data (file write failed: time = ...\n, errno = 28)"
