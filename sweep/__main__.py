@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from textwrap import fill
 from typing import Any, NoReturn
@@ -205,6 +206,7 @@ PUBLISHED_EXAMPLES = """examples:
 MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
 as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
 
+WIDTH = 100  # most letters in a line of help
 BRIEF = "tables and warnings alone"
 STORED = "results file; of a sweep also NAME or NAME.toml"
 AREA = "area to fill with specimens"
@@ -212,12 +214,25 @@ THREADS = "threads (default: one per core, up to 8)"
 PROCESSES = "processes in place of threads (default, beyond 8 cores: one per core)"
 
 
+class Filled(argparse.RawDescriptionHelpFormatter):
+    """Paragraphs as wide as the terminal; lines that begin with a blank stay as they are."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        groups = groupby(text.splitlines(), key=lambda line: line[:1].strip() > "")
+        texts = ((is_prose, list(lines)) for is_prose, lines in groups)
+        return "\n".join(
+            fill(" ".join(lines), min(width, WIDTH), break_on_hyphens=False)
+            if is_prose
+            else "\n".join(lines)
+            for is_prose, lines in texts
+        )
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that prints errors in two lines and accepts no abbreviations."""
 
     def __init__(self, **options: Any):
-        as_written = argparse.RawDescriptionHelpFormatter
-        super().__init__(**options, allow_abbrev=False, formatter_class=as_written)
+        super().__init__(**options, allow_abbrev=False, formatter_class=Filled)
         self.verbs: Mapping[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
@@ -282,7 +297,7 @@ def parser() -> Parser:
 
 def _add_run(verbs: Any) -> None:
     """Add the verb that simulates."""
-    epilog = fill(f"examples that come with Crumple: {', '.join(examples())}", width=96)
+    epilog = f"examples that come with Crumple: {', '.join(examples())}"
     run = verbs.add_parser("run", help="simulate a sweep", description=RUN, epilog=epilog)
     offer(run.add_argument("config", type=_path, metavar="CONFIG", help=CONFIG), configs)
     run.add_argument(

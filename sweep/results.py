@@ -26,6 +26,7 @@ from sweep.report.thumbnail import thumbnail
 from sweep.result import Status
 from sweep.store.errors import StoreError
 from sweep.store.read import read_case, read_frames, read_history, read_runs, read_summary
+from sweep.whole_file import whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +58,8 @@ class Picture:
 
     def save(self, path: str | Path) -> Path:
         """Write the picture; the ending of the name sets the format (.png, .pdf, .svg)."""
-        self.figure.savefig(path, bbox_inches="tight")
+        with whole(Path(path)) as file:
+            self.figure.savefig(file, bbox_inches="tight")
         return Path(path)
 
     def __repr__(self) -> str:

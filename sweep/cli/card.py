@@ -39,5 +39,4 @@ def card(config: Config, arguments: Namespace) -> None:
 
         path = Path(arguments.to)
         with writing(path.parent, path):
-            path.parent.mkdir(parents=True, exist_ok=True)
             say(write_card(cards, path))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from sweep.cli.refusals import writing
 from sweep.cli.terminal import print_sheets, say, say_all
 from sweep.coupon.answers import Answers
+from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
     from sweep.config.materials.material_file import Record
@@ -123,7 +124,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     coupon = read_coupon(file, _answers(arguments))
     law = fit(coupon)
     with writing(out.parent, out):
-        out.write_text(material_text(law, _size(arguments.density, "kg/m^3")), encoding="utf-8")
+        write_whole(out, material_text(law, _size(arguments.density, "kg/m^3")))
     say_all(sentences_on_fit(law, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, law.model)

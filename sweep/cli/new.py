@@ -5,8 +5,10 @@ import re
 from pathlib import Path
 from textwrap import wrap
 
+from sweep.cli.refusals import writing
 from sweep.cli.terminal import quoted
 from sweep.design.infill import families
+from sweep.whole_file import write_whole
 
 NAME = re.compile(r"\w[\w.-]*")
 KINDS = ("crush", "drop", "load")
@@ -95,15 +97,11 @@ def new(name: str, kind: str, out: str | None) -> Path:
     path = Path(out or f"{name}.toml")
     if path.suffix != ".toml":
         raise NewError(f"--out {path}; allowed: a file whose name ends in .toml")
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(template(name, kind, path))
-        path.with_name(SCHEMA).write_text(schema_text(), encoding="utf-8")
-    except FileExistsError:
-        raise NewError(f"{path} already exists; allowed: another name, or --out") from None
-    except OSError as error:
-        raise NewError(f"{path} cannot be written: {error.strerror or error}") from error
-    return path
+    if path.exists():
+        raise NewError(f"{path} already exists; allowed: another name, or --out")
+    with writing(path.parent, path):
+        write_whole(path.with_name(SCHEMA), schema_text())
+        return write_whole(path, template(name, kind, path))
 
 
 def schema_text() -> str:

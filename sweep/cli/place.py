@@ -10,7 +10,7 @@ from sweep.running.place import Place, chosen_place, open_place
 from sweep.running.processes import PROCESSES
 
 
-def place_asked(arguments: Namespace) -> tuple[int, Scheduler]:
+def requested_place(arguments: Namespace) -> tuple[int, Scheduler]:
     """How many cases run at a time on this machine, and where."""
     where = PROCESSES if arguments.processes else arguments.scheduler
     return chosen_place(arguments.processes or arguments.workers, where)
@@ -19,7 +19,7 @@ def place_asked(arguments: Namespace) -> tuple[int, Scheduler]:
 @contextmanager
 def place_of(arguments: Namespace) -> Iterator[tuple[int, Place]]:
     """How many cases run at a time on this machine, and where, for the whole of a command."""
-    workers, where = place_asked(arguments)
+    workers, where = requested_place(arguments)
     if arguments.wait is not None and where in (None, PROCESSES):
         raise ArgumentError("--wait is of a cluster; needed: --scheduler or DASK_SCHEDULER_ADDRESS")
     with open_place(where, WAIT if arguments.wait is None else arguments.wait) as place:

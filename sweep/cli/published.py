@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import hint, print_sheets, say, say_all
 from sweep.published.table import Row
+from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -74,9 +75,8 @@ def _write(rows: list[Row], folder: Path) -> None:
 
     comparisons = [row.comparison for row in rows]
     with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-        text = folder / "published.md"
-        text.write_text(markdown([comparison_sheet(comparisons)]), encoding="utf-8")
+        table = markdown([comparison_sheet(comparisons)])
+        text = write_whole(folder / "published.md", table)
         figure = blank(*size(comparisons))
         prediction_bars(figure.subplots(), comparisons)
         say_all([text, save(figure, folder / "published.png")])

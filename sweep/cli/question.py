@@ -11,7 +11,7 @@ from sweep.ranking.question import Question, in_si
 TOP, TOP_OF_A_BUDGET = 10, 3
 
 
-def asked(arguments: Namespace) -> Question:
+def full_question(arguments: Namespace) -> Question:
     """The question of the options, completed from the config.
 
     The budgets of the config are used unless --budget or --by is given; its panel is used unless

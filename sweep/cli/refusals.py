@@ -1,5 +1,6 @@
 """Errors that end a command; their text is all that it prints."""
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -39,7 +40,7 @@ def writing(folder: Path, file: Path | None = None) -> Iterator[None]:
     except (FileExistsError, NotADirectoryError) as error:
         raise ArgumentError(f"{folder} is or lies in a file; allowed: a folder") from error
     except OSError as error:
-        why = error.strerror or error
+        why = os.strerror(error.errno) if error.errno else error  # h5py has a text of many lines
         raise ArgumentError(f"{file or folder} cannot be written: {why}") from error
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pandas import DataFrame
 
-from sweep.cli.place import place_asked, place_of
+from sweep.cli.place import place_of, requested_place
 from sweep.cli.question import question_of
 from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import hint, next_commands, print_ranking, print_sheets, say, say_all
@@ -47,7 +47,7 @@ def run(config: Config, arguments: Namespace) -> int:
     renew = arguments.renew
     rerun = Rerun(failed=arguments.retry_failed, older=renew, damaged=renew)
     if arguments.dry_run:
-        workers, _ = place_asked(arguments)
+        workers, _ = requested_place(arguments)
         say(dry_run(config, out, workers, rerun, arguments.error_bars))
         say_all([UNKNOWN_BEST] if arguments.spread else [])
         say_all([SCREENED] if arguments.screen else [])

@@ -254,7 +254,6 @@ def _folded(table: Fitted, limit: int) -> Fitted:
 
 
 def _is_number(texts: list[str]) -> bool:
-
     return all(text[:1] in f"0123456789->?{NOTHING}" and " x " not in text for text in texts)
 
 

@@ -8,7 +8,7 @@ from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sweep.cli.question import asked, drop_heights, stored_heights, stored_table
+from sweep.cli.question import drop_heights, full_question, stored_heights, stored_table
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.status import failed_cases, print_status
 from sweep.cli.terminal import (
@@ -121,7 +121,7 @@ def rank(arguments: Namespace) -> int:
     from sweep.report.tables.size_notes import narrow_note
     from sweep.store.read import read_summary
 
-    question, heights = asked(arguments), drop_heights(arguments)
+    question, heights = full_question(arguments), drop_heights(arguments)
     summary = with_allowed(arguments.file, read_summary(arguments.file), question)
     if arguments.out:
         from sweep.report.publish import publish_ranking
@@ -331,7 +331,7 @@ def _named(arguments: Namespace, summary: DataFrame) -> tuple[Series, str]:
                 f"{', '.join(options)}: only with a number in the ranking, such as 1"
             )
         return by_id(summary, arguments.case), ""
-    question = asked(arguments)
+    question = full_question(arguments)
     summary = with_allowed(arguments.file, summary, question)
     row_and_place = by_number(summary, int(arguments.case), arguments.scene, question)
     hint(incomplete(len(summary), read_attributes(arguments.file)))

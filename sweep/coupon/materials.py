@@ -16,6 +16,7 @@ from sweep.coupon.answers import Answers
 from sweep.coupon.fit import fit
 from sweep.coupon.record import read_coupon
 from sweep.coupon.write import material_text
+from sweep.whole_file import write_whole
 
 NUMBERS = {
     "modulus_Pa": "modulus",
@@ -80,8 +81,7 @@ def fit_material(  # noqa: PLR0913  each answers one question that a record may 
         units=dict(units or {}),
     )
     law = fit(read_coupon(path, answers))
-    target.write_text(material_text(law, _in_si(density, "kg/m^3")), encoding="utf-8")
-    return target
+    return write_whole(target, material_text(law, _in_si(density, "kg/m^3")))
 
 
 def _in_si(text: str | None, unit: str) -> float | None:

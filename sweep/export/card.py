@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from sweep.export.errors import ExportError
 from sweep.numbers import in_unit
 from sweep.version import __version__
+from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
     from sweep.effective.material import EffectiveMaterial
@@ -26,8 +27,7 @@ def write_card(cards: Sequence[EffectiveMaterial], path: Path) -> Path:
     writers = {".inp": _inp, ".csv": _csv}
     if path.suffix not in writers:
         raise ExportError(f"{path}: unknown ending; allowed: {', '.join(writers)}")
-    path.write_text("".join(f"{line}\n" for line in writers[path.suffix](cards)), encoding="utf-8")
-    return path
+    return write_whole(path, "".join(f"{line}\n" for line in writers[path.suffix](cards)))
 
 
 def _inp(cards: Sequence[EffectiveMaterial]) -> Iterator[str]:

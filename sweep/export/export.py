@@ -1,13 +1,9 @@
-"""Writes a case as a file for another program, in the format given by the ending of its name.
-
-No file is left half-written: it is made in a folder beside, then moved to its place.
-"""
+"""Writes a case as a file for another program, in the format given by the ending of its name."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,6 +16,7 @@ from sweep.export.outline import Layout
 from sweep.export.solid import Body
 from sweep.numbers import in_unit, text_in
 from sweep.store.read import read_case, read_cases, read_frames, read_history, read_summary
+from sweep.whole_file import whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -143,7 +140,9 @@ def export_case(
     """
     path = Path(to)
     wish = check_export(path, panel, kind)
-    return _written(path, lambda beside: _writer(path)(beside, _source(source, case_id), wish))
+    with whole(path) as file:
+        notes = _writer(path)(file, _source(source, case_id), wish)
+    return Exported(path, notes)
 
 
 def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[bytes | None]:
@@ -206,26 +205,6 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
     if rows.empty:
         raise ExportError(f'{os.fspath(source)} holds no case "{case_id}"')
     return Source(source, rows.iloc[0].to_dict())
-
-
-def _written(path: Path, write: Callable[[Path], list[str]]) -> Exported:
-    """The sentences that ``write`` returns for a path beside; the file is moved to its place when
-    it is complete.
-
-    A missing folder is created, and removed again if nothing is written.
-    """
-    new = [folder for folder in (path.parent, *path.parent.parents) if not folder.exists()]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        with TemporaryDirectory(prefix=".export-", dir=path.parent) as beside:
-            file = Path(beside) / path.name
-            notes = write(file)
-            file.replace(path)
-    finally:
-        for folder in new:
-            with suppress(OSError):  # it holds the file
-                folder.rmdir()
-    return Exported(path, notes)
 
 
 def _layout(source: Source | Planned, wish: Wish) -> Layout:

@@ -14,6 +14,7 @@ from sweep.config.materials.material_header import number_with_range
 from sweep.config.reading.examples import FOLDER
 from sweep.config.reading.text import rows_of, text_of
 from sweep.ranking.comparison import Comparison, Range
+from sweep.whole_file import write_whole
 
 OURS = FOLDER / "published" / "crushes.csv"
 NEEDED = "a csv file with the heads of configs/published/crushes.csv"
@@ -116,7 +117,7 @@ def write_table(path: Path, rows: Iterable[Row]) -> None:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEADS)
     writer.writerows(asdict(row).values() for row in rows)
-    path.write_text(text.getvalue(), encoding="utf-8")
+    write_whole(path, text.getvalue())
 
 
 def with_row(rows: Iterable[Row], new: Row) -> list[Row]:

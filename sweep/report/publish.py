@@ -36,6 +36,7 @@ from sweep.report.tables.sheet import Sheet
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.report.tables.unfinished_notes import picture_note
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
+from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,13 +62,11 @@ def publish_ranking(
     if drop_heights and not has(ranking.table, "driven").any():
         raise RankError(f"{file} has no crush with a place: cushion curves need one; allowed: no "
                         "drop height")  # fmt: skip
-    folder.mkdir(parents=True, exist_ok=True)
-    text, table = folder / "ranking.md", folder / "ranking.csv"
     tables = markdown(ranking_sheets(shown, summary))
     explained = "" if shown.table.empty else f"\n{legend(shown)}\n"
     missing = "".join(f"\n{line}\n" for line in incomplete(len(summary), read_attributes(file)))
-    text.write_text(f"{tables}{explained}{missing}", encoding="utf-8")
-    table.write_text(csv_text(ranking.with_unfinished), encoding="utf-8", newline="\n")
+    text = write_whole(folder / "ranking.md", f"{tables}{explained}{missing}")
+    table = write_whole(folder / "ranking.csv", csv_text(ranking.with_unfinished))
     figures = _sweep_figures(file, shown, ranking, drop_heights)
     return [text, table, *(case_plots.save(fig, folder / f"{name}.png") for name, fig in figures)]
 
@@ -98,11 +97,10 @@ def publish_accuracy(file: Path, case_ids: Iterable[str]) -> tuple[list[Sheet], 
     if not sheets:
         return [], []
     sheets[-1] = sheets[-1]._replace(notes=(MARKS,))
-    text, table = file.with_suffix(".md"), file.with_suffix(".csv")
-    text.write_text(markdown(sheets), encoding="utf-8")
+    text = write_whole(file.with_suffix(".md"), markdown(sheets))
     settings = [study.settings.assign(scene=title) for title, study in titled.items()]
     tabulated = csv_text(concat(settings, ignore_index=True))
-    table.write_text(tabulated, encoding="utf-8", newline="\n")
+    table = write_whole(file.with_suffix(".csv"), tabulated)
     figure = case_plots.blank(13.0, 3.6 * len(titled))
     work_precision(figure, titled)
     return sheets, [text, table, case_plots.save(figure, file.with_suffix(".png"))]

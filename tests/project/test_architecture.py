@@ -23,7 +23,8 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
-    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.loading_modes",
+    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.whole_file",
+    "sweep.loading_modes",
     "sweep.design", "sweep.config", "sweep.argument_types", "sweep.columns", "sweep.result",
     "sweep.scene", "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store",
     "sweep.ranking", "sweep.report", "sweep.export", "sweep.results", "sweep.running",
@@ -385,10 +386,17 @@ def test_quantities_are_converted_for_people_in_one_place():
     assert not found, "use in_unit, to_si or text_in of sweep.numbers"
 
 
+def test_texts_are_written_as_a_whole():
+    """A full disk leaves no half of one (`sweep.whole_file`)."""
+    texts = {module: SOURCES[module].read_text("utf-8") for module in PROGRAM}
+    halves = [module for module, text in texts.items() if ".write_text(" in text]
+    assert halves == ["sweep.whole_file"]
+
+
 def test_no_variable_is_a_participle():
     for module in PROGRAM:
         names = {getattr(n, "id", getattr(n, "arg", None)) for n in nodes(module)}
-        assert not names & {"found", "known", "told", "held", "made"}, module
+        assert not names & {"found", "known", "told", "held", "made", "asked"}, module
 
 
 def test_docstrings_repeat_the_noun():

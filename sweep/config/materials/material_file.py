@@ -229,17 +229,23 @@ def _pair(row: list[str]) -> tuple[float, float]:
 
 def check_curve(strain: Numbers, stress: Numbers) -> None:
     """Refuse a curve that is not a function of strain, or whose stress does not rise at first."""
-    if len(strain) != len(stress) or not all(map(isfinite, strain + stress)):
-        raise RecordError("a curve needs a stress for every strain, all of them finite")
-    if any(b <= a for a, b in pairwise(strain)) or min(strain, default=0.0) <= -1.0:
-        raise RecordError("the strains of a curve must increase, from above -1")
+    if len(strain) != len(stress):
+        raise RecordError("a curve needs a stress for every strain")
+    for point in zip(strain, stress, strict=True):
+        if not all(map(isfinite, point)):
+            raise RecordError(f"a point of a curve at {point}; allowed: finite numbers")
+    for before, after in pairwise((-1.0, *strain)):
+        if after <= before:
+            place = f" after {before:g}" if before > -1.0 else ""
+            must = "the strains of a curve must increase, from above -1"
+            raise RecordError(f"a strain of {after:g}{place}; {must}")
     if in_percent(strain):
         wrong = f"a curve to a strain of {max(strain):g}, which is {text_in(max(strain), '%')}"
         raise RecordError(f"{wrong}: is it in percent? write strain_percent, or 0.1 for 10 %")
     if max(strain, default=0.0) < SECANT[1]:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
-    if stress_at(TOE, strain, stress) <= 0.0:
-        raise RecordError("the stress of a curve must be positive at 1 % strain")
+    if (toe := stress_at(TOE, strain, stress)) <= 0.0:
+        raise RecordError(f"the stress of a curve must be positive at 1 % strain, not {toe:g} Pa")
     modulus = secant_modulus(strain, stress)
     if modulus > 0.0 and (why := suspicion("curve_modulus", modulus)):
         unit = unit_meant("curve_modulus", modulus)

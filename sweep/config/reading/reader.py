@@ -454,7 +454,8 @@ def _material(name: str, folder: Path) -> str:
     try:
         path = locate(name, folder)
     except UnknownMaterialError:
-        raise MisfitError("unknown material") from None
+        is_file, file = name.endswith(".csv"), folder / name
+        raise MisfitError(f"there is no {file}" if is_file else "unknown material") from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
 

@@ -38,6 +38,7 @@ from sweep.report.figures.storyboard import (
     turns,
 )  # fmt: skip
 from sweep.report.outlines import outlines
+from sweep.whole_file import whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,8 +78,8 @@ def blank(width: float, height: float) -> Figure:
 
 def save(figure: Figure, path: Path) -> Path:
     """Write a figure as PNG."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=160, facecolor="white")
+    with whole(path) as file:
+        figure.savefig(file, dpi=160, facecolor="white")
     return path
 
 
@@ -130,7 +131,7 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
     ax.set(xlim=(0.0, 1.02 * strain.max()), ylim=(min(0.0, force[down].min()), None))
     scale = in_unit(to_si(row["height_m"], "%"), "mm")  # mm of travel for one percent
     travel = ax.secondary_xaxis("top", functions=(lambda x: x * scale, lambda x: x / scale))
-    travel.set_xlabel("top displacement, mm")
+    travel.set_xlabel("travel, mm")
     ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
     plain(ax, top=True)
 
@@ -204,7 +205,9 @@ class View(NamedTuple):
 
 
 def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
-    """The view that contains the chosen frames and their platens."""
+    """The view that contains the chosen frames, their platens, and a striker as far as it is no
+    higher than the lattice.
+    """
     if "quads" in frames:
         return _view_of_plates(frames, chosen)
     points, drawn = in_unit(frames["position_m"][chosen], "mm"), np.unique(frames["edges"])
@@ -214,7 +217,9 @@ def _view(frames: Mapping[str, Any], chosen: list[int]) -> View:
     low, high = (end(points[:, drawn], (0, 1)) for end in (np.min, np.max))
     low, high = low - thickness, high + thickness
     margin = 0.06 * (high - low).max()
-    top = max(high[1], np.nanmax(plates, initial=high[1]) + margin)
+    tall = [np.ptp(shape[:, 1]) for shape in outlines(frames)[1]]
+    above = min(tall[0], np.ptp(points[0, drawn, 1])) if tall else margin
+    top = max(high[1], np.nanmax(plates, initial=high[1]) + above)
     below = min(low[1], ground - margin) - margin
     return View(low[0] - margin, high[0] + margin, below, top, ground, margin)
 

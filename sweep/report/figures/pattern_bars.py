@@ -16,7 +16,7 @@ from sweep.ranking.merit import doubtful
 from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import GREY, beside, legend, walls
 from sweep.report.figures.design_style import errors_of, until
-from sweep.report.figures.ranking_plots import HEAVY
+from sweep.report.figures.ranking_plots import HEAVY, heading
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
 
@@ -58,7 +58,7 @@ def pattern_bars(
         if shapes:
             _draw(ax, [shapes[case_id] for case_id in ordered["case_id"]])
         ax.margins(y=0.5 / len(ordered))
-        ax.set_title(titled(str(scene), ranking), loc="left", fontsize="medium")
+        ax.set_title(heading(titled(str(scene), ranking)), loc="left", fontsize="medium")
         ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
     legend(fig, [HEAVY | {"marker": "s"}] * bool(heavy.any()))

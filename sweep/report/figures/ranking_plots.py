@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-TITLE = 72  # most letters in a line above a panel
+TITLE, SMALL = 52, 62  # most letters in a line above a panel, and of small ones
 WHITE = (1.0, 1.0, 1.0, 1.0)
 FRONT = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
 RING = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "label": "best"}
@@ -58,6 +58,7 @@ SHAPED = "lattice.", "material."  # keys of a design
 THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
 """Keys of a design that set the thickness of its walls."""
 NARROW, MARGIN = 1.2, 0.1  # axis of mass: least ratio of its ends; margin at either end
+BESIDE = {"xytext": (6, 0), "textcoords": "offset points", "fontsize": "small", "va": "center"}
 ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis has no zero
 
 
@@ -91,10 +92,10 @@ def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
         _error_bars(ax, rows[mass], merit, error)
         for budget in ranking.budgets_g:
             mark(ax, budget, budget_text(budget))
-        words = [_in_lines(line) for line in titled(ax.get_title("left"), ranking).split("\n")]
+        words = [heading(titled(rows["scene"].iloc[0], ranking), SMALL)]
         for sentence, x, y in budget_winners(rows, ranking):
             ax.scatter(x, y, s=120, lw=1.4, facecolor="none", edgecolor="black")
-            words.append(_in_lines(sentence))
+            words.append(heading(sentence, SMALL))
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {noun}, g")
         own = least and f"{least.axis}{', of a specimen' if noun == 'panel' else ''}"
@@ -108,9 +109,14 @@ def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
 
 
 def thickness_trends(fig: Figure, ranking: Ranking) -> None:
-    """Energy per gram over wall thickness, one panel per scene."""
+    """Energy per gram over wall thickness, one panel per scene.
+
+    Lines are named by their numbers of cells where these vary and the colour does not show them.
+    """
     designs, per_gram = ranking.table, ranking.per_gram
-    look = looks(designs)
+    look, cells = looks(designs), ["cells_x", "cells_y"]
+    varied = designs.groupby("lattice_kind")[cells].nunique().gt(1).any(axis=None)
+    named = varied and "cells_x" not in look.tint
     for ax, rows in scene_axes(fig, designs):
         for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
@@ -119,9 +125,14 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
+            if named:
+                numbers = " x ".join(map(str, best[cells].iloc[0]))
+                ax.annotate(numbers, (wall.iloc[-1], best[per_gram].iloc[-1]), **BESIDE)
         what = f"energy absorbed{until(ranking)}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
-        ax.set_title(titled(ax.get_title("left"), ranking), loc="left", fontsize="medium")
+        ax.margins(x=0.15 if named else 0.05)
+        title = heading(titled(rows["scene"].iloc[0], ranking))
+        ax.set_title(title, loc="left", fontsize="medium")
         round_ticks(ax.yaxis)
     barred = bool(errors_of(designs, per_gram).notna().any())
     legend(fig, look.legend(walls=False, barred=barred))
@@ -141,13 +152,13 @@ def has_trends(designs: DataFrame) -> bool:
     return not designs.empty and alike["wall_thickness_m"].nunique().max() > 1
 
 
-def _in_lines(words: str) -> str:
-    """A title with line breaks after commas."""
+def heading(words: str, letters: int = TITLE) -> str:
+    """A title no wider than a panel: its lines, with further breaks after commas."""
     one_piece = words.replace(" ", "\xa0").replace(",\xa0", ", ")
     wrapper = TextWrapper(
-        TITLE, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
+        letters, subsequent_indent="    ", break_on_hyphens=False, break_long_words=False
     )
-    return wrapper.fill(one_piece).replace("\xa0", " ")
+    return "\n".join(map(wrapper.fill, one_piece.split("\n"))).replace("\xa0", " ")
 
 
 def _line(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFrame) -> None:
@@ -186,7 +197,7 @@ def scene_axes(fig: Figure, designs: DataFrame) -> Iterator[tuple[Axes, DataFram
     for ax in axes[len(scenes) :]:
         ax.remove()
     for ax, (scene, group) in zip(axes, scenes, strict=False):
-        ax.set_title(scene, loc="left", fontsize="medium")
+        ax.set_title(heading(str(scene)), loc="left", fontsize="medium")
         ax.grid(color=GRID, lw=0.6)
         ax.set_axisbelow(True)
         plain(ax)

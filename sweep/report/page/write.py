@@ -21,6 +21,7 @@ from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.html import cells, html_table, paragraphs
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
+from sweep.whole_file import write_whole
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")
@@ -43,10 +44,7 @@ def write_page(
     ranking = first_ranking(summary, question)
     data = page_data(file, summary, question, ranking, files_of)
     text = page(data, tables(summary, ranking))
-    out.parent.mkdir(parents=True, exist_ok=True)
-    begun = out.with_name(f"{out.name}.tmp")
-    begun.write_text(text, encoding="utf-8")
-    return begun.replace(out)
+    return write_whole(out, text)
 
 
 def page(data: Mapping[str, Any], static: str) -> str:

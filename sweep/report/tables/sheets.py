@@ -38,7 +38,7 @@ NO_PLACE = "No design is ranked here."
 LOST = "No design is ranked here: all cases failed ({})."
 OPEN = """\
 The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
-PASSED_OVER = "{}By value alone, {} marked ! or x would stand before the first."
+PASSED_OVER = "{} value alone, {} marked ! or x would stand before the first."
 SPARE = {
     "panel mm": "panel_specimens",
     "cycle 2 %": "second_cycle_share",
@@ -148,7 +148,7 @@ def _passed_over(rows: DataFrame, unit: str) -> Iterator[str]:
     """A sentence for each budget whose first design is exceeded by doubtful ones in value."""
     for _, shown in rows.groupby("budget_g", dropna=False, sort=False):
         count = int(shown["passed_over"].iloc[0])
-        within = f"Up to {shown['up_to'].iloc[0]} {unit}: " if "up_to" in rows else ""
+        within = f"Up to {shown['up_to'].iloc[0]} {unit}, by" if "up_to" in rows else "By"
         if count:
             yield PASSED_OVER.format(within, f"{count} design{'s' * (count > 1)}")
 

@@ -56,7 +56,7 @@ def test_name_may_have_its_ending_and_is_checked(capsys, tmp_path, monkeypatch):
     assert crumple(capsys, "new", "pad.toml")[0] == 0
     assert load_config("pad.toml").name == "pad"
     refused = {("a b",): "is not a name; allowed", ("a", "--out", "a.txt"): "ends in .toml"}
-    refused[("a", "--out", "/dev/full/a.toml")] = "cannot be written"
+    refused[("a", "--out", "/dev/full/a.toml")] = "is or lies in a file"
     for words, why in refused.items():
         status, out, err = crumple(capsys, "new", *words)
         assert (status, out) == (2, "")

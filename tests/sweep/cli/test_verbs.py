@@ -1,5 +1,6 @@
 """The command line: its answers, its refusals, and its exit status."""
 
+import errno
 import io
 import json
 import re
@@ -12,7 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from sweep.cli.refusals import REFUSALS
+from sweep.cli.refusals import REFUSALS, ArgumentError, writing
 from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column
 from sweep.running.sweep import Interrupted
@@ -109,6 +110,24 @@ def test_refusals_take_two_lines_and_exit_with_2(capsys, file, tmp_path, argumen
     assert (status, out) == (2, "")
     assert expected in err
     assert err.count("\n") <= 2
+
+
+@pytest.mark.parametrize("columns", [60, 200])
+def test_help_fits_the_terminal(capsys, monkeypatch, columns):
+    """But for lines that are indented, such as examples."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    for verb in VERBS:
+        _, shown, _ = crumple(capsys, verb, "--help")
+        prose = [line for line in shown.splitlines() if not line.startswith((" ", "usage:"))]
+        assert max(map(len, prose)) <= min(columns, 100), verb
+
+
+def test_disk_that_is_full_is_told_in_a_line(tmp_path):
+    """Also where h5py finds it, which says more."""
+    long = "Can't synchronously write data (file write failed: time = ...\n, errno = 28)"
+    with pytest.raises(ArgumentError) as refused, writing(tmp_path, Path("a.vtkhdf")):
+        raise OSError(errno.ENOSPC, long)
+    assert str(refused.value) == "a.vtkhdf cannot be written: No space left on device"
 
 
 def test_pictures_need_a_folder(capsys, file):

@@ -98,6 +98,7 @@ TWO = "[grid]\nlattice.cells = [2, 3]\n"
         ('[loading]\nmode = "displacement"\nstrain = "150 %"', ['"20 %", above 0, below 100 %']),
         ("[loading]\nstrain = 60", ["out of range", '"20 %", above 0, below 1']),
         ('[material]\nname = "ninjaflx"', ["unknown material", *available(), ".csv"]),
+        ('[material]\nname = "mine.csv"', ["there is no ", "/mine.csv", *available()]),
         ("[material]\nloss = [0.2, 0.4]", ["[grid]", "at most 0.8"]),
         ('[rank]\nper = "panel"', ["no rank.panel", '"specimen"']),
         ('[rank]\npanel = ["1 mm"]', ["too few", "2 values", LENGTH]),

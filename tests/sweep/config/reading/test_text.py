@@ -22,7 +22,7 @@ HEADER = b"# density_kg_m3: 1000\n# poisson: 0.4\nstrain,stress_Pa\n"
         (None, "sweep.toml: cannot be read (No such file"),
         (b'[lattice]\nkind = "custom"\nfile = "a\\u0000.json"', "not the path of a file; needed"),
         (b'[lattice]\nkind = "custom"\nfile = "none.json"', "cannot be read (No such file or"),
-        (b'[material]\nname = "a\\u0000.csv"', "unknown material"),
+        (b'[material]\nname = "a\\u0000.csv"', "there is no "),
     ],
 )
 def test_configs(content, why, tmp_path):

@@ -172,6 +172,14 @@ def test_a_striker_and_ribs_are_drawn_where_the_platens_are():
     assert below == pytest.approx(1e3 * frames["plate_y_m"][0])
 
 
+@pytest.mark.parametrize(("height", "shown"), [(8.0, 8.0), (10.0, 10.0), (50.0, 10.0)])
+def test_a_striker_is_shown_as_far_as_it_is_no_higher_than_the_lattice(height, shown):
+    """In mm, above a lattice of 10 mm, with walls of 1 mm."""
+    outline = 1e-3 * np.array([[0.0, 0.0], [height, height], [-height, height]])
+    frames = squeezed_cell() | {"striker_m": outline}
+    assert shapes_of(frames)[0].get_ylim()[1] == pytest.approx(11.0 + shown)
+
+
 FLAT, TALL = [4.0, 3.8, 3.6, 3.4, 3.2], [40.0, 38.0, 36.0, 34.0, 32.0]
 
 

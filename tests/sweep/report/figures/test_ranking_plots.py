@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_hex, to_rgb
+from matplotlib.text import Text
 
 from sweep.ranking.rank import ranked
 from sweep.report.figures.case_plots import GREY, TICKS, blank, round_ticks
@@ -13,6 +14,8 @@ from sweep.report.figures.design_style import looks
 from sweep.report.figures.pattern_bars import pattern_bars
 from sweep.report.figures.ranking_plots import PALE, has_trends, merit_over_mass, thickness_trends
 from tests.support.results.specimens import designs, summary
+
+PAD = 10.0  # pixels between a panel and what is beside it
 
 
 @pytest.fixture
@@ -33,6 +36,10 @@ def changed(ranking, **columns):
     return replace(ranking, table=ranking.table.assign(**columns))
 
 
+def is_text(artist):
+    return artist.get_text() if isinstance(artist, Text) else ""
+
+
 def bars_of(ax):
     lines = [c for c in ax.collections if isinstance(c, LineCollection)]
     return [segment for line in lines for segment in line.get_segments()]
@@ -49,6 +56,30 @@ def test_map_has_a_panel_a_scene_and_stairs_along_the_pareto_front(ranking):
     stairs = axes[0].get_lines()[0]
     np.testing.assert_allclose(stairs.get_xydata(), [[1.0, 0.1], [2.0, 0.3]])
     assert stairs.get_drawstyle() == "steps-post"
+
+
+@pytest.mark.parametrize("draw", [merit_over_mass, thickness_trends, pattern_bars])
+@pytest.mark.parametrize("scenes", [1, 2])
+def test_titles_stay_above_their_panels(ranking, draw, scenes):
+    """Beside them is the legend, or the next panel."""
+    scene = "struck by 1361 g at 4 m/s (10.9 J) on a target of 1361 g, striker round, 6 mm, at 50 %"
+    table = ranking.table[ranking.table["scene"].isin(ranking.scenes[:scenes])]
+    table = table.assign(scene=scene + ", " + table["scene"])
+    table.loc[table.index[0], "lattice_kind"] = "reentrant"  # a wide legend
+    figure = blank(5.0 * scenes + 1.8, 4.2)
+    draw(figure, replace(ranking, table=table, budgets_g=(1.5, 3.0)))
+    figure.draw_without_rendering()
+    for ax in filter(lambda ax: ax.get_title("left"), figure.axes):
+        (title,) = ax.findobj(lambda text, ax=ax: is_text(text) == ax.get_title("left"))
+        assert title.get_window_extent().x1 <= ax.get_window_extent().x1 + PAD
+
+
+def test_lines_are_named_by_their_cells_where_colours_show_patterns(ranking):
+    kinds = ["hex", "hex", "square"] * 2
+    several = changed(ranking, lattice_kind=kinds, cells_x=[3, 4, 3] * 2)
+    for shown, names in ((several, ["3 x 3", "4 x 3", "3 x 3"]), (ranking, [])):
+        (ax, _) = drawn(shown, thickness_trends).axes
+        assert [text.get_text() for text in ax.texts] == names
 
 
 def test_map_names_and_rings_the_winner_of_each_budget(ranking):

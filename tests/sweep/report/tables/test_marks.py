@@ -47,7 +47,7 @@ def test_designs_that_are_passed_over_are_counted():
     ranking = ranked(table, by="absorbed_energy_J")
     assert list(ranking.table["passed_on_N"]) == [25.0, 900.0]
     (sheet,) = ranking_sheets(ranking, table)
-    assert sheet.notes == (PASSED_OVER.format("", "1 design"),)
+    assert sheet.notes == (PASSED_OVER.format("By", "1 design"),)
 
 
 def test_a_lattice_that_packs_at_two_strains_is_marked():
