@@ -65,6 +65,7 @@ class Recorder(list):
     """Simulates and records cases; false until it has recorded one."""
 
     def __call__(self, case, stop):
+        """Record and simulate one case."""
         self.append(case)
         return simulate(case)
 
