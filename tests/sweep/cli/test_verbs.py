@@ -144,7 +144,7 @@ def test_ranking_counts_failures_aloud(capsys, file, tmp_path):
     assert "Best first: most energy per gram." in out
     assert f"2 of 5 cases failed: crumple status {file} says why" in out
     table = out.partition("──\n")[2].splitlines()
-    assert [line[:2] for line in table[:3]] == ["1*", "2*", "2*"]
+    assert [line[:3] for line in table[:3]] == [" 1*", "2=*", "2=*"]
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
     assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} says why\n")
