@@ -18,6 +18,7 @@ CRUSHED = """\
 peak: greatest force of {of} until then."""
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
+PULLED = "Below zero: a glued platen pulls back what stays crushed, by more work than is returned."
 SECOND = (
     "cycle 2: energy absorbed in the second cycle / in the first; other columns: the first cycle."
 )
@@ -136,7 +137,8 @@ def printed_note(rows: DataFrame) -> str:
 def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
     if mode.driven:
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        return [*mode.notes, *_not_densified(rows), RETURNED, *second, _losses(rows)]
+        pulled = [PULLED] if (rows["returned_energy_J"] < 0.0).any() else []
+        return [*mode.notes, *_not_densified(rows), RETURNED, *pulled, *second, _losses(rows)]
     return [*mode.notes, *([_losses(rows)] if mode.struck else [])]
 
 
