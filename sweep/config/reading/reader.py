@@ -52,7 +52,8 @@ BY_MATERIAL = {
 """Keys of other tables that may be refused because of the material."""
 RANGE = ("from", "to")  # keys of a range of a search
 IN_SEARCH = "a range, which belongs into [search]"
-_NAME = re.compile(r"\w[\w.-]*")
+NAME = re.compile(r"\w[\w.-]*")
+NO_NAME = "not a name; allowed: letters, digits, dots, dashes, underscores"
 
 
 class Reader:
@@ -119,11 +120,9 @@ class Reader:
         return not depends_on & {_table(other.key) for other in self.faults if not other.understood}
 
     def _name(self, name: object) -> str:
-        if isinstance(name, str) and _NAME.fullmatch(name):
+        if isinstance(name, str) and NAME.fullmatch(name):
             return name
-        self._refuse(
-            "name", name, "not a name; allowed: letters, digits, dots, dashes, underscores"
-        )
+        self._refuse("name", name, NO_NAME)
         return ""
 
     def _section(self, document: dict[str, Any], name: str) -> dict[str, Any]:
