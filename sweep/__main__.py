@@ -229,10 +229,11 @@ class Filled(argparse.RawDescriptionHelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that prints errors in two lines and accepts no abbreviations."""
+    """A parser that prints errors in two lines; it accepts no abbreviations, no option twice."""
 
     def __init__(self, **options: Any):
         super().__init__(**options, allow_abbrev=False, formatter_class=Filled)
+        self.register("action", None, Once)
         self.verbs: Mapping[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
@@ -257,6 +258,28 @@ class Parser(argparse.ArgumentParser):
             near = [option for option in options if option.startswith(f"-{unknown}")]
         hint = f"; the nearest is {' or '.join(near)}" if near else ""
         self.error(f"unrecognized arguments: {' '.join(words)}{hint}")
+
+
+class Once(argparse.Action):
+    """Stores the value of an argument, and refuses an option that is given again.
+
+    A parser reads one command line.
+    """
+
+    is_given = False
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        """Store the value."""
+        if option_string and self.is_given:
+            raise argparse.ArgumentError(self, "given twice; allowed: once")
+        self.is_given = True
+        setattr(namespace, self.dest, values)
 
 
 class Version(argparse.Action):
@@ -669,7 +692,7 @@ _results, _table, _page = (partial(_named, end=end) for end in (".h5", ".csv", "
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb and return the exit status."""
     argument_parser = parser()
-    complete(argument_parser)
+    complete(argument_parser, Once)
     words = sys.argv[1:] if argv is None else argv
     if not words:
         argument_parser.print_help()

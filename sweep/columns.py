@@ -137,7 +137,8 @@ COLUMNS: dict[str, Column] = {
     ),
     "returned_energy_J": Column(
         "J",
-        "work returned to the platen or striker as it moves back; NaN if none moves back",
+        "work returned to the platen or striker as it moves back, less the work of a glued platen "
+        "that pulls; NaN if none moves back",
         "less",
     ),
     "dissipated_energy_J": Column(

@@ -7,7 +7,7 @@ messages (`in_unit`), except for files whose format has a unit, such as the mill
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from sweep.constants import STANDARD_GRAVITY
@@ -134,8 +134,28 @@ def with_unit(value: float | str | None, unit: str, digits: int = 4) -> str:
 
 
 def numerals(values: Series) -> Series:
-    """Numbers as text by `three_digits`."""
-    return values.map(three_digits)
+    """Numbers as text by `three_digits`, in one notation."""
+    return _in_one_notation(values, three_digits, "{:.2e}".format)
+
+
+def shorts(values: Series) -> Series:
+    """Numbers as text by `short`, in one notation."""
+    return _in_one_notation(values, short, _short_exponential)
+
+
+def _in_one_notation(
+    values: Series, text: Callable[[float], str], exponential: Callable[[float], str]
+) -> Series:
+    """Numbers as text; if one of them has an exponent, all that are finite have one."""
+    texts = values.map(text)
+    if not any("e" in one for one in texts):
+        return texts
+    return values.map(exponential).where(texts != NOTHING, NOTHING)
+
+
+def _short_exponential(value: float) -> str:
+    factor, _, exponent = f"{value:.3e}".partition("e")
+    return f"{float(factor):g}e{exponent}"
 
 
 def three_digits(value: float) -> str:

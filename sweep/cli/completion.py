@@ -4,7 +4,7 @@ A shell runs `crumple` at each press of the tab key, with variables that argcomp
 """
 
 import os
-from argparse import ArgumentParser, Namespace
+from argparse import Action, ArgumentParser, Namespace
 from contextlib import suppress
 from typing import Any
 
@@ -20,12 +20,16 @@ def script(shell: str) -> str:
     return shellcode(["crumple"], shell=shell).strip()
 
 
-def complete(parser: ArgumentParser) -> None:
-    """Answer a shell that asks, and exit; otherwise do nothing."""
+def complete(parser: ArgumentParser, stores: type[Action]) -> None:
+    """Answer a shell that asks, and exit; otherwise do nothing. stores: an action that has no other
+    effect, whose values `words` may need.
+    """
     if ASKED in os.environ:
-        import argcomplete
+        from argcomplete import autocomplete
+        from argcomplete.finders import safe_actions
 
-        argcomplete.autocomplete(parser)
+        safe_actions.add(stores)
+        autocomplete(parser)
 
 
 def offer(argument: Any, words: Any) -> None:

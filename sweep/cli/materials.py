@@ -111,16 +111,14 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.config.materials.material_file import read_record
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
-    from sweep.coupon.write import fit_sentence, material_text, sentences_on_fit
+    from sweep.coupon.write import file_beside, fit_sentence, material_text, sentences_on_fit
     from sweep.report.figures.case_plots import blank, save
     from sweep.report.figures.material_plots import coupon_fit
 
     if len(names) != 1:
         raise MaterialsError("fit needs the file of one coupon: crumple materials fit coupon.csv")
     file = Path(names[0])
-    out = Path(arguments.out or file.with_name(f"{file.stem}_material.csv"))
-    if out.suffix != ".csv" or out.resolve() == file.resolve():
-        raise MaterialsError(f"--out {out}; allowed: another file, whose name ends in .csv")
+    out = file_beside(file, arguments.out, "--out")
     coupon = read_coupon(file, _answers(arguments))
     law = fit(coupon)
     with writing(out.parent, out):

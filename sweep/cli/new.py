@@ -1,7 +1,6 @@
 """The verb `new`: writes a config with comments, to be changed by its user."""
 
 import json
-import re
 from pathlib import Path
 from textwrap import wrap
 
@@ -10,7 +9,6 @@ from sweep.cli.terminal import quoted
 from sweep.design.infill import families
 from sweep.whole_file import write_whole
 
-NAME = re.compile(r"\w[\w.-]*")
 KINDS = ("crush", "drop", "load")
 WIDTH, COMMENT = 99, 37  # columns at which a line ends and a comment begins
 
@@ -89,11 +87,11 @@ def new(name: str, kind: str, out: str | None) -> Path:
 
     The schema that the config names, for editors, is written beside it.
     """
+    from sweep.config.reading.reader import NAME, NO_NAME
+
     name = name.removesuffix(".toml")
     if not NAME.fullmatch(name):
-        raise NewError(
-            f'"{name}" is not a name; allowed: letters, digits, dots, dashes, underscores'
-        )
+        raise NewError(f'"{name}" is {NO_NAME}')
     path = Path(out or f"{name}.toml")
     if path.suffix != ".toml":
         raise NewError(f"--out {path}; allowed: a file whose name ends in .toml")

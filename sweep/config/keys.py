@@ -23,7 +23,7 @@ from sweep.config.kinds.loading import KINDS as LOADINGS
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import COMPUTED, TABLES, Table
-from sweep.config.materials.material_file import available
+from sweep.config.materials import material_file
 from sweep.config.question import QUESTION
 from sweep.numbers import in_unit
 
@@ -139,7 +139,7 @@ def _key(name: str, kind: Any, schema: dict[str, Any] | None = None) -> Key:
     item = _item(schema) if is_list else schema
     allowed = _words(schema)
     if name == "material.name":
-        allowed = f"{', '.join(available())}, or the path of a .csv file"
+        allowed = material_file.in_words()
     if name == "loading.preset":
         allowed = drop_tests.in_words()
     unit, bare, most = item.get("unit"), item.get("bare", False), item.get("bare_most", inf)

@@ -8,14 +8,13 @@ from pathlib import Path
 
 from pandas import DataFrame
 
-from sweep.config.faults import MisfitError
 from sweep.config.materials.material_file import available, locate, read_record
 from sweep.config.materials.material_header import source
 from sweep.config.units import quantity
 from sweep.coupon.answers import Answers
 from sweep.coupon.fit import fit
 from sweep.coupon.record import read_coupon
-from sweep.coupon.write import material_text
+from sweep.coupon.write import file_beside, material_text
 from sweep.whole_file import write_whole
 
 NUMBERS = {
@@ -68,9 +67,7 @@ def fit_material(  # noqa: PLR0913  each answers one question that a record may 
     materials fit`, which `CouponError` refers to if the file leaves something open.
     """
     path = Path(file)
-    target = Path(out or path.with_name(f"{path.stem}_material.csv"))
-    if target.suffix != ".csv" or target.resolve() == path.resolve():
-        raise MisfitError(f"out = {target}; allowed: another file, whose name ends in .csv")
+    target = file_beside(path, out, "out =")
     answers = Answers(
         gauge=_in_si(gauge, "m"),
         area=_in_si(area, "m^2"),

@@ -2,8 +2,10 @@
 tension, and reports how well it fits.
 """
 
+import os
 from collections.abc import Iterator
 from math import inf
+from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
@@ -13,7 +15,7 @@ from sweep.coupon.curve import cauchy_odd
 from sweep.coupon.fit import Fit
 from sweep.coupon.hyperelastic import rubber
 from sweep.coupon.legs import leg_name
-from sweep.coupon.record import Floats
+from sweep.coupon.record import CouponError, Floats
 from sweep.numbers import in_unit, significant, text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3
@@ -23,6 +25,17 @@ POOR = 0.03  # root mean square of record - law over the greatest stress
 SURE = 5e-4  # relative: smaller standard errors are not written
 LEAST = 0.01  # share of a number: the low end of its range if that were not positive
 POISSON = "0.48 (0.45 .. 0.48)"
+
+
+def file_beside(coupon: Path, out: str | os.PathLike[str] | None, option: str) -> Path:
+    """The file of the material of a coupon: ``out``, by default FILE_material.csv beside it.
+
+    option: how an error names ``out``.
+    """
+    file = Path(out or coupon.with_name(f"{coupon.stem}_material.csv"))
+    if file.suffix != ".csv" or file.resolve() == coupon.resolve():
+        raise CouponError(f"{option} {file}; allowed: another file, whose name ends in .csv")
+    return file
 
 
 def material_text(fit: Fit, density: float | None = None) -> str:

@@ -37,4 +37,6 @@ def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:
     """
     if not np.ptp(points[edges], axis=(0, 1)).max() < FAR * thickness.max():
         return float("nan")
+    nodes, places = np.unique(edges, return_inverse=True)  # others may be anywhere
+    points, edges = points[nodes], places.reshape(edges.shape)
     return float(scanline.covered_area(points, edges, thickness, LINES, CHUNK))

@@ -29,7 +29,7 @@ from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, me
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.pareto import pareto
-from sweep.ranking.places import passed_over, places_by, reach
+from sweep.ranking.places import passed_over, places_by
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import Outcome, check, judge, limits
@@ -122,7 +122,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     place : equal values share a place, and so do values whose order the estimated errors may
         reverse (`shared_places`). Designs that are `beyond_model` or `crossed` come after all
         others.
-    tied : with error bars, or where an energy has a range: True if the place is shared.
+    tied : True if the place is shared.
     ranked_error : with error bars: the error of the value.
     sharing, contenders : number of designs with this place, and with any place, including those
         that `top` cuts off.
@@ -306,9 +306,9 @@ def _within(rows: DataFrame, by: str, budget_g: float, top: int | None) -> DataF
     """The first of the sorted rows within a budget, with their places."""
     error = rows.get(error_column(by))
     place = places_by(rows, by)
-    columns = {} if error is None else {"ranked_error": error}
-    if error is not None or any((length > 0.0).any() for length in reach(rows, by)):
-        columns["tied"] = place.duplicated(keep=False)
+    columns = {"tied": place.duplicated(keep=False)}
+    if error is not None:
+        columns["ranked_error"] = error
     limit = budget_g if np.isfinite(budget_g) else np.nan
     sharing = place.map(place.value_counts()).astype(int)  # where nothing is, too
     columns |= {"sharing": sharing, "contenders": len(rows), "passed_over": passed_over(rows, by)}

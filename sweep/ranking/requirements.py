@@ -147,7 +147,7 @@ def judge(
     required: Mapping[str, float],
     per: str,
     budgets_g: Sequence[float],
-    allowed: float = np.nan,
+    allowed: float,
 ) -> tuple[Series, tuple[Outcome, ...]]:
     """Which rows of one scene fulfil all requirements, and the outcome within each budget.
 

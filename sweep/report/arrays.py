@@ -23,7 +23,7 @@ OF_CURVES = "history_"  # prefix of a curve whose name a column of the summary a
 NEEDED = 'to_xarray needs xarray: pip install "crumple[xarray]"'
 
 
-def dataset(path: Path, table: DataFrame, curves: Sequence[str] | str | bool = ()) -> Dataset:
+def dataset(path: Path, table: DataFrame, curves: Sequence[str] | str | bool) -> Dataset:
     """The rows of a summary as a dataset along `case_id`, with named curves along `row`."""
     curves = [curves] if isinstance(curves, str) else curves
     try:

@@ -38,7 +38,7 @@ from sweep.running.child_process import Simulate
 from sweep.running.sweep import Interrupted, interruptible
 from sweep.running.threads import Stop, run_on_threads
 from sweep.running.warming import real_simulate
-from sweep.store.read import ONLY_MISSING, Rerun, finished_ids
+from sweep.store.read import Rerun, finished_ids
 
 BYTES = 4  # per stored number, in single precision
 PACKED = 0.9  # compressed / original size, of curves and shapes together
@@ -89,8 +89,8 @@ def dry_run(
     config: Config,
     out: str,
     workers: int,
-    rerun: Rerun = ONLY_MISSING,
-    error_bars: bool = False,
+    rerun: Rerun,
+    error_bars: bool,
 ) -> str:
     """Number of cases, time and disk space of a sweep, as text. Writes no file."""
     from dask.system import cpu_count

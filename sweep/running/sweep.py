@@ -130,7 +130,7 @@ def _work(simulate: Simulate | None, cases: Sequence[Case], place: Place) -> Wor
     """The function that runs the cases; the kernels that they need are loaded only where they
     run.
     """
-    if simulate:
+    if simulate is not None:
         return Work(simulate, [])
     if isinstance(place, Cluster):
         return Work(*simulate_unloaded(cases))

@@ -43,29 +43,29 @@ def packed_row(gained: Floats) -> int | None:
     return best if 0 < best < len(gained) - 1 else None
 
 
-def near_maxima(gained: Floats, within: float = ALIKE) -> list[int]:
+def near_maxima(gained: Floats) -> list[int]:
     """Rows of the maxima of nearly the greatest efficiency (rows,), except the first and the last
     row; of equal neighbours the last one counts.
     """
     inner, before, after = gained[1:-1], gained[:-2], gained[2:]
-    near = inner >= (1.0 - within) * gained.max()
+    near = inner >= (1.0 - ALIKE) * gained.max()
     return [int(row) + 1 for row in np.flatnonzero(near & (inner >= before) & (inner > after))]
 
 
-def weights(strain: Floats, gained: Floats, band: float = BAND) -> Floats:
+def weights(strain: Floats, gained: Floats) -> Floats:
     """Weights of the rows in a mean over strains of nearly the greatest efficiency; their sum is 1.
 
     strain, gained (efficiency): (rows,). All weight is on the last row if no energy was absorbed.
     """
-    above = np.clip(gained - (1.0 - band) * gained.max(), 0.0, None)
+    above = np.clip(gained - (1.0 - BAND) * gained.max(), 0.0, None)
     steps = np.diff(strain, prepend=strain[0]) + np.diff(strain, append=strain[-1])
     weight = above * steps  # trapezoidal rule
     return weight / weight.sum() if weight.sum() > 0.0 else last_row(len(strain))
 
 
-def span(strain: Floats, gained: Floats, within: float = ALIKE) -> float:
+def span(strain: Floats, gained: Floats) -> float:
     """Strain from the first to the last row of nearly the greatest efficiency."""
-    near = strain[gained >= (1.0 - within) * gained.max()]
+    near = strain[gained >= (1.0 - ALIKE) * gained.max()]
     return float(near[-1] - near[0])
 
 

@@ -121,7 +121,7 @@ class Block:
         return rows[np.argsort(self.ragged["cases"].start[rows])]
 
 
-def block_of(results: Sequence[Result], revision: str = "") -> Block:
+def block_of(results: Sequence[Result], revision: str) -> Block:
     """A finished batch as a block; `revision`: git revision of the source that ran it."""
     by = {"git_revision": revision}
     who = [

@@ -251,15 +251,10 @@ def read_frames(path: str | os.PathLike[str], case_id: str) -> dict[str, np.ndar
     return _frames(path, case_id, _read_arrays(Path(path), case_id, FRAME_GROUPS))
 
 
-def read_runs(
-    path: str | os.PathLike[str], case_ids: Iterable[str], shapes: bool = True
-) -> Iterator[StoredRun]:
-    """Curves and shapes of many cases, one after another; the files are opened only once.
-
-    shapes: False leaves the shapes unread, and `frames` empty.
-    """
+def read_runs(path: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[StoredRun]:
+    """Curves and shapes of many cases, one after another; the files are opened only once."""
     for case_id, arrays in _arrays_of(Path(path), case_ids):
-        frames = _frames(path, case_id, arrays(FRAME_GROUPS)) if shapes else {}
+        frames = _frames(path, case_id, arrays(FRAME_GROUPS))
         yield StoredRun(case_id, _history(arrays(["histories"])), frames)
 
 

@@ -94,3 +94,19 @@ def test_a_crushed_lattice_stays_short_and_says_at_which_strain_it_broke():
     assert summary["greatest_fibre_strain"] > 0.025
     assert crushed.message.startswith(f"broke at a strain of {summary['broke_at_strain']:.3g}")
     assert summary["absorbed_energy_within_model_J"] < summary["absorbed_energy_J"]
+
+
+def test_a_glued_platen_pulls_a_crushed_lattice_back():
+    """More work than the lattice returns before; none of it is a loss of the crush."""
+    case = Case.of(
+        lattice=dict(cells_x=2, cells_y=2, wall_thickness=1e-3),
+        material=dict(name="pla"),
+        loading=dict(mode="displacement", strain=0.2, platen="glued"),
+    )
+    pulled = converged(case)
+    summary, history = pulled.summary, pulled.history
+    back = history["strain"][1:] < history["strain"][:-1]
+    assert history["reaction_top_N"][1:][back].min() < -0.3 * summary["peak_force_N"]
+    assert -summary["absorbed_energy_J"] < summary["returned_energy_J"] < 0.0
+    assert summary["lost_energy_J"] == summary["absorbed_energy_J"]
+    assert np.abs(history["energy_residual_J"]).max() < 1e-6 * history["work_in_J"].max()

@@ -1,6 +1,7 @@
 """Quantities in the units of people, and numbers as text."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from sweep.config.units import quantity
@@ -14,8 +15,10 @@ from sweep.numbers import (
     budget_text,
     budget_unit,
     in_unit,
+    numerals,
     percent,
     short,
+    shorts,
     tenths,
     text_in,
     three_digits,
@@ -49,6 +52,24 @@ def test_numbers_show_three_digits():
     numbers = [0.01234, 0.5, 9.996, 12345.6, -7.0, 0.0, 1.234e-300, NAN, float("inf")]
     expected = ["0.0123", "0.500", "10.00", "12346", "-7.00", "0", "1.23e-300", "–", "–"]
     assert [three_digits(number) for number in numbers] == expected
+
+
+@pytest.mark.parametrize(
+    ("numbers", "texts"),
+    [
+        ([1e-4, 2e-6], ["0.000100", "0.00000200"]),
+        ([1e-4, 2e-7, NAN, 0.0], ["1.00e-04", "2.00e-07", NOTHING, "0.00e+00"]),
+        ([], []),
+    ],
+)
+def test_a_column_has_one_notation(numbers, texts):
+    assert list(numerals(pd.Series(numbers, dtype=float))) == texts
+
+
+def test_a_column_of_short_numbers_has_one_notation():
+    assert list(shorts(pd.Series([1e-4, 0.3]))) == ["0.0001", "0.3"]
+    assert list(shorts(pd.Series([1e-4, 2.5e-6, NAN]))) == ["1e-04", "2.5e-06", NOTHING]
+    assert list(shorts(pd.Series([3, 4]))) == ["3", "4"]
 
 
 def test_shares_are_percent():

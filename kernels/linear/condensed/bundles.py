@@ -65,7 +65,7 @@ def bundled(kind, start, row_start, inner, outer):
         w = wall[g, 0]
         pieces[g], rows[g + 1] = start[w + 1] - start[w], rows[g] + row_start[w + 1] - row_start[w]
     inside = np.empty((rows[-1], LANES), np.int64)
-    ends = np.empty((size.size, outer.shape[1], LANES), np.int64)
+    ends = np.empty((size.size, outer.shape[1] * LANES), np.int64)
     for g in range(size.size):
         for lane in range(LANES):
             w = wall[g, lane]
@@ -73,7 +73,5 @@ def bundled(kind, start, row_start, inner, outer):
             for k in range(rows[g + 1] - rows[g]):
                 inside[rows[g] + k, lane] = inner[row_start[w] + k]
             for c in range(outer.shape[1]):
-                ends[g, c, lane] = outer[w, c]
-    return Bundles(
-        wall, first, size, pieces, rows, inside.ravel(), ends.reshape(size.size, -1), place
-    )
+                ends[g, LANES * c + lane] = outer[w, c]
+    return Bundles(wall, first, size, pieces, rows, inside.ravel(), ends, place)

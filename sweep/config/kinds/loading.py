@@ -5,7 +5,7 @@ from typing import Annotated, TypeAlias, get_args
 from pydantic import Field
 
 from sweep.config.kinds.body import Body
-from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.crush import PLATENS, Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
@@ -22,7 +22,6 @@ BY_MODE = tuple(
 AnyLoading = Annotated[Loading, Field(discriminator="mode")]
 MODES = '"displacement" or "impact"'
 PLATENS_ALONG = '"glued", "clamped" or "contact"'
-PLATENS_ACROSS = '"contact", "glued" or "sliding"'
 
 
 def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes: bool) -> Loading:
@@ -92,10 +91,10 @@ def _check(inputs: Inputs, mode: str, body: Body, integrator: str | None) -> Non
     if body.sheet and "target_mass" in inputs:
         raise RefusedError("loading.target_mass", inputs["target_mass"], f"none {body.where}")
     if body.tied_sides and not shells and platen in (None, "none") and (platen or mode == "force"):
-        raise RefusedError("loading.platen", platen, f"{PLATENS_ACROSS} {TIED}", because)
+        raise RefusedError("loading.platen", platen, f"{PLATENS} {TIED}", because)
     if shells and platen not in (None, "glued", "clamped", "contact"):
         raise RefusedError("loading.platen", platen, f"{PLATENS_ALONG} {body.where}")
     if not shells and not body.endless and platen == "clamped":
         none = '"none", ' if mode == "force" and not body.tied_sides else ""
-        allowed = f'{none}{PLATENS_ACROSS} if loading.direction is "in_plane"'
+        allowed = f'{none}{PLATENS} if loading.direction is "in_plane"'
         raise RefusedError("loading.platen", platen, allowed)

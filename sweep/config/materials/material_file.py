@@ -99,6 +99,11 @@ def available() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.csv"))
 
 
+def in_words() -> str:
+    """What `material.name` may be, in words."""
+    return f"{', '.join(available())}, or the path of a .csv file"
+
+
 def locate(name: str, folder: Path | None = None) -> Path:
     """The file of a shipped material, or of a user's own csv, relative to `folder`."""
     if name.endswith(".csv"):
@@ -107,10 +112,7 @@ def locate(name: str, folder: Path | None = None) -> Path:
             return path
     elif name in available():
         return FOLDER / f"{name}.csv"
-    names = ", ".join(available())
-    raise UnknownMaterialError(
-        f'"{name}" is no material; allowed: {names}, or the path of a .csv file'
-    )
+    raise UnknownMaterialError(f'"{name}" is no material; allowed: {in_words()}')
 
 
 def read_record(path: Path) -> Record:

@@ -5,6 +5,7 @@ The reader knows no units: its caller passes the conversion.
 
 import json
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from pydantic import ValidationError
 
 from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.faults import Fault, MisfitError
+from sweep.config.faults import SHOWN, Fault, MisfitError
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.lattice import KINDS, Lattice
@@ -51,7 +52,8 @@ BY_MATERIAL = {
 """Keys of other tables that may be refused because of the material."""
 RANGE = ("from", "to")  # keys of a range of a search
 IN_SEARCH = "a range, which belongs into [search]"
-_NAME = re.compile(r"\w[\w.-]*")
+NAME = re.compile(r"\w[\w.-]*")
+NO_NAME = "not a name; allowed: letters, digits, dots, dashes, underscores"
 
 
 class Reader:
@@ -66,6 +68,7 @@ class Reader:
         self.to_si = to_si
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
+        self.meant: Counter[str] = Counter()  # the keys nearest to unknown ones
         self.notes: list[str] = []
         self.of_file: type[Lattice] | None = FILED[0]  # whose `lattice.file` is read, if any
 
@@ -117,11 +120,9 @@ class Reader:
         return not depends_on & {_table(other.key) for other in self.faults if not other.understood}
 
     def _name(self, name: object) -> str:
-        if isinstance(name, str) and _NAME.fullmatch(name):
+        if isinstance(name, str) and NAME.fullmatch(name):
             return name
-        self._refuse(
-            "name", name, "not a name; allowed: letters, digits, dots, dashes, underscores"
-        )
+        self._refuse("name", name, NO_NAME)
         return ""
 
     def _section(self, document: dict[str, Any], name: str) -> dict[str, Any]:
@@ -334,11 +335,19 @@ class Reader:
             return Written(raw, in_words(raw), name)
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
+        """Refuse an unknown key, and name the nearest, unless `SHOWN` others come before it: the
+        search for the nearest is slow, and a fault of a key that many others mean is not shown.
+        """
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
             names.append(PROFILE)
-        near, clause = meant(name, names)
-        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
+        if self.meant.total() < SHOWN:
+            near, clause = meant(name, names)
+            self.meant[near] += 1
+        else:
+            near, clause = self.meant.most_common(1)[0][0], ""
+        wrong = f"unknown key; {clause}" if clause else "unknown key"
+        self._refuse(name, raw, wrong, where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()

@@ -7,12 +7,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from sweep.config.kinds.table import Few, Positive
 from sweep.constants import MM
 
 Pair = tuple[float, float]
-Positive = Annotated[float, Field(gt=0)]
 Node = Annotated[int, Field(ge=0)]
-Pieces = Annotated[int, Field(ge=1, le=1000)]
 BESIDE_WALLS = (
     *("supports", "loads", "prescribed", "pins", "springs", "masses"),
     *("floor_y_mm", "gravity_mm_s2", "initial_velocity_mm_s", "probes"),
@@ -78,7 +77,7 @@ class Structure(Part):
     walls: Annotated[tuple[tuple[Node, Node], ...], Field(min_length=1)]
     wall_thickness_mm: Positive | tuple[Positive, ...] = 0.8
     depth_mm: Positive = 12.0
-    subdivide: Pieces | tuple[Pieces, ...] = 8
+    subdivide: Few | tuple[Few, ...] = 8
     rest_angles: Literal["as_drawn"] = "as_drawn"
     supports: tuple[Support, ...] = ()
     loads: tuple[Load, ...] = ()

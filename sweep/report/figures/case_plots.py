@@ -105,7 +105,8 @@ def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> 
         turn, released, ended = crushes(history)[0]
     down, pause, back = slice(turn + 1), slice(turn, released + 1), slice(released, ended + 1)
     dead, absorbed = MODES[row["loading_mode"]].dead, row["absorbed_energy_J"]
-    returned = f"returns {tenths(row['returned_energy_J'] / absorbed)} %"
+    share = row["returned_energy_J"] / absorbed
+    returned = "pulled back" if share < 0.0 else f"returns {tenths(share)} %"
     words = ("load applied", "load removed") if dead else ("loading", f"unloading,\n{returned}")
     style: Any = "steps-pre" if dead else "default"
     sky: dict[str, Any] = {"color": SKY, "alpha": 0.3, "lw": 0, "step": "pre" if dead else None}

@@ -58,7 +58,9 @@ SHAPED = "lattice.", "material."  # keys of a design
 THICK = tuple(f"lattice.{key}" for key in ("wall_thickness", "mass", "line_width", "infill"))
 """Keys of a design that set the thickness of its walls."""
 NARROW, MARGIN = 1.2, 0.1  # axis of mass: least ratio of its ends; margin at either end
-BESIDE = {"xytext": (6, 0), "textcoords": "offset points", "fontsize": "small", "va": "center"}
+BESIDE: dict[str, Any] = {
+    "xytext": (6, 0), "textcoords": "offset points", "fontsize": "small", "va": "center",
+}  # fmt: skip
 ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis has no zero
 
 

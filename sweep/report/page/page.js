@@ -396,7 +396,7 @@ function* partText() {
   if (certain > 0 && certain < placed.length)
     yield `The first ${certain === 1 ? "design is the first" : `${certain} designs are the first`} among all; between and behind the others may be more.`;
   else if (!certain && placed.length) yield "Places are among the designs of the page.";
-  if (now.bar || now.ranged) yield "Designs that it leaves out may share places.";
+  yield "Designs that it leaves out may share places.";
 }
 
 // The stopped cases that could have had a place, each with its reason: unfinished_notes.py.
@@ -487,15 +487,11 @@ function requiredColumns() {
   return found;
 }
 
-function isTied(row) {
-  return (now.bar || now.ranged) && row.sharing > 1;
-}
-
 function placeText(row) {
   const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
   const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
   const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
-  return `${row.place}${isTied(row) ? "=" : ""}${row.pareto ? "*" : ""}${marks}`;
+  return `${row.place}${row.sharing > 1 ? "=" : ""}${row.pareto ? "*" : ""}${marks}`;
 }
 
 function sorted(shown) {

@@ -305,8 +305,8 @@ function certainty(data, question, { placed, nearest, lightestMeeting }) {
 // All designs of a scene of known mass as `rows`; those with a place, best first, as `placed`; those
 // within the budget that miss what is required, the nearest first, as `missing`; `nearest`: where no
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
-// lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`; `ranged`: some
-// energies stand for a range; `passedOver`: doubtful designs whose values are better than the first.
+// lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`;
+// `passedOver`: doubtful designs whose values are better than the first.
 // Of a page that leaves designs out: `certain` and `better` of `certainty`.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
@@ -327,7 +327,6 @@ function ranked(data, question) {
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
-  const ranged = placed.some((row) => row.below > 0 || row.above > 0);
   markPlaces(placed);
   const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
   const passedOver = placed.filter((row) => sign * (row.value - placed[0].value) < 0 && doubtful(row) > doubtful(placed[0])).length;
@@ -335,5 +334,5 @@ function ranked(data, question) {
   const lightest = Math.min(...rows.map((row) => row.mass));
   const stopped = unfinished(data, placed, question);
   const sure = certainty(data, question, { placed, nearest, lightestMeeting });
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, ranged, passedOver, ...sure };
+  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, passedOver, ...sure };
 }

@@ -7,7 +7,7 @@ from pandas.api.types import is_numeric_dtype
 
 from sweep.columns import ALONG, describe_column
 from sweep.design.slicer.patterns import is_lateral, is_sheet
-from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, text_in
+from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, shorts, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_labels
 
 ID = 4  # least letters of an id in a sentence
@@ -93,10 +93,12 @@ def _grid_text(values: Series, among: Series) -> dict[str, Series]:
     """The column of a grid key, with its unit; ``among``: its values in all cases."""
     unit = describe_column(str(values.name)).units
     noun = str(values.name).split(".")[-1].replace("_", " ")
-    if not unit or not is_numeric_dtype(values):
+    if not is_numeric_dtype(values):
         return {noun: values.map(short)}
+    if not unit:
+        return {noun: shorts(values)}
     factor, name = scaled(unit, float(among.abs().max()))
-    return {f"{noun} {name}": (factor * values.astype(float)).map(short)}
+    return {f"{noun} {name}": shorts(factor * values.astype(float))}
 
 
 def about_direction(row: Series) -> list[str]:

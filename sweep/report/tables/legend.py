@@ -18,6 +18,7 @@ CRUSHED = """\
 peak: greatest force of {of} until then."""
 NOT_DENSIFIED = '"> {0}": no densification before the end of the crush, at {0} %.'
 RETURNED = "returned: returned energy / work of the whole crush."
+PULLED = "Below zero: a glued platen pulls back what stays crushed, by more work than is returned."
 SECOND = (
     "cycle 2: energy absorbed in the second cycle / in the first; other columns: the first cycle."
 )
@@ -51,7 +52,7 @@ over more than 10 % of strain."""
 TWICE = """\
 34-52: the efficiency is greatest, within 2 %, at two strains, these; the energy until densification
 is a range too (columns lowest_..., highest_...)."""
-TIED_RANGES = "=: a tie: the ranges of designs meet."
+EQUAL = "=: a tie: the values of designs are equal, or their ranges meet."
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
 ONE_PERIOD = """\
@@ -90,12 +91,9 @@ def _error_notes(table: DataFrame) -> list[str]:
     """The meaning of error bars; none where no error is known."""
     if "ranked_error" not in table:
         return []
-    tied, unknown = [TIED] * _has_ties(table), [UNKNOWN] * bool(table["ranked_error"].isna().any())
+    tied = [TIED] * bool(table["tied"].any())
+    unknown = [UNKNOWN] * bool(table["ranked_error"].isna().any())
     return [ERRORS, *tied, *unknown]
-
-
-def _has_ties(table: DataFrame) -> bool:
-    return "tied" in table and bool(table["tied"].any())
 
 
 def _notes(ranking: Ranking) -> list[str]:
@@ -108,7 +106,7 @@ def _notes(ranking: Ranking) -> list[str]:
         **dict.fromkeys(mark_notes(table), True),
         UNSURE: (is_unsure(crushed) & densified).any() and not ranking.limited,
         TWICE: densifies_twice(crushed).any() and not ranking.limited,
-        TIED_RANGES: _has_ties(crushed) and "ranked_error" not in table,
+        EQUAL: table["tied"].any() and "ranked_error" not in table,
         EARLY: ranking.limited and table["ends_early"].any(),
     }
     return [note for note, is_needed in notes.items() if is_needed]
@@ -139,7 +137,8 @@ def printed_note(rows: DataFrame) -> str:
 def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
     if mode.driven:
         second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        return [*mode.notes, *_not_densified(rows), RETURNED, *second, _losses(rows)]
+        pulled = [PULLED] if (rows["returned_energy_J"] < 0.0).any() else []
+        return [*mode.notes, *_not_densified(rows), RETURNED, *pulled, *second, _losses(rows)]
     return [*mode.notes, *([_losses(rows)] if mode.struck else [])]
 
 

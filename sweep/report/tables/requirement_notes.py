@@ -53,12 +53,12 @@ WIDTH = 100  # most letters in a line
 DISTRUST = "marked {}: do not trust it"
 
 
-def quantity(name: str, value: float, digits: int = 4) -> str:
+def quantity(name: str, value: float) -> str:
     """The value of a requirement (SI) in its unit."""
     if name == "min_absorbed":
         return energy_text(value)
     shown = MEASURES[name].shown
-    return f"{float(f'{in_unit(value, shown):.{digits}g}'):g} {shown}"
+    return f"{float(f'{in_unit(value, shown):.4g}'):g} {shown}"
 
 
 def required(ranking: Ranking, modes: Iterable[str]) -> str:

@@ -138,9 +138,7 @@ def _missed(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> 
 
 def _places(rows: DataFrame) -> Series:
     """Places with the marks for ties, for the Pareto front, and for doubtful results."""
-    places = rows["place"].astype(str)
-    if "tied" in rows:
-        places += rows["tied"].map({True: "="}).fillna("")
+    places = rows["place"].astype(str) + rows["tied"].map({True: "=", False: ""})
     return places + rows["pareto"].map({True: "*", False: " "}) + marks(rows)
 
 

@@ -24,11 +24,11 @@ COUNT = 3
 ALIKE = 0.05  # relative difference in all numbers up to which two designs are one peak
 
 
-def finalists(best: Iterable[Case], count: int = COUNT) -> list[Case]:
-    """The first designs that differ from one another by a choice, or by more than `ALIKE`."""
+def finalists(best: Iterable[Case]) -> list[Case]:
+    """The first `COUNT` designs that differ by a choice, or by more than `ALIKE`."""
     designs: list[Case] = []
     for case in best:
-        if len(designs) == count:
+        if len(designs) == COUNT:
             break
         if not any(_alike(case.axes, other.axes) for other in designs):
             designs.append(case)

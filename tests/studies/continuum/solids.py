@@ -6,13 +6,15 @@ would cross themselves at the inner corners that close.
 """
 
 import sys
-from importlib.util import find_spec
 from typing import NamedTuple
 
 import numpy as np
 
 from tests.studies.continuum.grid import Grid
+from tests.studies.continuum.press import Press
 from tests.studies.continuum.rubber import RUBBERS
+from tests.studies.continuum.solid import Solid
+from tests.studies.continuum.touch import Touch
 
 HEAD = """\
 # Crushes of a grid of 3 x 3 cells as a solid body: force and energy over strain.
@@ -21,7 +23,6 @@ HEAD = """\
 # Y = 12 MPa, nu = 0.48. L: a third of 12.5 mm. across: elements through a wall.
 t_over_l,plane,across,strain,force_N,energy_mJ
 """
-NEEDED = {"skfem": "scikit-fem", "ipctk": "ipctk"}
 MODULUS, POISSON = 12.0, 0.48
 REACH = {2: 0.006, 4: 0.006, 6: 0.002}  # of contact, thicknesses; by elements through a wall
 STEP = 0.01  # of the strain
@@ -58,10 +59,6 @@ PACKED = pair(0.192, "stress", 0.6)  # walls of 0.8 mm
 
 def press(case):
     """The body of a case between platens, able to touch itself."""
-    from tests.studies.continuum.press import Press
-    from tests.studies.continuum.solid import Solid
-    from tests.studies.continuum.touch import Touch
-
     grid = case.grid()
     body = Solid(grid.mesh(), case.rubber(), grid.depth)
     reach = REACH[case.across] * grid.thickness
@@ -84,15 +81,5 @@ def main(chosen):
             sys.stdout.flush()
 
 
-def lacking():
-    """A sentence on packages to install, if any are missing."""
-    absent = [package for module, package in NEEDED.items() if find_spec(module) is None]
-    if not absent:
-        return ""
-    return f"solids need {' and '.join(absent)}: install with pip or uv into .venv"
-
-
 if __name__ == "__main__":
-    if lacking():
-        sys.exit(lacking())
     main(int(sys.argv[1]) if len(sys.argv) > 1 else None)

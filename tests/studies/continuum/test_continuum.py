@@ -28,6 +28,7 @@ from tests.studies.continuum.solid import Solid
 from tests.studies.continuum.solids import PACKED, PAIRS, Crush, crushed
 from tests.studies.continuum.strip import energy, moment, softening
 from tests.studies.continuum.study import APART, POINTS, WATCHED, Side, networks, stored
+from tests.studies.continuum.touch import Touch
 from tests.support.kernels.terms import NO_MEMORY
 
 OUTER = 0.5 * 0.6**0.5  # place of the outer fibres of a section of thickness 1
@@ -174,10 +175,9 @@ def test_press_gives_up_aloud(monkeypatch):
 
 def test_walls_touch_and_do_not_cross():
     """One cell with stout walls, at a strain at which they would cross."""
-    touch = pytest.importorskip("tests.studies.continuum.touch", reason="ipctk is not installed")
     grid = Grid(cells=1, width=10.0, thickness=2.0, across=1)
     solid = Solid(grid.mesh(), RUBBER, 12.0)
-    contact = touch.Touch(solid, 0.1, 12.0 * 12.0)
+    contact = Touch(solid, 0.1, 12.0 * 12.0)
     strains = np.arange(1, 15) / 20.0
     through = Press(solid, grid.width).crush(strains)
     assert contact.crosses(through.shape)
@@ -363,7 +363,6 @@ def test_sections_soften_like_a_strip(plane, kappa, within):
 
 
 def test_stored_solids_are_as_computed():
-    pytest.importorskip("ipctk", reason="ipctk is not installed")
     case = Crush(0.1, "stress", 2, 0.02)
     strain, force, energy = stored()[case[:3]][:, 1:3]
     rows = np.array(crushed(case))[1:].T

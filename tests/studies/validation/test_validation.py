@@ -4,7 +4,6 @@ from math import isnan
 
 import pytest
 
-from tests.studies.continuum import solids
 from tests.studies.validation import PROBLEMS, energy
 from tests.studies.validation.__main__ import HEAD, row
 from tests.studies.validation.elastica import cantilever
@@ -50,10 +49,3 @@ def test_order_and_limit_of_a_sequence():
     assert found.error == pytest.approx(1e-3)
     assert found.extrapolated == pytest.approx(0.0, abs=1e-12)
     assert isnan(Finding((1.0, 1.0, 1.0), 1.0, 2.0).order)
-
-
-def test_solid_says_what_it_lacks(monkeypatch):
-    monkeypatch.setattr(solids, "find_spec", lambda name: None if name == "skfem" else name)
-    assert solids.lacking() == "solids need scikit-fem: install with pip or uv into .venv"
-    monkeypatch.setattr(solids, "find_spec", lambda name: name)
-    assert solids.lacking() == ""

@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from sweep.__main__ import parser
 from sweep.cli.refusals import REFUSALS, ArgumentError, writing
 from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column
@@ -163,7 +164,7 @@ def test_ranking_counts_failures_aloud(capsys, file, tmp_path):
     assert "Best first: most energy per gram." in out
     assert f"2 of 5 cases failed: crumple status {file} says why" in out
     table = out.partition("──\n")[2].splitlines()
-    assert [line[:2] for line in table[:3]] == ["1*", "2*", "2*"]
+    assert [line[:3] for line in table[:3]] == [" 1*", "2=*", "2=*"]
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
     assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} says why\n")
@@ -612,6 +613,26 @@ def test_what_a_verb_does_not_take_is_told_with_the_nearest(capsys, config, word
     assert err == (
         f"crumple run: unrecognized arguments: {hint}\ncrumple run --help shows examples\n"
     )
+
+
+@pytest.mark.parametrize(
+    ("verb", "words"),
+    [
+        ("rank", ["--max-mass", "20 g", "--max-mass=3 g"]),
+        ("rank", ["--panel", "9 mm", "9 mm", "--panel", "8 mm", "8 mm"]),
+        ("run", ["--workers", "1", "--workers", "1"]),
+        ("optimize", ["--seed", "1", "--seed", "2"]),
+    ],
+)
+def test_an_option_is_given_once(capsys, verb, words):
+    status, out, err = crumple(capsys, verb, "none.h5", *words)
+    assert (status, out) == (2, "")
+    assert err.startswith(f"crumple {verb}: argument {words[0]}: given twice; allowed: once\n")
+
+
+def test_a_list_of_budgets_may_go_on():
+    words = "rank trial.h5 --budget 9g 8g --budget 7g"
+    assert parser().parse_args(words.split()).budget == ["9g", "8g", "7g"]
 
 
 def test_help_without_examples_promises_none(capsys):

@@ -61,6 +61,12 @@ def test_no_file_is_read(monkeypatch, tmp_path):
 FAR = json.loads(CUSTOM.to_json())["lattice"]["structure"] | {"probes": [99]}
 
 
+def assert_refused(text, line):
+    with pytest.raises(ValueError, match=line) as refused:
+        Case.from_json(text)
+    assert "\n" not in str(refused.value)
+
+
 @pytest.mark.parametrize(
     ("text", "line"),
     [
@@ -71,9 +77,7 @@ FAR = json.loads(CUSTOM.to_json())["lattice"]["structure"] | {"probes": [99]}
     ],
 )
 def test_other_texts_are_refused_with_a_line(text, line):
-    with pytest.raises(ValueError, match=line) as refused:
-        Case.from_json(text)
-    assert "\n" not in str(refused.value)
+    assert_refused(text, line)
 
 
 @pytest.mark.parametrize(
@@ -99,4 +103,4 @@ def test_other_values_are_refused_with_a_line(case, table, values, line):
     for key, value in values.items():
         if value is None:
             del tables[table][key]
-    test_other_texts_are_refused_with_a_line(json.dumps(tables), line)
+    assert_refused(json.dumps(tables), line)

@@ -8,7 +8,7 @@ import pytest
 
 from sweep.ranking.places import shared_places
 from sweep.ranking.rank import rank, ranked
-from sweep.report.tables.legend import TIED, legend
+from sweep.report.tables.legend import EQUAL, TIED, legend
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.command import crumple
 from tests.support.results.specimens import designs, ids, summary, write
@@ -117,13 +117,15 @@ def test_what_is_cut_off_is_counted_for_each_budget(asked, told):
     assert list(ranking.table["contenders"]) == list(ranking.table["sharing"]) == counts
 
 
-def test_without_error_bars_nothing_speaks_of_them():
-    table = summary(*designs([1.0, 1.0], [0.1, 0.1]))
-    ranking = ranked(table)
-    assert not {"tied", "ranked_error"} & set(ranking.table)
+@pytest.mark.parametrize("by", [None, "peak_strain"])
+def test_without_error_bars_equal_values_are_tied_and_nothing_speaks_of_errors(by):
+    table = summary(*designs([1.0, 1.0], [0.1, 0.1]), dict(mass_g=3.0, peak_strain=0.01))
+    ranking = ranked(table, by=by)
+    assert "ranked_error" not in ranking.table
     assert (TIED in legend(ranking), ranking.without_bar) == (False, 0)
+    assert EQUAL in legend(ranking)
     (sheet,) = ranking_sheets(ranking, table)
-    assert [row[0] for row in sheet.rows] == ["1*", "1*"]
+    assert [row[0] for row in sheet.rows] == ["1=*", "1=*", "3 "]
 
 
 def test_error_bars_follow_into_what_is_derived():

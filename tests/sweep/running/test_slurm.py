@@ -15,7 +15,6 @@ from sweep.store.read import read_statuses
 from tests.support.cluster import ROOT
 from tests.support.results.standin import cases, simulate
 
-pytest.importorskip("dask_jobqueue", reason="an extra: crumple[slurm]")
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 SBATCH = """#!/bin/sh

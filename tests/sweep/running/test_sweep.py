@@ -61,6 +61,21 @@ def test_kill_in_the_middle_loses_only_batches_in_flight(tmp_path, executions):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["executions", "killed.h5", "reference.h5"]
 
 
+class Recorder(list):
+    """Simulates and records cases; false until it has recorded one."""
+
+    def __call__(self, case, stop):
+        """Record and simulate one case."""
+        self.append(case)
+        return simulate(case)
+
+
+def test_a_false_function_is_called_too(tmp_path):
+    recorder = Recorder()
+    assert run_sweep(cases(3), tmp_path / "sweep.h5", simulate=recorder) == 0
+    assert len(recorder) == 3
+
+
 def test_interruption_in_this_process(tmp_path):
     def pressed(case, stop):
         if number_of(case) == 3:

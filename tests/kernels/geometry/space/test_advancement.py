@@ -2,6 +2,7 @@
 than needed.
 """
 
+import ipctk
 import numpy as np
 import pytest
 
@@ -63,7 +64,6 @@ def test_head_on(advance, points, speed):
 @pytest.mark.parametrize(("advance", "squared"), KINDS)
 def test_shares_against_the_toolkit(advance, squared):
     """Tight inclusion: the first meeting is never before the share, and seldom far beyond."""
-    ipctk = pytest.importorskip("ipctk", reason="ipctk is not installed")
     exact = ipctk.TightInclusionCCD()
     shares, hits = [], 0
     for seed in range(300):

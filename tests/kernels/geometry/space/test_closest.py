@@ -1,5 +1,6 @@
 """Closest points of points, edges and triangles, against minimisation and the toolkit of IPC."""
 
+import ipctk
 import numpy as np
 import pytest
 
@@ -70,7 +71,6 @@ SHAPES = [ordinary, in_plane, parallel, nearly_parallel]
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_distances_agree_with_the_toolkit(shape):
-    ipctk = pytest.importorskip("ipctk", reason="ipctk is not installed")
     for seed in range(60):
         points = shape(seed)
         arrays = [np.array(p) for p in points]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.linear.condensed.bundles import CONDENSED, OPEN, RIGID
+from kernels.linear.condensed.bundles import CONDENSED, OPEN, RIGID, bundled
 from tests.support.kernels.frames import frame, layout_of
 from tests.support.kernels.webs import MIXED, WALLS, Problem, couplings, supported, web
 
@@ -47,6 +47,12 @@ def test_only_the_last_bundle_of_walls_of_a_kind_is_incomplete():
     of = web(3)
     bundles = Problem(of, layout_of(of), couplings(of, "some open")).found.bundles
     np.testing.assert_array_equal(bundles.size, [4, 2, 2])
+
+
+def test_no_walls_are_no_bundles():
+    none, start = np.empty(0, np.int64), np.zeros(1, np.int64)
+    bundles = bundled(none, start, start, none, np.empty((0, 6), np.int64))
+    assert (bundles.wall.shape, bundles.outer.shape) == ((0, 4), (0, 24))
 
 
 def test_a_frame_of_more_than_128_blocks():

@@ -17,11 +17,6 @@ def written(path, inner, page=""):
     return path
 
 
-@pytest.fixture(autouse=True)
-def _reader():
-    pytest.importorskip("svgelements")
-
-
 def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
     inner = (
         f'<defs><g id="bar">{LINE}</g></defs><g transform="translate(1 2) scale(2)">'

@@ -52,8 +52,6 @@ def test_a_drawn_grid_is_the_built_in_one(grid):
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_drawing_is_the_same_case_in_every_format(tmp_path, grid, name):
-    if name == "svg":
-        pytest.importorskip("svgelements")
     path = FORMATS[name](tmp_path / f"grid.{name}")
     unit = {"file_unit": "1 mm"} if name == "data" else {}
     assert drawn(path, **unit).case_id == grid.case_id

@@ -69,6 +69,12 @@ def test_a_pause_and_further_cycles_have_lines_of_their_own():
     assert labels(ax)[1:5] == said
 
 
+def test_a_lattice_that_a_platen_pulls_back_returns_nothing():
+    row = ROW | {"returned_energy_J": -0.01}
+    ax = axes_of(case_plots.force_displacement, there_and_back(), row)
+    assert "unloading,\npulled back" in labels(ax)
+
+
 def test_what_has_not_packed_is_told():
     never = ROW | {"densification_strain": np.nan}
     ax = axes_of(case_plots.force_displacement, there_and_back(), never)

@@ -1,7 +1,6 @@
 """The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from sweep.ranking.curves import with_allowed
@@ -29,7 +28,7 @@ function answersOf({ data, questions }) {
     return {
       placed: found.placed.map((row) => ({
         case_id: row.design.id, place: row.place, pareto: row.pareto,
-        tied: Boolean(found.bar || found.ranged) && row.sharing > 1,
+        tied: row.sharing > 1,
         beyond_model: row.beyond, crossed: row.design.crossed,
         value: row.value, mass: row.mass, early: row.early || row.open,
       })),
@@ -62,7 +61,6 @@ def _within(ranking, k, required):
     table = table.assign(
         value=[row[row["ranked_by"]] for _, row in table.iterrows()],
         mass=table[ranking.mass],
-        tied=table.get("tied", pd.Series(False, table.index)).eq(True),  # NaN: no error bars
         early=table["ends_early"],
     )
     names = ["case_id", "place", "tied", "pareto", "beyond_model", "crossed"]

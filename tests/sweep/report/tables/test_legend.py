@@ -1,7 +1,7 @@
 """The legend of a ranking explains what its tables show, and nothing else."""
 
 from sweep.ranking.rank import ranked
-from sweep.report.tables.legend import EARLY, legend
+from sweep.report.tables.legend import EARLY, PULLED, legend
 from sweep.report.tables.marks import MEANINGS
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, summary
@@ -14,6 +14,12 @@ def test_what_marks_mean_is_said_once_for_all_scenes():
     assert [sheet.rows[0][0] for sheet in sheets] == ["1 !"] * 2
     assert not any(MEANINGS["!"] in sheet.notes for sheet in sheets)
     assert legend(ranking).count(MEANINGS["!"]) == 1
+
+
+def test_a_platen_that_pulls_is_explained():
+    for energy, expected in ((0.1, False), (-0.1, True)):
+        text = legend(ranked(summary(SPARSE | {"returned_energy_J": energy})))
+        assert (PULLED in text) == expected
 
 
 def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
