@@ -41,6 +41,7 @@ CLOSE = [
     (STRUCK, "target_mass_g", 0.0, NAN),
     (LOADED, "force_N", 10.0, 10.00001),
     ({}, "lattice.imperfection", 0.01, 0.010004),
+    ({}, "lattice.imperfection", 1e-6, 1.1e-6),
     ({}, "stroke_m", 6.1e-3, 6.1e-3 * (1.0 + 1e-8)),
     ({"base": "ribs"}, "platen", "contact", "glued"),
 ]
