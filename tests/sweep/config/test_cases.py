@@ -71,6 +71,7 @@ def test_sequence_is_that_of_a_list():
         assert lazy[part] == eager[part]
     assert [*lazy.ids] == [made.case_id for made in eager]
     assert dict(lazy.labels) == {made.case_id: made.axes for made in eager}
+    assert "none" not in lazy.labels
     assert all(same(lazy.of(made.case_id), made) for made in eager)
     with pytest.raises(IndexError):
         lazy[len(eager)]

@@ -45,6 +45,8 @@ def test_gaps_and_overshoots_of_a_drawing_do_not_count():
     bottom = other.joints[np.abs(other.joints[:, 1]) < 2 * off]
     assert len(bottom) == 3
     assert np.ptp(bottom[:, 1]) == 0.0
+    tilted, _ = network([*FRAME[:2], ((SIDE, SIDE), (0, SIDE - off)), ((0, SIDE - off), (0, 0))])
+    assert np.unique(tilted.joints[:, 1]).tolist() == pytest.approx([0.0, SIDE])
     apart = network([*FRAME, ((5, 3 * off), (5, SIDE))])[0]
     assert np.bincount(apart.walls.ravel()).min() == 1
 

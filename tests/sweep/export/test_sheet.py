@@ -64,6 +64,15 @@ def test_the_print_axis_is_z(direction):
     np.testing.assert_allclose(body.points.max(axis=0), np.array(size) / MM, atol=2e-3)
 
 
+def test_a_panel_has_the_mass_that_is_ranked():
+    """Three periods of 6 x 6 mm."""
+    made = case("gyroid")
+    (text,) = sheet_panel(made, (9 * MM, 12 * MM))[1]
+    grams = 1e3 * made.material.density * 3 * made.lattice.extruded
+    assert text.startswith("9 x 12 mm, 6 mm thick, pressed along the print axis")
+    assert f"rank counts {grams:.4g} g" in text
+
+
 def test_settings_are_of_a_block_of_the_panel(tmp_path):
     layout, _ = sheet_block(case("tpmsd", "in_plane"), (60 * MM, 40 * MM))
     assert layout.shape.bounds == pytest.approx((0.0, 0.0, 60.0, 6.0))
@@ -80,7 +89,7 @@ def test_settings_are_of_a_block_of_the_panel(tmp_path):
     ("to", "wish", "words"),
     [
         ("a.stl", {}, "allowed with a panel"),
-        ("a.stl", {"panel": ("1 mm", "9 mm")}, "smaller than a period"),
+        ("a.stl", {"panel": ("1 mm", "9 mm")}, "smaller than a period; .* 6 x 6 mm"),
         ("a.stl", {"panel": ("2 m", "2 m")}, "at most 2,000"),
         ("a.svg", {"panel": ("50 mm", "50 mm")}, "no outline; allowed: .stl and .3mf"),
         ("a.3mf", {"panel": ("5 cm", "5 cm"), "kind": "settings"}, "lattice.slicer"),

@@ -20,6 +20,7 @@ def test_best_per_gram_comes_first_and_equal_values_share_a_place():
     ranking, backwards = ranked(table), rank(table.iloc[::-1])
     assert ids(ranking.table) == [1, 0, 2, 3]
     assert list(ranking.table["place"]) == [1, 1, 1, 4]
+    assert [ids(lightest) for lightest in ranking.lightest.values()] == [[1]]
     assert ranking.by == "specific_absorption_until_packed_J_per_g"
     assert set(ranking.table["ranked_by"]) == {ranking.by}
     pd.testing.assert_frame_equal(ranking.table, backwards)

@@ -8,7 +8,7 @@ import pytest
 from sweep.ranking.question import RankError
 from sweep.ranking.rank import rank, ranked
 from sweep.ranking.requirement_table import MEASURES
-from sweep.ranking.requirements import Best, limits
+from sweep.ranking.requirements import Best, limits, relative_energy
 from tests.support.results.specimens import HIT, designs, ids, summary
 
 NAN = float("nan")
@@ -189,6 +189,13 @@ def test_a_doubtful_design_is_the_nearest_only_if_there_is_no_other():
     outcome = the_outcome(table[1:2], require={"max_force": "40 N"})
     assert ids(outcome.nearest) == [1]
     assert outcome.best == {"max_force": Best(50.0, doubtful=True)}
+
+
+def test_a_base_that_moves_freely_leaves_less_to_absorb():
+    """If it is as heavy as the striker, half; three times as heavy, three quarters."""
+    striker = HIT["striker_mass_g"]
+    rows = summary(*(HIT | {"target_mass_g": share * striker} for share in (1, 3, NAN)))
+    assert list(relative_energy(rows) / rows["impact_energy_J"]) == pytest.approx([0.5, 0.75, 1.0])
 
 
 def test_no_crush_absorbs_more_than_the_allowed_force_over_the_height():

@@ -26,6 +26,14 @@ def test_scenes_are_never_compared():
     ]
 
 
+def test_a_label_has_what_presses_and_what_carries():
+    scenes = by_scene(summary({"striker": "nose"}, {"base": "ribs"}))
+    assert list(scenes) == [
+        "crushed to 50 %, striker nose, glued base",
+        "crushed to 50 %, flat striker, on ribs",
+    ]
+
+
 def test_assumptions_make_scenes_and_designs_do_not():
     table = summary(*designs([1.0, 1.0, 1.0], [0.1, 0.2, 0.3]))
     other = {"contact.friction": [0.2, 0.9, 0.9], "lattice.infill": [0.1, 0.1, 0.3]}
@@ -41,6 +49,7 @@ CLOSE = [
     (STRUCK, "target_mass_g", 0.0, NAN),
     (LOADED, "force_N", 10.0, 10.00001),
     ({}, "lattice.imperfection", 0.01, 0.010004),
+    ({}, "lattice.imperfection", 1e-6, 1.1e-6),
     ({}, "stroke_m", 6.1e-3, 6.1e-3 * (1.0 + 1e-8)),
     ({"base": "ribs"}, "platen", "contact", "glued"),
 ]

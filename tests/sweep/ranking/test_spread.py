@@ -34,12 +34,14 @@ def test_values_and_places_at_the_corners():
     assert spread.at_corners[AS_GIVEN].tolist() == pytest.approx([0.4, 0.3])
     assert spread.places.to_numpy().tolist() == [[1.0, 2.0, 1.0], [2.0, 1.0, 2.0]]
     assert (spread.swaps, spread.failed) == (["soft"], 0)
+    assert spread.worst.tolist() == pytest.approx([0.2, 0.25])
     assert [spread.first(name) for name in NAMES] == [1, 0]
 
 
 def test_failed_corners_are_counted_and_left_out():
     (spread,) = found([(np.nan, 0.8), (0.25, 0.5)])
     assert (spread.failed, spread.swaps) == (1, [])
+    assert spread.worst.tolist() == pytest.approx([np.nan, 0.25], nan_ok=True)
     assert ends(spread.at_corners.iloc[0]) == (AS_GIVEN, "hard")
     assert ends(spread.at_corners.loc[:, ["soft"]].iloc[0]) is None
 

@@ -8,12 +8,15 @@ import shapely
 
 from kernels.terms.elements import Walls
 from kernels.terms.stretch import Stretch
+from sweep.config.case import Case
+from sweep.scene.lattice import build_scene
 from sweep.simulation.shape_checks import (
     crossings,
     deformations,
     element_strains,
     kept_area,
     shortening,
+    surface_strains,
     work_within_model,
 )
 from tests.support.kernels.solving import whole
@@ -78,6 +81,22 @@ def test_deformations_are_those_of_the_kernels(turn):
     shape = made.problem.buffers.shape
     np.testing.assert_allclose(length[1], shape.length, rtol=1e-14)
     np.testing.assert_allclose([one[1], two[1]], shape.turn, atol=1e-12)
+
+
+def test_surfaces_of_straight_walls_are_stretched_like_their_middle():
+    """The surface of a bent wall is stretched more."""
+    scene = build_scene(Case.of(material={"bend": "section"}))
+    walls, bend = scene.terms.walls, scene.terms.bend
+    assert (bend.volume > 0.0).any()
+    longer = 1.02 * scene.x_rest
+    turned = longer.copy()
+    turned[walls.dofs[len(walls.dofs) // 2, 2]] += 0.1
+    deformation = deformations(np.array([longer, turned]), walls)
+    strains = element_strains(deformation, scene.terms.stretch)
+    straight, bent = surface_strains(deformation, strains, bend)
+    np.testing.assert_allclose(straight, 0.02)
+    assert (bent >= strains[1] - 1e-12).all()
+    assert bent.max() > strains[1].max() + 0.001
 
 
 def within_model(shapes, time, work, broken=np.nan):

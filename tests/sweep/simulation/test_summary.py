@@ -9,6 +9,7 @@ from sweep.simulation.summary import (
     OF_A_CRUSH,
     crush_columns,
     lost_columns,
+    printed_mass,
     returned,
     stretch_over_curve,
     transmitted,
@@ -187,3 +188,13 @@ def test_the_greater_of_both_platens_or_what_a_support_bears_is_passed_on():
     history = {"reaction_top_N": np.array([1.0, 5.0]), "reaction_bottom_N": np.array([2.0, 4.0])}
     assert list(transmitted(Case.of(), history)) == [2.0, 5.0]
     assert list(transmitted(Case.of(loading=dict(mode="impact")), history)) == [2.0, 4.0]
+
+
+def test_printed_mass_is_what_a_slicer_extrudes():
+    block = dict(slicer="prusa", pattern="grid", width=20e-3, height=20e-3, mass=2.5e-3)
+    assert printed_mass(Case.of(lattice=block)) == pytest.approx(2.5)
+    sheet = dict(slicer="orca", pattern="gyroid", infill=0.2, height=6e-3, depth=6e-3)
+    case = Case.of(lattice=sheet)
+    grams = 1e3 * case.material.density * case.lattice.extruded
+    assert printed_mass(case) == pytest.approx(grams)
+    assert np.isnan(printed_mass(Case.of(lattice=LATTICE)))

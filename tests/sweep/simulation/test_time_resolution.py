@@ -83,6 +83,13 @@ def test_what_the_integrator_takes_is_a_measure_of_the_error(time_step, integrat
     assert error[0] <= 1.0 - result.summary["peak_force_N"] / RIGHT < error[1]
 
 
+def test_static_steps_have_no_share():
+    history = {"work_in_J": np.array([0.0, -2.0]), "dissipated_integrator_J": np.array([0.0, 1.0])}
+    assert integrator_share(struck().loading, history) == 0.5
+    assert np.isnan(integrator_share(pressed(2, 0.1, 5).loading, history))
+    assert np.isnan(integrator_share(struck().loading, dict.fromkeys(history, np.zeros(2))))
+
+
 def test_what_the_integrator_takes_from_vibrations_is_no_error_of_the_striker():
     """Nothing else damps them; with an eighth of the steps the share is below 0.1 %."""
     case = Case.of(loading={"mode": "impact"}, damping={"model": "none"})

@@ -47,6 +47,8 @@ def test_steps_of_an_impact_are_a_share_of_its_contact():
     for speed in (0.01, 0.1):
         assert usual_step(striker_speed=speed) == pytest.approx(contact / 20)
     assert usual_step(striker_speed=0.01, striker_mass=0.2) == pytest.approx(contact / 10)
+    equal = usual_step(striker_speed=0.01, target_mass=0.05)  # half the mass, as both move
+    assert equal == pytest.approx(contact / 20 / 2**0.5)
     assert usual_step(striker_speed=1e-3, striker_mass=5e-4) == pytest.approx(125.0 / 1e6)
 
 

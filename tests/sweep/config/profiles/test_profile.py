@@ -71,10 +71,17 @@ OWN, BY_SPACING = "infill_extrusion_width", {"infill_extrusion_width": ""}
     [
         ("", {OWN: "0"}, "0.45 mm"),
         ("", {OWN: "250%"}, "0.5 mm"),  # of the layer height
+        ("", {OWN: "250%", "layer_height": "0.3"}, "0.75 mm"),
+        ("", {OWN: "250%", "layer_height": None}, "0.5 mm"),  # of layers of 0.2 mm
         (SUPER, {OWN: "150%"}, "0.6 mm"),  # of the nozzle
         ("", {OWN: "0", "extrusion_width": "0"}, "0.45 mm"),  # 1.125 nozzles
         (SUPER, BY_SPACING | {"infill_extrusion_spacing": "0.4"}, "0.4429 mm"),
         (SUPER, BY_SPACING | {"infill_extrusion_spacing": "100%"}, "0.4429 mm"),
+        (
+            SUPER,
+            BY_SPACING | {"infill_extrusion_spacing": "0.4", "layer_height": "0.3"},
+            "0.4644 mm",
+        ),
     ],
 )
 def test_width_of_a_line(ini, head, changes, width):

@@ -48,6 +48,13 @@ def test_times_of_steps_scale_as_their_order():
     assert fine.load_steps is None
 
 
+def test_rounded_steps_under_a_speed_last_as_long_together():
+    """Half of three steps is one."""
+    loading = dict(mode="displacement", speed=1e-3, stroke=5e-3)
+    coarse = refined(Case.of(loading=loading, solver=dict(time_step=5 / 3)), steps=0.5).solver
+    assert (coarse.load_steps, coarse.time_step) == (1, pytest.approx(5.0))
+
+
 def test_layers_of_plates_grow_up_to_the_thickness_of_walls():
     along = Case.of(loading=CRUSH | {"direction": "out_of_plane"})
     before = along.lattice.layers
