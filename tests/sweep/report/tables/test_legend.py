@@ -1,7 +1,7 @@
 """The legend of a ranking explains what its tables show, and nothing else."""
 
 from sweep.ranking.rank import ranked
-from sweep.report.tables.legend import EARLY, PULLED, legend
+from sweep.report.tables.legend import EARLY, PULLED, TWICE, legend
 from sweep.report.tables.marks import MEANINGS
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, summary
@@ -29,3 +29,4 @@ def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
         (sheet,) = ranking_sheets(ranking, table)
         assert sorted(sheet.columns[sheet.heads.index("usable mJ")]) == energies
         assert (EARLY in legend(ranking)) == (force is not None)
+        assert TWICE not in legend(ranking)
