@@ -445,7 +445,8 @@ def _add_rank(verbs: Any) -> None:
     _add_question(rank)
     rank.add_argument("--top", type=_count, metavar="N", help="places shown: 10, or 3 per budget")
     shape = rank.add_mutually_exclusive_group()
-    for name, what in {"csv": "all columns", "json": "all columns", "markdown": "tables"}.items():
+    every = "these places, in all columns"
+    for name, what in {"csv": every, "json": every, "markdown": "tables"}.items():
         shape.add_argument(f"--{name}", action="store_true", help=f"{what}, as {name} on stdout")
     shape.add_argument("--brief", action="store_true", help=BRIEF)
     shape.add_argument(
