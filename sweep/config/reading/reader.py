@@ -335,8 +335,10 @@ class Reader:
             return Written(raw, in_words(raw), name)
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
-        """Refuse an unknown key, and name the nearest, unless `SHOWN` others come before it: the
-        search for the nearest is slow, and a fault of a key that many others mean is not shown.
+        """Refuse an unknown key, and name the nearest.
+
+        That search is slow. Unknown keys after the first `SHOWN` go without it, as faults of the
+        key that most of these mean, so that they are listed last.
         """
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
