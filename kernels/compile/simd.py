@@ -18,7 +18,10 @@ from numba.np.arrayobj import make_array
 LANES = 4
 VECTOR = ir.VectorType(ir.DoubleType(), LANES)
 INDEX, WORD = ir.IntType(32), ir.IntType(64)
+INDICES, WORDS = ir.VectorType(INDEX, LANES), ir.VectorType(WORD, LANES)
 ANYTHING = ir.Constant(VECTOR, ir.Undefined)
+MANTISSA = ir.Constant(WORDS, [52] * LANES)  # its bits, below those of the exponent
+ROOT = ir.Constant(WORDS, [int(np.sqrt(0.5).view(np.int64))] * LANES)  # bits of 2^(-1/2)
 
 
 class Four(types.Type):
@@ -109,7 +112,7 @@ def spread(_, number):
 
     def code(context, builder, signature, args):
         first = builder.insert_element(ANYTHING, args[0], INDEX(0))
-        return builder.shuffle_vector(first, ANYTHING, ir.Constant(ir.VectorType(INDEX, LANES), 0))
+        return builder.shuffle_vector(first, ANYTHING, ir.Constant(INDICES, 0))
 
     return four(types.float64), code
 
@@ -145,6 +148,51 @@ def exceeds(_, a, b):
         return builder.icmp_unsigned("==", builder.bitcast(lanes, every.type), every)
 
     return types.boolean(four, four), code
+
+
+@_instruction(lambda vector, index: vector[index])
+def lane(_, vector, index):
+    """Return number ``index`` of a vector."""
+
+    def code(context, builder, signature, args):
+        return builder.extract_element(*args)
+
+    return types.float64(four, types.intp), code
+
+
+@_instruction(np.rint)
+def nearest(_, vector):
+    """Return the whole number nearest to each lane."""
+
+    def code(context, builder, signature, args):
+        kind = ir.FunctionType(VECTOR, [VECTOR])
+        rounded = builder.module.declare_intrinsic("llvm.rint.v4f64", fnty=kind)
+        return builder.call(rounded, args)
+
+    return four(four), code
+
+
+@_instruction(lambda vector: np.floor(np.log2(vector) + 0.5))
+def exponent(_, vector):
+    """Return the k with 2^(k - 1/2) <= lane < 2^(k + 1/2) of each lane, a positive number."""
+
+    def code(context, builder, signature, args):
+        above = builder.sub(builder.bitcast(args[0], WORDS), ROOT)
+        return builder.sitofp(builder.trunc(builder.ashr(above, MANTISSA), INDICES), VECTOR)
+
+    return four(four), code
+
+
+@_instruction(lambda vector, k: np.ldexp(vector, k.astype(int)))
+def scaled(_, vector, k):
+    """Return lane times 2^k of each lane, where ``k`` has whole numbers and nothing overflows."""
+
+    def code(context, builder, signature, args):
+        whole = builder.sext(builder.fptosi(args[1], INDICES), WORDS)
+        bits = builder.add(builder.bitcast(args[0], WORDS), builder.shl(whole, MANTISSA))
+        return builder.bitcast(bits, VECTOR)
+
+    return four(four, four), code
 
 
 def _declare(operation, instruction):

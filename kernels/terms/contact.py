@@ -28,6 +28,7 @@ from kernels.geometry.distance import (
     push_point,
     push_point_stiffen,
     push_stiffen,
+    squared_distance,
 )
 from kernels.geometry.near_pairs import counted, is_guarded, within
 from kernels.geometry.profile import Profiles
@@ -116,13 +117,13 @@ def detect(x, contact, pairs, drift, touching):
     touching.count[0], apart = 0, True
     for k in range(within(pairs, contact.reach + 2.0 * drift)):
         p, dc = pairs.node[k], pairs.d_contact[k]
-        if dc == 0.0:
+        if pairs.distance[k] >= dc + 2.0 * drift:
             continue
         a, b = pair(contact.edges, pairs.edge[k])
+        if squared_distance(x, p, a, b) >= dc * dc:
+            continue
         tau, inside = closest(x, p, a, b)
         _, _, d = normal(x, p, a, b, tau)
-        if d >= dc:
-            continue
         if d <= CLOSEST * dc:  # at a vertex the subtracted contribution is infinite too
             apart = False
             continue

@@ -39,6 +39,8 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit, jit_exact
+from kernels.compile.simd import LANES, lane, load, spread
+from kernels.laws.power import power
 
 LEAST = 0.05  # stretch of the centre line below which bending takes infinite energy: second
 # derivatives grow without bound at 0, and the barrier below `elastic.GUARD` keeps walls longer
@@ -47,23 +49,22 @@ CRUSHED = 0.3  # stretch of a fibre below which a is continued
 
 
 @jit
-def crushed(power, q):
-    """Return `fibre` below `CRUSHED`."""
-    least = CRUSHED ** (1.0 / power)
-    slope, beyond = power * CRUSHED / least, q - least
-    second = slope * (power - 1.0) / least
-    return CRUSHED + beyond * (slope + 0.5 * beyond * second), slope + beyond * second, second
+def powers(law, centre_q, theta, first):
+    """Return q and q^(1 / m) of four fibres, those from number ``first`` on."""
+    q = spread(centre_q) + spread(law.m * theta) * load(law.place, first)
+    return q, power(q, 1.0 / law.m)
 
 
 @jit
-def fibre(power, q):
-    """Return the stretch a of a fibre and its two derivatives in q; power: 1 / m."""
-    a = q**power if q > 0.0 else 0.0
-    if a < CRUSHED:
-        return crushed(power, q)
+def fibre(law, q, root):
+    """Return the stretch a of a fibre and its two derivatives in q; root: q^(1 / m)."""
+    if q < law.crushed:
+        beyond, slope = q - law.crushed, CRUSHED / (law.m * law.crushed)
+        second = slope * (1.0 / law.m - 1.0) / law.crushed
+        return CRUSHED + beyond * (slope + 0.5 * beyond * second), slope + beyond * second, second
     by = 1.0 / q
-    slope = power * a * by
-    return a, slope, slope * (power - 1.0) * by
+    slope = root * by / law.m
+    return root, slope, slope * (1.0 / law.m - 1.0) * by
 
 
 @jit
@@ -87,13 +88,16 @@ def stop(theta):
 
 @jit
 def turned(law, theta):
-    """Return S - R and its two derivatives, J/m^3."""
+    """Return the `bent` sums of a section without fibres: S - R and its derivatives, J/m^3."""
     value, slope, second = radial(law.bound, theta)
     touching, push, stiff = stop(theta)
     return (
         law.stop * touching - law.radial * value,
         law.stop * push - law.radial * slope,
+        0.0,
         law.stop * stiff - law.radial * second,
+        0.0,
+        0.0,
     )
 
 
@@ -106,28 +110,26 @@ def middle(m, stretched):
 
 
 @jit
-def bent(law, centre, theta, memory, point):
-    """Return the part of w due to bent fibres, w without its terms W(e), J/m^3.
+def bent(law, sums, first, powered, memory, point):
+    """Add four fibres, those from number ``first`` on, to ``sums``: w without its terms W(e), its
+    slopes in theta and q, and its second derivatives in theta theta, q theta and q q.
 
-    It is followed by the first derivatives in e and theta, and the second ones in e e, e theta and
-    theta theta. centre: from `middle`. point: material point of the first fibre.
+    powered: from `powers`. point: material point of the first of them.
     """
-    centre_q, q_e, q_ee = centre
-    energy, by_theta, tt = turned(law, theta)
-    by_q, qq, et, power = 0.0, 0.0, 0.0, 1.0 / law.m
-    for k in range(law.place.size):
-        out, weight = law.m * law.place[k], law.weight[k]
-        a, a_q, a_qq = fibre(power, centre_q + out * theta)
+    w, by_theta, by_q, tt, qt, qq = sums
+    for k in range(min(LANES, law.weight.size - first)):
+        out, weight = law.m * law.place[first + k], law.weight[first + k]
+        a, a_q, a_qq = fibre(law, lane(powered[0], k), lane(powered[1], k))
         value, slope, second = law.curve.respond(a - 1.0, memory, point + k)
         second = weight * (second * a_q * a_q + slope * a_qq)
         slope *= weight * a_q
-        energy += weight * value
+        w += weight * value
         by_q += slope
         by_theta += out * slope
         qq += second
-        et += out * second
+        qt += out * second
         tt += out * out * second
-    return energy, q_e * by_q, by_theta, q_e * q_e * qq + q_ee * by_q, q_e * et, tt
+    return w, by_theta, by_q, tt, qt, qq
 
 
 @jit
@@ -138,15 +140,21 @@ def respond(law, strain, memory, point):
     point: first fibre of the first section; the fibres of the second follow, then the middle.
     """
     e, one, two = strain
-    fibres = law.place.size
+    fibres = law.weight.size
     value, slope, second = law.curve.respond(e, memory, point + 2 * fibres)
-    centre = middle(law.m, 1.0 + e)
-    w1, e1, t1, ee1, et1, tt1 = bent(law, centre, one, memory, point)
-    w2, e2, t2, ee2, et2, tt2 = bent(law, centre, two, memory, point + fibres)
+    centre_q, q_e, q_ee = middle(law.m, 1.0 + e)
+    sums1, sums2 = turned(law, one), turned(law, two)
+    for k in range(0, fibres, LANES):
+        powers1, powers2 = powers(law, centre_q, one, k), powers(law, centre_q, two, k)
+        sums1 = bent(law, sums1, k, powers1, memory, point + k)
+        sums2 = bent(law, sums2, k, powers2, memory, point + fibres + k)
+    w1, t1, q1, tt1, qt1, qq1 = sums1
+    w2, t2, q2, tt2, qt2, qq2 = sums2
+    by_q, qq = q1 + q2, qq1 + qq2
     return (
         w1 + w2 - law.middle * value,
-        (e1 + e2 - law.middle * slope, t1, t2),
-        (ee1 + ee2 - law.middle * second, et1, et2, tt1, 0.0, tt2),
+        (q_e * by_q - law.middle * slope, t1, t2),
+        (q_e * q_e * qq + q_ee * by_q - law.middle * second, q_e * qt1, q_e * qt2, tt1, 0.0, tt2),
     )
 
 
@@ -154,15 +162,15 @@ def respond(law, strain, memory, point):
 def elastic(law):
     """Return the section with the elastic law of fibres alone, which is compiled without memory."""
     return BentSection(
-        law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.radial, law.bound,
-        law.stop,
+        law.curve.elastic(), law.place, law.weight, law.middle, law.m, law.crushed,
+        law.radial, law.bound, law.stop,
     )  # fmt: skip
 
 
 @jit
 def points(law):
     """Return the number of material points of an element."""
-    return 2 * law.place.size + 1
+    return 2 * law.weight.size + 1
 
 
 @jit_exact
@@ -178,24 +186,27 @@ def commit(law, strain, memory, point):
 
     Return (released, dissipated), J/m^3: potential less stored energy, and the dissipation.
     """
-    e, last = strain[0], point + 2 * law.place.size
+    e, last = strain[0], point + 2 * law.weight.size
     released, dissipated = law.curve.commit(e, memory, last)
     released, dissipated = -law.middle * released, -law.middle * dissipated
     centre_q = (1.0 + e) ** law.m
     for section in range(2):
-        for k in range(law.place.size):
-            theta = law.place[k] * (strain[2] if section == 1 else strain[1])
-            a = fibre(1.0 / law.m, centre_q + law.m * theta)[0]
-            release, dissipation = law.curve.commit(a - 1.0, memory, point)
-            released += law.weight[k] * release
-            dissipated += law.weight[k] * dissipation
-            point += 1
+        theta = strain[2] if section == 1 else strain[1]
+        for first in range(0, law.weight.size, LANES):
+            q, root = powers(law, centre_q, theta, first)
+            for k in range(min(LANES, law.weight.size - first)):
+                a, weight = fibre(law, lane(q, k), lane(root, k))[0], law.weight[first + k]
+                release, dissipation = law.curve.commit(a - 1.0, memory, point)
+                released += weight * release
+                dissipated += weight * dissipation
+                point += 1
     return released, dissipated
 
 
 class BentSection(NamedTuple):
-    """curve: law of a fibre. place, weight (f,): +-p and v of the fibres of a section except the
-    middle one. middle: sum of v over both sections. m: 1 + nu'. radial: 2/3 (1 - nu'^2) Y', Pa.
+    """curve: law of a fibre. place: +-p of the fibres of a section except the middle one, and zeros
+    up to a multiple of `LANES`; weight (f,): their v. middle: sum of v over both sections. m:
+    1 + nu'. crushed: q of a fibre whose stretch is `CRUSHED`. radial: 2/3 (1 - nu'^2) Y', Pa.
     bound: c. stop: Y', Pa; 0: without S.
     """
 
@@ -204,6 +215,7 @@ class BentSection(NamedTuple):
     weight: np.ndarray
     middle: float
     m: float
+    crushed: float
     radial: float
     bound: float
     stop: float

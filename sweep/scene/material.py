@@ -17,12 +17,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from kernels.compile.simd import LANES
 from kernels.laws.elastic import ElasticCurve, FibreCurve
 from kernels.laws.fibre import Fibre
 from kernels.laws.relaxation import Relaxing
 from kernels.laws.softening import Softening
 from kernels.laws.yielding import Yielding
-from kernels.terms.section import BentSection
+from kernels.terms.section import CRUSHED, BentSection
 from sweep.config.kinds.material import Material
 from sweep.config.materials.material_file import TOE, stress_at
 from sweep.scene.relaxation import relaxation_of
@@ -124,9 +125,23 @@ def law_of_section(material: Material, factor: float, nu: float) -> BentSection:
     fibre = _fibre(material, curve, FibreCurve, factor)
     radial = 0.0 if material.yields else 2.0 / 3.0 * (1.0 - nu**2) * fibre.modulus
     bound = _bound(curve, material.modulus)
-    place, weight = _fibres(material.fibres or SECTION_FIBRES)
+    fibres = _fibres(material.fibres or SECTION_FIBRES)
+    return bent_section(fibre, fibres, 1.0 + nu, (radial, bound), fibre.modulus)
+
+
+def bent_section(
+    curve: Fibre,
+    fibres: tuple[Floats, Floats],
+    m: float,
+    radial: tuple[float, float],
+    stop: float,
+) -> BentSection:
+    """A section with these fields of `BentSection`; fibres: their places and weights, (f,) each."""
+    place, weight = fibres
+    whole = np.zeros(-(-place.size // LANES) * LANES)
+    whole[: place.size] = place
     middle = 2.0 * float(weight.sum())
-    return BentSection(fibre, place, weight, middle, 1.0 + nu, radial, bound, fibre.modulus)
+    return BentSection(curve, whole, weight, middle, m, CRUSHED**m, *radial, stop)
 
 
 def _bound(curve: StressLaw, modulus: float) -> float:

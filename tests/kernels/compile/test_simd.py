@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from kernels.compile.jit import jit
-from kernels.compile.simd import exceeds, load, spread, store
+from kernels.compile.simd import exceeds, exponent, lane, load, nearest, scaled, spread, store
 from kernels.linear.condensed import block_ldlt, block_matrix, periodic_images
 
 
@@ -36,6 +36,25 @@ def test_what_exceeds_does_so_in_all_lanes(lane, lowest, found):
     array[lane] = lowest
     for kernel in (jit(all_exceed), all_exceed):
         assert kernel(array, 3.0) is found
+
+
+def taken_apart(array, at):
+    numbers = load(array, 0)
+    k = exponent(numbers)
+    rest = scaled(numbers, spread(0.0) - k)
+    return lane(k, at), lane(rest, at), lane(scaled(rest, k), at), lane(nearest(numbers), at)
+
+
+@pytest.mark.parametrize("kernel", [jit(taken_apart), taken_apart], ids=["compiled", "plain"])
+def test_numbers_are_taken_apart_into_a_power_of_two_and_a_rest_near_one(kernel):
+    rng = np.random.default_rng(7)
+    for array in np.exp(rng.uniform(-20.0, 20.0, (50, 4))):
+        for at, number in enumerate(array.tolist()):
+            k, rest, again, whole = kernel(array, at)
+            assert k == round(np.log2(number))
+            assert rest == number / 2.0**k
+            assert again == number
+            assert whole == round(number)
 
 
 @pytest.mark.parametrize(

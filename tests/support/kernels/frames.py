@@ -29,6 +29,7 @@ from kernels.terms import (
     stretch,
 )
 from sweep.scene.bending import FIBRE, OUTER
+from sweep.scene.material import bent_section
 from sweep.scene.profiles import NO_PROFILES
 from tests.support.materials.memory import relaxing
 
@@ -181,9 +182,7 @@ def fibre_of(curve: elastic.ElasticCurve) -> Fibre:
 
 def section_of(fibre: Fibre, m: float = 1.0, radial: float = 0.0) -> section.BentSection:
     """A section of three fibres."""
-    return section.BentSection(
-        fibre, np.array([1.0, -1.0]), np.ones(2), 4.0, m, radial, 5.0 / 3.0, 0.0
-    )
+    return bent_section(fibre, (np.array([1.0, -1.0]), np.ones(2)), m, (radial, 5.0 / 3.0), 0.0)
 
 
 def walls_of(of: Frame) -> elements.Walls:
