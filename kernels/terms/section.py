@@ -103,10 +103,10 @@ def turned(law, theta):
 
 @jit
 def middle(m, stretched):
-    """Return lambda^m and its two derivatives in e."""
-    power, by = stretched**m, 1.0 / stretched
-    slope = m * power * by
-    return power, slope, (m - 1.0) * slope * by
+    """Return q of the middle fibre, lambda^m, and its two derivatives in e."""
+    q, by = stretched**m, 1.0 / stretched
+    slope = m * q * by
+    return q, slope, (m - 1.0) * slope * by
 
 
 @jit
