@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from kernels.laws import separable
 from kernels.laws.elastic import FibreCurve
-from kernels.terms.section import TOUCHING, bent, middle
+from kernels.terms.section import TOUCHING
 from sweep.scene.material import FIBRE, OUTER, law_of_section, stress_law
 from tests.support.designs.tables import material_with
 from tests.support.kernels.frames import point_of
@@ -44,9 +44,9 @@ def of_section(law, kappa):
     """Moment of a section of thickness 1 without axial force."""
 
     def sums(e):
-        by_e, by_theta = bent(law, middle(law.m, 1.0 + e), FIBRE * kappa, NO_MEMORY, 0)[1:3]
+        by_e, by_theta, _ = law.respond((e, FIBRE * kappa, FIBRE * kappa), NO_MEMORY, 0)[1]
         along = law.curve.respond(e, NO_MEMORY, 0)[1]
-        return along + OUTER * (by_e - 0.5 * law.middle * along), OUTER * FIBRE * by_theta
+        return along + 0.5 * OUTER * by_e, OUTER * FIBRE * by_theta
 
     return sums(brentq(lambda e: sums(e)[0], -0.05, 3.0, xtol=1e-12))[1]
 

@@ -9,7 +9,6 @@ from scipy.optimize import brentq
 
 from kernels.laws.law import Memory
 from kernels.laws.yielding import STATE
-from kernels.terms.section import bent, middle
 from sweep.scene.material import FIBRE, OUTER, law_of_section
 from tests.support.designs.tables import material_with
 
@@ -38,10 +37,9 @@ def new_memory(law):
 def resultants(law, strain, curvature, memory=None):
     """Force and moment of a section of unit thickness and depth."""
     memory = new_memory(law) if memory is None else memory
-    found = bent(law, middle(law.m, 1.0 + strain), FIBRE * curvature, memory, 0)
+    by_e, by_theta, _ = law.respond((strain, FIBRE * curvature, FIBRE * curvature), memory, 0)[1]
     stress = law.curve.respond(strain, memory, law.points() - 1)[1]
-    force = stress + OUTER * (found[1] - 0.5 * law.middle * stress)
-    return force, OUTER * FIBRE * found[2]
+    return stress + 0.5 * OUTER * by_e, OUTER * FIBRE * by_theta
 
 
 def moment(law, curvature, memory=None):
