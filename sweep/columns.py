@@ -161,6 +161,12 @@ COLUMNS: dict[str, Column] = {
         "solver.step_error, / the length of that path; NaN of other loadings",
         "less",
     ),
+    "load_step_error": Column(
+        "1",
+        "estimated error of the load steps in the work of a quasi-static crush / that work; NaN of "
+        "other loadings",
+        "less",
+    ),
     "lost_energy_J": Column(
         "J",
         "absorbed energy - returned energy, if that is positive; of an impact, energy of the "

@@ -62,10 +62,10 @@ class Mode(NamedTuple):
     travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the
     energy. probed: curves of probes, without platens and strain.
 
-    least: the measure compared instead of energy. coarse: measure of the error of time steps, and
-    its greatest value for a result without a mark; above it, errors of the compared column often
-    exceed the differences of similar designs (`sweep.simulation.time_resolution`); in a crush,
-    energy released by snaps may be lost to the integrator.
+    least: the measure compared instead of energy. coarse: measure of the error of load or time
+    steps, and its greatest value for a result without a mark; above it, errors of the compared
+    column often exceed the differences of similar designs (`sweep.simulation.load_step_error`,
+    `time_resolution`).
 
     In words: turn, the end of its loading; total, the sum of all energies; energy and path, the
     quantities whose accuracy is measured. notes: meaning of columns of tables. picture: name of the
@@ -123,6 +123,7 @@ MODES: Mapping[str, Mode] = {
         curve=(STRAIN, Axis("reaction_top_N", "N", "force, N")),
         columns=("stroke_m",),
         driven=True,
+        coarse=("load_step_error", 0.005),
         turn="reversal",
         path="force along the way",
         notes=(DENSIFIED,),
@@ -208,7 +209,7 @@ def has(rows: DataFrame, trait: Literal["driven", "dead", "struck", "probed"]) -
 
 
 def is_coarse(rows: DataFrame) -> Series:
-    """Whether time steps are too long by `Mode.coarse`, row by row."""
+    """Whether steps are too long by `Mode.coarse`, row by row."""
     coarse = rows["loading_mode"] == ""
     for name, mode in MODES.items():
         if mode.coarse is not None:

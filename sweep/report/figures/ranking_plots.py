@@ -44,7 +44,7 @@ COARSE = {
     "marker": r"$\mathrm{i}$",
     "ms": 6.0,
     "color": "black",
-    "label": "coarse time steps",
+    "label": "coarse steps",
 }
 PALE = 0.45  # share of its colour that a design off the Pareto front keeps
 VARIANT = [

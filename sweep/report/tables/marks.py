@@ -19,10 +19,10 @@ that are shells fill the whole area (solid_strain). Placed behind all others."""
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others.""",
     "i": """\
-i: the time steps are coarse: the integrator took more than 5 % of the energy of an impact
-(integrator_share), or erred by more than 0.5 % of the path of a dead load in one step (path_error).
-Forces and strains may err by several percent. Shorter steps err less (solver.step_error, or
-time_step).""",
+i: the steps are coarse: load steps err by more than 0.5 % of the work of a crush (load_step_error),
+or time steps by more than 0.5 % of the path of a dead load (path_error) or 5 % of the energy of an
+impact (integrator_share). Energies, forces and strains may err by several percent. Shorter steps
+err less (solver.accuracy or load_steps; step_error or time_step).""",
     "p": """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these.""",

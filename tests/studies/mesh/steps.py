@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sweep.loading_modes import MODES
 from sweep.report.tables.sheet import Sheet
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
@@ -50,7 +51,8 @@ def compare(cases, rows, curves, loss):
     """
     designs = list(dict.fromkeys(design for each, design, _ in cases if each == loss))
     settings = list(dict.fromkeys(name for *_, name in cases))
-    errors = {name: {column: [] for column in (*COLUMNS, "parted", "work")} for name in settings}
+    kept = (*COLUMNS, "parted", "work", "estimate")
+    errors = {name: {column: [] for column in kept} for name in settings}
     for design in designs:
         ids = {name: cases[loss, design, name].case_id for name in settings}
         true, path = rows.loc[ids[FINEST]], curves[ids[FINEST]]
@@ -63,6 +65,7 @@ def compare(cases, rows, curves, loss):
                 known[column].append(abs(row[column] / true[column] - 1.0) if counts else np.nan)
             known["parted"].append(parted(curves[case_id], path) if counts else np.nan)
             known["work"].append(row["newton_iterations"])
+            known["estimate"].append(row["load_step_error"])
     return errors
 
 
@@ -73,6 +76,8 @@ def sheet(errors, loss):
         [text, *(_errors(errors[name][column]) for name in names)]
         for column, text in COLUMNS.items()
     ]
+    rows.append(["energy, not marked", *(_errors(_unmarked(errors[name])) for name in names)])
+    rows.append(["marked", *(str(int(_marked(errors[name]).sum())) for name in names)])
     rows.append(["paths part", *(str(np.isfinite(errors[name]["parted"]).sum()) for name in names)])
     rows.append(["iterations", *(f"{np.median(errors[name]['work']):.0f}" for name in names)])
     entering = int(np.isfinite(errors[FINE]["absorbed_energy_J"]).sum())
@@ -85,8 +90,20 @@ def sheet(errors, loss):
     return Sheet(f"Errors of load steps, {material}", ["steps", *names], rows, notes=notes)
 
 
+def _marked(error):
+    """Whether a ranking marks each crush, by the estimated error of its steps."""
+    return np.array(error["estimate"]) > MODES["displacement"].coarse[1]
+
+
+def _unmarked(error):
+    """Errors of the energy of crushes without a mark; NaN for the others."""
+    return np.where(_marked(error), np.nan, error["absorbed_energy_J"])
+
+
 def _errors(values):
     known = np.array(values)[np.isfinite(values)]
+    if not known.size:
+        return "–"
     return " / ".join(
         f"{100.0 * error:.2g}" for error in (np.median(known), nine_of_ten(known), known.max())
     )

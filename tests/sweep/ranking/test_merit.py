@@ -20,12 +20,11 @@ def struck(force, energy, **other):
 
 
 def test_steps_are_coarse_by_the_measure_of_their_loading():
-    """A crush may lose much energy in snaps, and statics has no such share."""
     loads = [{"loading_mode": "force", "force_N": 5.0, "path_error": e} for e in (0.004, 0.006)]
     blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
-    crushed = [{"integrator_share": share} for share in (0.9, NAN)]
+    crushed = [{"load_step_error": e, "integrator_share": 0.9} for e in (0.004, 0.006, NAN)]
     table = ranked(summary(*loads, *blows, *crushed)).table
-    assert sorted(ids(table[table["coarse"]])) == [1, 3]
+    assert sorted(ids(table[table["coarse"]])) == [1, 3, 5]
 
 
 def test_under_a_striker_the_least_force_wins():

@@ -1,0 +1,70 @@
+"""The estimated error of load steps: exact for simple curves, and beside finer steps of a crush."""
+
+import math
+
+import numpy as np
+import pytest
+
+from sweep.config.case import Case
+from sweep.simulation.load_step_error import load_step_error
+from tests.support.converged import converged
+from tests.support.designs.scenes import pressed
+
+CRUSH = pressed(2, 0.1, 5)
+
+
+def rows(way, force, friction=0.0):
+    lost = np.broadcast_to(friction, way.shape)
+    return {"top_displacement_m": -way, "reaction_top_N": force, "dissipated_friction_J": lost}
+
+
+def test_it_is_exact_for_a_quadratic_curve():
+    """The trapezoidal rule makes the same error in every step but the first, which has none yet."""
+    way = np.linspace(0.0, 2e-3, 9)
+    found = load_step_error(CRUSH, rows(way, way**2))
+    exact, work = (2e-3) ** 3 / 3.0, np.trapezoid(way**2, way)
+    assert found == pytest.approx(7 / 8 * (work - exact) / work, rel=1e-9)
+    assert load_step_error(CRUSH, rows(way, way)) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_friction_that_changes_adds_up_as_the_root_of_squares():
+    way, steps = np.linspace(0.0, 1e-3, 11), 10
+    alternating = np.where(np.arange(steps) % 2, 1.0, 3.0)  # N
+    lost = np.r_[0.0, np.cumsum(alternating)] * 1e-4
+    found = load_step_error(CRUSH, rows(way, np.full(11, 5.0), lost))
+    assert found == pytest.approx(math.sqrt(steps - 1) * 1e-4 / 5e-3, rel=1e-9)
+
+
+def test_rows_in_which_the_platen_waits_change_nothing():
+    way = np.linspace(0.0, 2e-3, 9)
+    again = np.sort(np.r_[way, way[4], way[-1]])
+    expected = load_step_error(CRUSH, rows(way, way**2))
+    assert load_step_error(CRUSH, rows(again, again**2)) == expected
+
+
+def test_other_loadings_and_too_few_steps_have_none():
+    way = np.linspace(0.0, 2e-3, 9)
+    for loading in ({"mode": "force", "force": 5.0}, {"mode": "displacement", "speed": 1.0}):
+        assert math.isnan(load_step_error(Case.of(loading=loading), rows(way, way**2)))
+    assert load_step_error(CRUSH, rows(way[:3], way[:3] ** 2)) == math.inf
+    assert math.isnan(load_step_error(CRUSH, rows(way, np.zeros(9))))
+
+
+def test_it_tells_steps_that_are_too_long():
+    """Beside 400 steps, energies of 25 err by more than the limit of the mark, of 200 by less."""
+
+    def crushed(steps):
+        lattice = {"kind": "reentrant", "wall_thickness": 0.6e-3}
+        case = Case.of(
+            lattice=lattice | {"cells_x": 3, "cells_y": 3, "width": 16e-3, "height": 16e-3},
+            material={"name": "cheetah"},
+            loading={"mode": "displacement", "strain": 0.55, "unload": False},
+            solver={"load_steps": steps},
+        )
+        return converged(case).summary
+
+    right = crushed(400)["absorbed_energy_J"]
+    coarse, fine = crushed(25), crushed(200)
+    for row, is_marked in ((coarse, True), (fine, False)):
+        assert (abs(row["absorbed_energy_J"] / right - 1.0) > 0.005) == is_marked
+        assert (row["load_step_error"] > 0.005) == is_marked
