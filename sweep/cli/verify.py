@@ -3,6 +3,7 @@ reproduced.
 """
 
 from collections.abc import Iterator, Sequence
+from math import isclose
 from typing import Any
 
 import numpy as np
@@ -91,4 +92,4 @@ def _equal(one: Any, other: Any) -> bool:
     if isinstance(one, str) or isinstance(other, str):
         return str(one) == str(other)
     unknown = one != one and other != other
-    return unknown or bool(abs(one - other) <= SAME * max(abs(one), abs(other)))
+    return unknown or isclose(one, other, rel_tol=SAME)

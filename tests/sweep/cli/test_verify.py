@@ -69,3 +69,12 @@ def test_curves_and_shapes_that_a_tool_has_changed_are_named(
     status, said, _ = crumple(capsys, "verify", "trial.h5")
     assert status == 1
     assert f"the stored {named} is not what comes out" in said
+
+
+def test_numbers_that_are_infinite_are_compared_too(capsys, tmp_path):
+    """The error of two load steps is not known, and stored as infinite."""
+    config, file = tmp_path / "trial.toml", tmp_path / "trial.h5"
+    config.write_text(CRUSH.replace("load_steps = 60", "load_steps = 2"))
+    assert crumple(capsys, "run", str(config), "--out", str(file))[0] == 0
+    assert read_summary(file)["load_step_error"].tolist() == [float("inf")]
+    assert crumple(capsys, "verify", str(file))[0] == 0
