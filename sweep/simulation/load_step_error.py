@@ -27,15 +27,16 @@ def load_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     """
     if not (isinstance(case.loading, Crush) and case.loading.quasi_static):
         return nan
-    way = np.abs(loading["top_displacement_m"])
-    on = np.r_[True, way[1:] > np.maximum.accumulate(way)[:-1]]
-    way, force, lost = way[on], loading["reaction_top_N"][on], loading["dissipated_friction_J"][on]
-    step, work = np.diff(way), abs(float(np.trapezoid(force, way)))
+    travel = np.abs(loading["top_displacement_m"])
+    moved = np.r_[True, travel[1:] > np.maximum.accumulate(travel)[:-1]]
+    travel, force = travel[moved], loading["reaction_top_N"][moved]
+    step, work = np.diff(travel), abs(float(np.trapezoid(force, travel)))
     if len(step) < STEPS:
         return inf
     if work == 0.0:
         return nan
-    slope, friction = np.diff(force) / step, np.diff(lost) / step
+    slope = np.diff(force) / step
+    friction = np.diff(loading["dissipated_friction_J"][moved]) / step
     bend = 2.0 * np.diff(slope) / (step[1:] + step[:-1])
     curved = np.abs(bend) * step[1:] ** 3 / 12.0
     lagged = np.diff(friction) * step[1:] / 2.0

@@ -92,7 +92,7 @@ def outcome(number):
     row = {"grid": number, "cases": few.cases, "failed": few.failed}
     for name, steps in (("iterations", 1), ("steps", MORE)):
         many = _ranked(grid, grid.cases(MORE, steps))
-        row[name] = _compared(few, many)
+        row[name] = compared(few, many)
         row[f"{name}_failed"] = many.failed
         row[f"{name}_gap"] = _gap(few, many, grid.by)
     return row
@@ -105,7 +105,7 @@ def _ranked(grid, cases):
     return ranked(summary.assign(case_id=ids), by=grid.by, top=None)
 
 
-def _compared(few, many):
+def compared(few, many):
     """How the first place with more effort stands in the ranking with less, in a word."""
     first, before = _first(many), _first(few)
     unfinished = few.unfinished
@@ -116,8 +116,8 @@ def _compared(few, many):
         return "same"
     if first <= could:
         return "named"
-    rows = few.table.set_index("case_id")["coarse"]
-    return "marked" if rows.reindex(sorted(first | before)).any() else "changed"
+    ranked_too = few.table["case_id"].isin(first | before)
+    return "marked" if few.table.loc[ranked_too, "coarse"].any() else "changed"
 
 
 def _first(ranking):

@@ -1,8 +1,11 @@
 """A fast slice of the study of first designs and effort."""
 
-import pandas as pd
+from types import SimpleNamespace
 
-from tests.studies.rankings.effort import Grid, drawn, outcome, sheet
+import pandas as pd
+import pytest
+
+from tests.studies.rankings.effort import Grid, compared, drawn, outcome, sheet
 
 SOME = (0, 3, 12)  # grids; the first designs of the last two change
 
@@ -12,6 +15,37 @@ def test_no_first_design_changes_without_a_word():
     assert not (rows["iterations"] == "changed").any()
     assert (rows["iterations"] == "named").any(), "no first design changes: the grids say nothing"
     assert rows["iterations_failed"].sum() < 0.1 * rows["failed"].sum()
+
+
+def ranked(first, coarse=(), others=("a", "b"), named=()):
+    """A ranking of ``others``; named: cases that could be first."""
+    names = list(others)
+    table = {
+        "case_id": names,
+        "place": [1 if name == first else 2 for name in names],
+        "coarse": [name in coarse for name in names],
+    }
+    unfinished = {"case_id": list(named), "best_place": [1] * len(named)}
+    return SimpleNamespace(table=pd.DataFrame(table), unfinished=pd.DataFrame(unfinished))
+
+
+@pytest.mark.parametrize(
+    ("few", "word"),
+    [
+        (ranked("b"), "same"),
+        (ranked("a", named=("b",), others=("a",)), "named"),
+        (ranked("a", coarse=("b",)), "marked"),
+        (ranked("a", coarse=("a",)), "marked"),
+        (ranked("a"), "changed"),
+        (
+            ranked("a", others=("a",)),
+            "changed",
+        ),  # the new first design was neither ranked nor named
+        (ranked("a", others=()), "nothing ranked"),
+    ],
+)
+def test_what_a_ranking_had_said_of_the_new_first_design(few, word):
+    assert compared(few, ranked("b")) == word
 
 
 def test_grids_are_the_same_each_time_and_not_all_alike():
