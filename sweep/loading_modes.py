@@ -50,6 +50,22 @@ class Least(NamedTuple):
     head: str
 
 
+class Coarse(NamedTuple):
+    """What tells that load or time steps are too long.
+
+    column: measure of the error that they make; above the value ``most`` a result has a mark, as
+    errors of the compared column often exceed the differences of similar designs
+    (`sweep.simulation.load_step_error`, `time_resolution`). steps, whole: which steps, and what the
+    measure is a share of, in words; keys: the keys that make steps shorter.
+    """
+
+    column: str
+    most: float
+    steps: str
+    whole: str
+    keys: str
+
+
 class Mode(NamedTuple):
     """The properties of one mode of loading.
 
@@ -62,10 +78,7 @@ class Mode(NamedTuple):
     travel is a curve. dead: a constant force, removed at the end. struck: a striker brings the
     energy. probed: curves of probes, without platens and strain.
 
-    least: the measure compared instead of energy. coarse: measure of the error of load or time
-    steps, and its greatest value for a result without a mark; above it, errors of the compared
-    column often exceed the differences of similar designs (`sweep.simulation.load_step_error`,
-    `time_resolution`).
+    least: the measure compared instead of energy. coarse: what tells that steps are too long.
 
     In words: turn, the end of its loading; total, the sum of all energies; energy and path, the
     quantities whose accuracy is measured. notes: meaning of columns of tables. picture: name of the
@@ -84,7 +97,7 @@ class Mode(NamedTuple):
     struck: bool = False
     probed: bool = False
     least: Least | None = None
-    coarse: tuple[str, float] | None = None
+    coarse: Coarse | None = None
     turn: str = "standstill"
     total: str = "work done"
     energy: str = "absorbed energy"
@@ -123,7 +136,10 @@ MODES: Mapping[str, Mode] = {
         curve=(STRAIN, Axis("reaction_top_N", "N", "force, N")),
         columns=("stroke_m",),
         driven=True,
-        coarse=("load_step_error", 0.005),
+        coarse=Coarse(
+            *("load_step_error", 0.005, "load steps", "the work"),
+            keys="solver.accuracy or load_steps",
+        ),
         turn="reversal",
         path="force along the way",
         notes=(DENSIFIED,),
@@ -152,7 +168,10 @@ MODES: Mapping[str, Mode] = {
             front="transmits as little force",
             head="force N",
         ),
-        coarse=("integrator_share", 0.05),
+        coarse=Coarse(
+            *("integrator_share", 0.05, "time steps", "the impact energy"),
+            keys="solver.step_error or time_step",
+        ),
         total="brought by the striker",
         notes=(STRUCK,),
         picture="passed_on",
@@ -174,7 +193,10 @@ MODES: Mapping[str, Mode] = {
             front="is strained as little",
             head="strain %",
         ),
-        coarse=("path_error", 0.005),
+        coarse=Coarse(
+            *("path_error", 0.005, "time steps", "the path"),
+            keys="solver.step_error or time_step",
+        ),
         turn="load removed",
         notes=(LOADED,),
         picture="sink",
@@ -213,8 +235,8 @@ def is_coarse(rows: DataFrame) -> Series:
     coarse = rows["loading_mode"] == ""
     for name, mode in MODES.items():
         if mode.coarse is not None:
-            column, most = mode.coarse
-            coarse |= (rows["loading_mode"] == name) & (rows[column] > most)
+            too_long = rows[mode.coarse.column] > mode.coarse.most
+            coarse |= (rows["loading_mode"] == name) & too_long
     return coarse
 
 

@@ -143,7 +143,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
     beyond_model : True if an element is too short or a wall breaks while the usable energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.
-    coarse : True if the time steps of an impact or dead load are too long.
+    coarse : True if load or time steps are too long (`sweep.loading_modes.Coarse`).
     beyond_curve : True if a wall was stretched beyond the measured curve in the run.
     """
     quantities = {"budget": budget, "panel": panel, "allowed_force": allowed_force}

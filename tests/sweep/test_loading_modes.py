@@ -55,8 +55,8 @@ def test_each_trait_row_by_row():
 @pytest.mark.parametrize("much", [False, True])
 def test_steps_are_long_by_the_measure_of_the_mode(much):
     measured = dict.fromkeys(("integrator_share", "path_error", "load_step_error"), 0.0)
-    for name, (column, most) in ((name, m.coarse) for name, m in MODES.items() if m.coarse):
-        rows = ROWS.assign(**measured | {column: most * (1.01 if much else 0.99)})
+    for name, coarse in ((name, m.coarse) for name, m in MODES.items() if m.coarse):
+        rows = ROWS.assign(**measured | {coarse.column: coarse.most * (1.01 if much else 0.99)})
         assert list(is_coarse(rows)[ROWS["loading_mode"] == name]) == [much]
         assert is_coarse(rows).sum() == much
     unknown = ROWS.assign(**dict.fromkeys(measured, float("nan")))

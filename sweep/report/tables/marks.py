@@ -6,10 +6,15 @@ from operator import add
 from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
-from sweep.numbers import tenths
+from sweep.loading_modes import MODES, Coarse
+from sweep.numbers import in_unit, tenths
 from sweep.ranking.unfinished import unloaded
 
 LONG_SPAN = 0.1  # span of strain
+COARSE = """\
+i: the {} are coarse, and err by more than {} % of {} ({}).
+Energies, forces and strains may err by several percent. Shorter steps err less
+({})."""
 MEANINGS = {
     "!": """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
@@ -18,11 +23,6 @@ that are shells fill the whole area (solid_strain). Placed behind all others."""
     "x": """\
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others.""",
-    "i": """\
-i: the steps are coarse: load steps err by more than 0.5 % of the work of a crush (load_step_error),
-or time steps by more than 0.5 % of the path of a dead load (path_error) or 5 % of the energy of an
-impact (integrator_share). Energies, forces and strains may err by several percent. Shorter steps
-err less (solver.accuracy or load_steps; step_error or time_step).""",
     "p": """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these.""",
@@ -46,7 +46,15 @@ def marks(rows: DataFrame) -> Series:
 def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     """The meaning of the marks that these rows have."""
     marked = _marked(rows)
-    return tuple(meaning for mark, meaning in MEANINGS.items() if marked[mark].any())
+    meanings = [meaning for mark, meaning in MEANINGS.items() if marked[mark].any()]
+    modes = [MODES[name] for name in rows["loading_mode"][marked["i"]].unique()]
+    return (*(_coarse_note(mode.coarse) for mode in modes if mode.coarse), *meanings)
+
+
+def _coarse_note(coarse: Coarse) -> str:
+    """The meaning of "i" in one mode of loading."""
+    most = in_unit(coarse.most, "%")
+    return COARSE.format(coarse.steps, f"{most:g}", coarse.whole, coarse.column, coarse.keys)
 
 
 def _marked(rows: DataFrame) -> dict[str, Series]:

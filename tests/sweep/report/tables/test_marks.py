@@ -29,7 +29,6 @@ TWO = summary({}, {"mass_g": 2.0})
         (summary(CRUSHED_SOLID, SPARSE), "absorbed_energy_J", ["1*", "2 !"], "!"),
         (summary(CRUSHED_SOLID, SPARSE), None, ["1*", "2 "], ""),
         (summary(CRUSHED_SOLID, CROSSED), "absorbed_energy_J", ["1 !", "2 x"], "!x"),
-        (IMPACTS.assign(integrator_share=[0.01, 0.1]), None, ["1*", "2 i"], "i"),
         (TWO.assign(stretch_over_curve=[1.2, 0.9]), None, ["1*^", "2 "], "^"),
         (TWO.assign(stretch_over_curve=[NAN, 1.0]), None, ["1*", "2 "], ""),
         (TWO.assign(does_not_print=ROUGH), None, ["1*", "2 p"], "p"),
@@ -40,6 +39,19 @@ def test_what_is_doubtful_or_does_not_print_is_marked(table, by, places, meaning
     seen, words = marked(table, by=by)
     assert seen == places
     assert "".join(mark for mark, text in MEANINGS.items() if text in words) == meanings
+
+
+def test_coarse_steps_are_explained_by_the_measure_of_their_loading():
+    impacts = IMPACTS.assign(integrator_share=[0.01, 0.1])
+    crushes = TWO.assign(load_step_error=[0.004, 0.006])
+    for table, words in (
+        (impacts, ("time steps", "5 %", "integrator_share", "time_step")),
+        (crushes, ("load steps", "0.5 %", "load_step_error", "load_steps")),
+    ):
+        seen, text = marked(table)
+        assert seen == ["1*", "2 i"]
+        assert all(word in text for word in words)
+    assert "integrator_share" not in text
 
 
 def test_designs_that_are_passed_over_are_counted():
