@@ -83,6 +83,8 @@ def in_si(text: object, unit: str) -> float:
     number, written = match[1], match[2].strip()
     if not written:
         raise MisfitError("a bare number")
+    if written.startswith(","):
+        raise MisfitError("a decimal comma, in place of a point")
     size, powers = _unit(written)
     if powers != _unit(unit).powers:
         raise MisfitError(f"{in_words(written)} is a unit of another kind")

@@ -52,6 +52,12 @@ def test_what_is_no_unit_of_mass_is_refused(unit):
         in_si(f"4 {unit}", "kg")
 
 
+@pytest.mark.parametrize("text", ["12,5 mm", "1, mm", "1,000 mm"])
+def test_a_comma_is_no_decimal_point(text):
+    with pytest.raises(ValueError, match="decimal comma"):
+        in_si(text, "m")
+
+
 @pytest.mark.parametrize("text", ["4 %%", "4 % %"])
 def test_percent_is_written_once(text):
     with pytest.raises(ValueError, match="unknown unit"):
