@@ -53,10 +53,10 @@ class Least(NamedTuple):
 class Coarse(NamedTuple):
     """What tells that load or time steps are too long.
 
-    column: measure of the error that they make; above the value ``most`` a result has a mark, as
-    errors of the compared column often exceed the differences of similar designs
-    (`sweep.simulation.load_step_error`, `time_resolution`). steps, whole: which steps, and what the
-    measure is a share of, in words; keys: the keys that make steps shorter.
+    column: measure of the error that they make, NaN of loadings without such steps; above the value
+    ``most`` a result has a mark, as errors of the compared column often exceed the differences of
+    similar designs (`sweep.simulation.load_step_error`, `time_resolution`). steps, whole: which
+    steps, and what the measure is a share of, in words; keys: the keys that make steps shorter.
     """
 
     column: str
@@ -97,7 +97,7 @@ class Mode(NamedTuple):
     struck: bool = False
     probed: bool = False
     least: Least | None = None
-    coarse: Coarse | None = None
+    coarse: tuple[Coarse, ...] = ()
     turn: str = "standstill"
     total: str = "work done"
     energy: str = "absorbed energy"
@@ -136,9 +136,15 @@ MODES: Mapping[str, Mode] = {
         curve=(STRAIN, Axis("reaction_top_N", "N", "force, N")),
         columns=("stroke_m",),
         driven=True,
-        coarse=Coarse(
-            *("load_step_error", 0.005, "load steps", "the work"),
-            keys="solver.accuracy or load_steps",
+        coarse=(
+            Coarse(
+                *("load_step_error", 0.005, "load steps", "the work"),
+                keys="solver.accuracy or load_steps",
+            ),
+            Coarse(
+                *("integrator_share", 0.01, "time steps", "the work"),
+                keys="solver.step_error or time_step",
+            ),
         ),
         turn="reversal",
         path="force along the way",
@@ -168,9 +174,11 @@ MODES: Mapping[str, Mode] = {
             front="transmits as little force",
             head="force N",
         ),
-        coarse=Coarse(
-            *("integrator_share", 0.05, "time steps", "the impact energy"),
-            keys="solver.step_error or time_step",
+        coarse=(
+            Coarse(
+                *("integrator_share", 0.05, "time steps", "the impact energy"),
+                keys="solver.step_error or time_step",
+            ),
         ),
         total="brought by the striker",
         notes=(STRUCK,),
@@ -193,9 +201,11 @@ MODES: Mapping[str, Mode] = {
             front="is strained as little",
             head="strain %",
         ),
-        coarse=Coarse(
-            *("path_error", 0.005, "time steps", "the path"),
-            keys="solver.step_error or time_step",
+        coarse=(
+            Coarse(
+                *("path_error", 0.005, "time steps", "the path of the top"),
+                keys="solver.step_error or time_step",
+            ),
         ),
         turn="load removed",
         notes=(LOADED,),
@@ -231,13 +241,17 @@ def has(rows: DataFrame, trait: Literal["driven", "dead", "struck", "probed"]) -
 
 
 def is_coarse(rows: DataFrame) -> Series:
-    """Whether steps are too long by `Mode.coarse`, row by row."""
+    """Whether steps are too long by a measure of `Mode.coarse`, row by row."""
     coarse = rows["loading_mode"] == ""
     for name, mode in MODES.items():
-        if mode.coarse is not None:
-            too_long = rows[mode.coarse.column] > mode.coarse.most
-            coarse |= (rows["loading_mode"] == name) & too_long
+        for measure in mode.coarse:
+            coarse |= (rows["loading_mode"] == name) & exceeds(rows, measure)
     return coarse
+
+
+def exceeds(rows: DataFrame, measure: Coarse) -> Series:
+    """Whether steps are too long by one measure, row by row."""
+    return rows[measure.column] > measure.most
 
 
 def asked_of(requirement: str) -> tuple[str, ...]:

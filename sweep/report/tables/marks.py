@@ -6,7 +6,7 @@ from operator import add
 from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
-from sweep.loading_modes import MODES, Coarse
+from sweep.loading_modes import MODES, Coarse, exceeds
 from sweep.numbers import in_unit, tenths
 from sweep.ranking.unfinished import unloaded
 
@@ -47,8 +47,10 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     """The meaning of the marks that these rows have."""
     marked = _marked(rows)
     meanings = [meaning for mark, meaning in MEANINGS.items() if marked[mark].any()]
-    modes = [MODES[name] for name in rows["loading_mode"][marked["i"]].unique()]
-    return (*(_coarse_note(mode.coarse) for mode in modes if mode.coarse), *meanings)
+    long = rows[marked["i"]]
+    measures = dict.fromkeys(m for name in long["loading_mode"] for m in MODES[name].coarse)
+    notes = [_coarse_note(measure) for measure in measures if exceeds(long, measure).any()]
+    return (*notes, *meanings)
 
 
 def _coarse_note(coarse: Coarse) -> str:

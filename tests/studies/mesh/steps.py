@@ -92,7 +92,7 @@ def sheet(errors, loss):
 
 def _marked(error):
     """Whether a ranking marks each crush, by the estimated error of its steps."""
-    return np.array(error["estimate"]) > MODES["displacement"].coarse.most
+    return np.array(error["estimate"]) > MODES["displacement"].coarse[0].most
 
 
 def _unmarked(error):
