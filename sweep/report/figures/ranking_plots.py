@@ -118,7 +118,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
     designs, per_gram = ranking.table, ranking.per_gram
     look, cells = looks(designs), ["cells_x", "cells_y"]
     varied = designs.groupby("lattice_kind")[cells].nunique().gt(1).any(axis=None)
-    named = varied and "cells_x" not in look.tint
+    named, coarse = varied and "cells_x" not in look.tint, False
     for ax, rows in scene_axes(fig, designs):
         for _, points in rows.groupby(VARIANT):
             best = points.loc[points.groupby("wall_thickness_m")[per_gram].idxmax()]
@@ -126,6 +126,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
             wall = in_unit(best["wall_thickness_m"], "mm")
             _line(ax, wall, best[per_gram], {"color": style["c"][0], "lw": 1.2}, best)
             _dots(ax, wall, best[per_gram], style, best)
+            coarse |= bool(best["coarse"].any())
             _error_bars(ax, wall, best[per_gram], errors_of(best, per_gram), style["c"][0])
             if named:
                 numbers = " x ".join(map(str, best[cells].iloc[0]))
@@ -137,7 +138,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
         ax.set_title(title, loc="left", fontsize="medium")
         round_ticks(ax.yaxis)
     barred = bool(errors_of(designs, per_gram).notna().any())
-    legend(fig, look.legend(walls=False, barred=barred))
+    legend(fig, look.legend(walls=False, barred=barred) + [COARSE] * coarse)
 
 
 def _span(values: Sequence[float]) -> tuple[float, float]:

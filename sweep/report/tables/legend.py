@@ -50,8 +50,8 @@ UNSURE = """\
 ~: densification is gradual: the efficiency is within 2 % of the greatest
 over more than 10 % of strain."""
 TWICE = """\
-34-52: the efficiency is greatest, within 2 %, at two strains, these; the energy until densification
-is a range too (columns lowest_..., highest_...)."""
+34-52, 34 or > 60: the efficiency is greatest, within 2 %, at both strains, of which the second may
+be the end of the crush; the energy until densification is a range (lowest_..., highest_...)."""
 EQUAL = "=: a tie: the values of designs are equal, or their ranges meet."
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
@@ -100,12 +100,12 @@ def _notes(ranking: Ranking) -> list[str]:
     """Explanations that only some tables need: of another mass, and of marks."""
     table = ranking.table
     crushed = table[has(table, "driven")]
-    densified = crushed["densification_strain"].notna()
+    densified, twice = crushed["densification_strain"].notna(), densifies_twice(crushed)
     notes = {
         printed_note(table): "counted_mass_g" in table,
         **dict.fromkeys(mark_notes(table), True),
-        UNSURE: (is_unsure(crushed) & densified).any() and not ranking.limited,
-        TWICE: densifies_twice(crushed).any() and not ranking.limited,
+        UNSURE: (is_unsure(crushed) & densified & ~twice).any() and not ranking.limited,
+        TWICE: twice.any() and not ranking.limited,
         EQUAL: table["tied"].any() and "ranked_error" not in table,
         EARLY: ranking.limited and table["ends_early"].any(),
     }

@@ -146,8 +146,10 @@ def test_designs_of_coarse_steps_have_the_sign_of_the_tables(ranking):
     signs = [text.xy[0] for text in figure.axes[0].texts if text.get_text() == "i"]
     coarse = shown.table[shown.table["coarse"] & (shown.table["scene"] == shown.table["scene"][0])]
     assert sorted(signs) == sorted(coarse["mass_g"])
-    assert "coarse steps" in entries(figure)
+    for draw in (merit_over_mass, thickness_trends):
+        assert "coarse steps" in entries(drawn(shown, draw))
     assert "coarse steps" not in entries(drawn(ranking, merit_over_mass))
+    assert not drawn(ranking, thickness_trends).legends
 
 
 def test_designs_off_the_front_are_pale_and_those_above_all_budgets_grey(ranking):

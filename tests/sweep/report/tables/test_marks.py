@@ -2,6 +2,7 @@
 
 import pytest
 
+from sweep.columns import end_columns
 from sweep.ranking.rank import ranked
 from sweep.report.tables.legend import UNSURE, legend
 from sweep.report.tables.marks import MEANINGS
@@ -70,5 +71,7 @@ def test_a_lattice_that_packs_at_two_strains_is_marked():
     (sheet,) = ranking_sheets(ranked(table), table)
     assert [row[-2] for row in sheet.rows] == ["54~", "> 50", "54"]
     assert UNSURE in legend(ranked(table))
-    for others in (table.iloc[2:], table.iloc[1:]):
+    ends = dict(zip(end_columns("densification_strain"), (0.3, 0.54), strict=True))
+    ranges = table.iloc[:1].assign(**ends)
+    for others in (table.iloc[2:], table.iloc[1:], ranges):
         assert UNSURE not in legend(ranked(others))
