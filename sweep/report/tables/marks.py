@@ -12,8 +12,8 @@ from sweep.ranking.unfinished import unloaded
 
 LONG_SPAN = 0.1  # span of strain
 COARSE = """\
-i: the {} are coarse, and err by more than {} % of {} ({}).
-Energies, forces and strains may err by several percent. Shorter steps err less
+i: {} are long: their estimated error is above {} % of {} ({}).
+Energies and strains may err by several percent, peak forces by a fifth or more. Shorter steps help
 ({})."""
 MEANINGS = {
     "!": """\
