@@ -54,7 +54,7 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
 
 
 def _coarse_note(coarse: Coarse) -> str:
-    """The meaning of "i" in one mode of loading."""
+    """The meaning of "i" by one measure."""
     most = in_unit(coarse.most, "%")
     return COARSE.format(coarse.steps, f"{most:g}", coarse.whole, coarse.column, coarse.keys)
 
