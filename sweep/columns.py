@@ -290,8 +290,9 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_force_N": Column(
         "N",
-        "greatest force on a platen or support, in an impact on the support; NaN for a dead load "
-        "whose fixed steps are too far apart for its peak",
+        "greatest force on a platen or support; in an impact on the support, filtered with "
+        "loading.filter_class. NaN where rows are too far apart for the filter, or fixed steps of "
+        "a dead load for its peak",
         "less",
     ),
     "peak_force_at_densification_N": Column(
@@ -306,7 +307,8 @@ COLUMNS: dict[str, Column] = {
     "peak_base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "
-        "cells, on ribs, of a lattice that repeats and of a custom structure, and as peak_force_N",
+        "cells, on ribs, of a lattice that repeats, of a custom structure, and of a dead load as "
+        "peak_force_N",
         "less",
     ),
     "peak_base_pressure_x_m": Column(
@@ -324,7 +326,7 @@ COLUMNS: dict[str, Column] = {
     ),
     "peak_target_acceleration_m_per_s2": Column(
         "m/s^2",
-        "greatest force on the base / its mass; NaN unless loading.target_mass is given",
+        "greatest force on the base, filtered, / its mass; NaN unless loading.target_mass is given",
         "less",
     ),
     "peak_strain": Column("1", "greatest top displacement / height", "less"),

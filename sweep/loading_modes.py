@@ -111,8 +111,9 @@ STRAIN = Axis("strain", "%", "strain, %")
 TIME = Axis("time_s", "ms", "time, ms")
 LOADED = "strain: greatest strain under the load, including overshoot."
 STRUCK = """\
-force: greatest force on the support. strain: greatest strain. left: stroke left until all voids are
-closed. rebound: energy of the striker, relative to the base, at rebound / at first contact."""
+force: greatest force on the support, filtered (loading.filter_class). strain: greatest strain.
+left: stroke left until all voids are closed. rebound: energy of the striker, relative to the base,
+at rebound / at first contact."""
 DENSIFIED = """\
 dens.: densification strain, at which energy / greatest force is greatest: the mean of the strains
 at which it is nearly as great. Energy and peak until then are means over the same strains."""
@@ -176,7 +177,7 @@ MODES: Mapping[str, Mode] = {
         ),
         coarse=(
             Coarse(
-                *("integrator_share", 0.05, "time steps", "the impact energy"),
+                *("integrator_share", 0.01, "time steps", "the impact energy"),
                 keys="solver.step_error or time_step",
             ),
         ),

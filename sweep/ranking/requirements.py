@@ -42,7 +42,8 @@ class Outcome:
 
     mode: of loading. budget_g: NaN without a budget.
     designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
-        of designs that fulfil them and are marked as beyond the model or as crossed.
+        of designs that fulfil them and are marked as beyond the model or as crossed. coarse: number
+        of others that fulfil them, with steps that are too long.
     failed: number of designs that fail each requirement. unknown: number of these designs that
         have no value for it. open: number of designs that fail only `min_absorbed` and may fulfil
         it in a longer crush, as they were crushed too little for all energy to be counted.
@@ -62,6 +63,7 @@ class Outcome:
     designs: int
     fulfil: int
     doubtful: int
+    coarse: int
     failed: Mapping[str, int]
     unknown: Mapping[str, int]
     open: int
@@ -173,6 +175,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
     every, part = judged.rows[judged.fulfil], judged.within(budget_g)
     sound = ~doubtful(part.rows)
     soundly = int((part.fulfil & sound).sum())
+    coarse = int((part.fulfil & sound & part.rows["coarse"]).sum())
     nearest, shares = (part.rows[:0], {}) if soundly else _nearest(part)
     order = [part.mass, "case_id"]
     return Outcome(
@@ -181,6 +184,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         designs=len(part.rows),
         fulfil=int(part.fulfil.sum()),
         doubtful=int(part.fulfil.sum()) - soundly,
+        coarse=coarse,
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.limits},
         unknown={name: int(part.measures[name].isna().sum()) for name in part.limits},
         open=_open(part, energy, force),

@@ -1,4 +1,6 @@
-"""Load on the base: pressure on a patch, impulse, and the motion of a base that moves freely."""
+"""Load on the base: force and pressure on a patch, impulse, and the motion of a base that moves
+freely.
+"""
 
 from collections.abc import Mapping
 from math import nan
@@ -9,6 +11,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
+from sweep.simulation.filter_class import filtered_peak
 from sweep.simulation.striker import rebound
 from sweep.simulation.time_resolution import peak_row
 
@@ -35,9 +38,20 @@ def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
 
 
+def peak_force(loading: Impact, history: Mapping[str, Floats]) -> float:
+    """Greatest force of an impact on the support behind its filter, N; NaN if rows are too far
+    apart.
+    """
+    from scipy.integrate import cumulative_trapezoid
+
+    time, force = history["time_s"], history["reaction_bottom_N"]
+    impulse = cumulative_trapezoid(force, time, initial=0.0)
+    return filtered_peak(time, impulse, loading.filter_class)
+
+
 def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:
     """Impulse on the base until the rebound of the striker; speed of the target at that time, and
-    its greatest acceleration, force / mass; NaN if the base is fixed.
+    its greatest acceleration, filtered; NaN if the base is fixed.
     """
     force, row = history["reaction_bottom_N"], rebound(loading, history).row
     impulse = np.sum(force[1 : row + 1] * np.diff(history["time_s"][: row + 1]))
@@ -46,5 +60,5 @@ def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, flo
         return columns
     return columns | {
         "target_speed_m_per_s": float(history["target_speed_m_per_s"][row]),
-        "peak_target_acceleration_m_per_s2": float(force.max()) / loading.target_mass,
+        "peak_target_acceleration_m_per_s2": peak_force(loading, history) / loading.target_mass,
     }

@@ -26,7 +26,7 @@ from sweep.config.kinds.striker import Struck
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
-from sweep.simulation.deceleration import filtered_peak
+from sweep.simulation.filter_class import filtered_peak
 from sweep.simulation.solid import filled
 
 Curves = Mapping[str, Floats]

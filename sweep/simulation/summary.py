@@ -18,7 +18,7 @@ from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
-from sweep.simulation.base_load import base_columns, patch_width
+from sweep.simulation.base_load import base_columns, patch_width, peak_force
 from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.densification import (
@@ -160,7 +160,10 @@ def summarise(  # noqa: PLR0913  of one case each
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
     force = transmitted(case, history)
     strain = max(peaks[0], float(history["strain"].max()))
-    peak = known_peak(case, force, peaks[1])
+    if isinstance(case.loading, Impact):
+        peak = peak_force(case.loading, history)
+    else:
+        peak = known_peak(case, force, peaks[1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
     return {
@@ -187,8 +190,8 @@ def summarise(  # noqa: PLR0913  of one case each
         **columns_of_cycles(cycles, history["work_in_J"], force),
         **striker_columns(case, scene, history),
         **base_columns(case, history),
-        **crush_columns(case, loading),
-        **(dict.fromkeys(PEAKS, peak) if isinstance(case.loading, DeadLoad) else {}),
+        **crush_columns(case, loading, peak),
+        **(dict.fromkeys(PEAKS, peak) if isinstance(case.loading, DeadLoad | Impact) else {}),
         **_shape_columns(case, scene, frames, strains, loading),
     }
 
@@ -253,8 +256,11 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
-def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
-    """Columns from the force-displacement curve of the loading; only a crush can densify."""
+def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[str, float]:
+    """Columns from the force-displacement curve of the loading; only a crush can densify.
+
+    most: greatest force of an impact, filtered, N.
+    """
     force, work = transmitted(case, loading), loading["work_in_J"]
     until = {  # from the rows, as the stored curve gives it for any other force
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
@@ -274,20 +280,23 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
         "peak_force_at_densification_N": float(peak[row]),
         "peak_force_until_packed_N": float(share @ peak),
     }
-    columns |= ratios(case, loading, columns)
+    greatest = most if isinstance(case.loading, Impact) else float(transmitted(case, loading).max())
+    columns |= ratios(case, loading, columns, greatest)
     return columns | until
 
 
-def ratios(case: Case, loading: dict[str, Floats], columns: dict[str, float]) -> dict[str, float]:
+def ratios(
+    case: Case, loading: dict[str, Floats], columns: dict[str, float], greatest: float
+) -> dict[str, float]:
     """Ideality and cushion factor of a crush until packed (Miltz & Gruenbaum 1981), and mean force
     / greatest force of the whole loading; NaN under a dead load, or without any force.
 
-    columns: values until packed; `packing_strain` is NaN unless the mode is displacement.
+    columns: values until packed; `packing_strain` is NaN unless the mode is displacement. greatest:
+    force of the loading, N.
     """
     height = case.height or np.nan
     strain = loading["strain"].max()
     work, peak = columns["absorbed_energy_until_packed_J"], columns["peak_force_until_packed_N"]
-    greatest = transmitted(case, loading).max()
     driven = isinstance(case.loading, Crush | Impact)
     brought = greatest * strain * height if driven else np.nan
     packed = peak * columns["packing_strain"] * height

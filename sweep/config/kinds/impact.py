@@ -27,6 +27,7 @@ from sweep.constants import STANDARD_GRAVITY
 
 DROP: Final = "drop"  # `mode` of an impact with gravity
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height
+SAMPLES = 10  # least rows per second / filter_class
 STEPS_OF_CONTACT = 20  # time steps in which a solid block would return a striker
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
@@ -36,10 +37,11 @@ class Impact(Struck):
 
     `drop_height` and `preset` (`drop_tests`) are other ways to give its speed and mass, `specimens`
     sets the share of the mass of the preset that one specimen bears. `filter_class`: class of the
-    filter behind which its deceleration is measured (SAE J211-1); 1000 as for a head form in drop
-    tests (ASTM F1292). `gravity`: whether its weight acts after the first touch too, by default in
-    drops: with `mode` "drop", `drop_height` or `preset`. `target_mass`: mass of the base, a rigid
-    body that moves freely away from the hit, and falls like the striker; None: the base is fixed.
+    filter behind which its deceleration and the force on the support are measured (SAE J211-1);
+    1000 as for a head form in drop tests (ASTM F1292). `gravity`: whether its weight acts after the
+    first touch too, by default in drops: with `mode` "drop", `drop_height` or `preset`.
+    `target_mass`: mass of the base, a rigid body that moves freely away from the hit, and falls
+    like the striker; None: the base is fixed.
     """
 
     because: ClassVar[str] = 'loading.mode is "impact"'
@@ -110,11 +112,12 @@ class Impact(Struck):
 
         A fast striker is stopped within the height of the lattice, in which its weight speeds it
         up. A slow one rebounds as from a spring of compliance c, after pi sqrt(m c) whatever its
-        speed, with the reduced mass m; for a solid block, this time is a lower bound.
+        speed, with the reduced mass m; for a solid block, this time is a lower bound. The filter of
+        forces needs rows of at most 1 / (10 class).
         """
         passage = body.height / self.greatest_speed(body.height) / STEPS_OF_PASSAGE
         contact = pi * sqrt(self.reduced_mass * body.compliance(modulus)) / STEPS_OF_CONTACT
-        return min(passage, contact)
+        return min(passage, contact, 1.0 / (SAMPLES * self.filter_class))
 
     @property
     def approach(self) -> float:

@@ -194,6 +194,8 @@ function requiredText() {
   const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
   const required = `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}.`;
   if (!designs) return required;
+  const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
+  const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: shorter steps may change that.` : "";
   return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
 }

@@ -145,15 +145,28 @@ def _within(*outcomes: Outcome) -> str:
 
 
 def _counts(outcome: Outcome) -> str:
-    """How many designs within the budget fulfil all requirements, and how many fail each."""
+    """How many designs within the budget fulfil all requirements, how many of these are doubtful,
+    and how many fail each.
+    """
     failing = outcome.designs - outcome.fulfil
     marked = f", {outcome.doubtful} of them marked ! or x" if outcome.doubtful else ""
     if not failing:
-        return f"All designs{_within(outcome)} ({outcome.designs}) fulfil this{marked}."
+        every = f"All designs{_within(outcome)} ({outcome.designs}) fulfil this{marked}."
+        return every + _uncertain(outcome)
     parts = [f"{name} ({count})" for name, count in outcome.failed.items() if count]
     several = "; some fail several" if sum(outcome.failed.values()) > failing else ""
     fulfil = f"{outcome.fulfil} of {outcome.designs} designs{_within(outcome)} fulfil this{marked}"
-    return f"{fulfil}; {failing} fail: {', '.join(parts)}{several}."
+    return f"{fulfil}; {failing} fail: {', '.join(parts)}{several}.{_uncertain(outcome)}"
+
+
+def _uncertain(outcome: Outcome) -> str:
+    """How many designs fulfil all requirements by values that long steps make uncertain."""
+    count = outcome.coarse
+    if not count:
+        return ""
+    some = f"{count} of these {'is' if count == 1 else 'are'}"
+    which = some if count < outcome.fulfil else "It is" if count == 1 else "All of these are"
+    return f"\n{which} marked i: shorter steps may change that."
 
 
 def _nearest(

@@ -21,7 +21,7 @@ def struck(force, energy, **other):
 
 def test_steps_are_coarse_by_the_measure_of_their_loading():
     loads = [{"loading_mode": "force", "force_N": 5.0, "path_error": e} for e in (0.004, 0.006)]
-    blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.04, 0.06)]
+    blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.009, 0.011)]
     crushed = [{"load_step_error": e, "integrator_share": NAN} for e in (0.004, 0.006, NAN)]
     moving = [{"load_step_error": NAN, "integrator_share": share} for share in (0.009, 0.011)]
     table = ranked(summary(*loads, *blows, *crushed, *moving)).table

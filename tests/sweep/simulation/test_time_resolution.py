@@ -19,7 +19,7 @@ from tests.support.converged import converged
 from tests.support.designs.scenes import is_sound, pressed
 
 CELLS = {"cells_x": 2, "cells_y": 2}
-RIGHT = 69.7  # N, of steps of 2 us by newmark
+RIGHT = 67.8  # N, of steps of 2 us by newmark
 AT_ENERGY, AT_MOMENTUM = "time integrator removed", "impulse on the support"
 
 
@@ -46,8 +46,7 @@ def test_steps_longer_than_the_contact_are_no_result(case, why):
     result = simulate(case)
     assert result.status == result.summary["status"] == Status.UNRESOLVED
     assert why in result.message
-    is_between = case.solver.step_error is not None  # in shares of a row
-    assert (result.summary["peak_force_N"] < 0.5 * RIGHT) != is_between
+    assert np.isnan(result.summary["peak_force_N"])  # rows too far apart for its filter
     assert "try a solver.time_step of 6.25 us" in result.message
 
 

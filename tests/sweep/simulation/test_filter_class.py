@@ -5,7 +5,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from sweep.simulation.deceleration import filtered, filtered_peak
+from sweep.simulation.filter_class import filtered, filtered_peak
 
 CLASS = 1000
 
