@@ -48,9 +48,13 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     marked = _marked(rows)
     meanings = [meaning for mark, meaning in MEANINGS.items() if marked[mark].any()]
     long = rows[marked["i"]]
-    measures = dict.fromkeys(m for name in long["loading_mode"] for m in MODES[name].coarse)
-    notes = [_coarse_note(measure) for measure in measures if exceeds(long, measure).any()]
-    return (*notes, *meanings)
+    exceeded = dict.fromkeys(
+        measure
+        for name, rows_of in long.groupby("loading_mode", sort=False)
+        for measure in MODES[str(name)].coarse
+        if exceeds(rows_of, measure).any()
+    )
+    return (*map(_coarse_note, exceeded), *meanings)
 
 
 def _coarse_note(coarse: Coarse) -> str:

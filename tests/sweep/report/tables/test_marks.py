@@ -1,11 +1,12 @@
 """Marks of doubtful results, and of designs that do not print as drawn."""
 
+import pandas as pd
 import pytest
 
 from sweep.columns import end_columns
 from sweep.ranking.rank import ranked
 from sweep.report.tables.legend import UNSURE, legend
-from sweep.report.tables.marks import MEANINGS
+from sweep.report.tables.marks import MEANINGS, mark_notes
 from sweep.report.tables.sheets import PASSED_OVER, ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, IMPACTS, SPARSE, summary
 
@@ -55,6 +56,16 @@ def test_coarse_steps_are_explained_by_the_measure_of_their_loading():
         assert seen == ["1*", "2 i"]
         assert all(word in text for word in words)
     assert "integrator_share" not in text
+
+
+def test_a_measure_of_another_loading_is_not_explained():
+    """The integrator takes much of the vibrations of a dead load, which is no mark of it."""
+    crushes = TWO.assign(load_step_error=[0.004, 0.006], integrator_share=NAN, path_error=NAN)
+    load = {"loading_mode": "force", "force_N": 5.0, "integrator_share": 0.3}
+    loads = TWO.assign(**load, path_error=[0.004, 0.006], case_id=["c", "d"])
+    words = " ".join(mark_notes(ranked(pd.concat([crushes, loads], ignore_index=True)).table))
+    assert ("load_step_error" in words, "path_error" in words) == (True, True)
+    assert "integrator_share" not in words
 
 
 def test_designs_that_are_passed_over_are_counted():
