@@ -114,6 +114,7 @@ STRUCK = """\
 force: greatest force on the support, filtered (loading.filter_class). strain: greatest strain.
 left: stroke left until all voids are closed. rebound: energy of the striker, relative to the base,
 at rebound / at first contact."""
+PROBED = "absorbed: work done on the structure until the end of its loading; J/g is of it."
 DENSIFIED = """\
 dens.: densification strain, at which energy / greatest force is greatest: the mean of the strains
 at which it is nearly as great. Energy and peak until then are means over the same strains."""
@@ -221,6 +222,7 @@ MODES: Mapping[str, Mode] = {
         probed=True,
         energy="energy left",
         path="motion of the probes",
+        notes=(PROBED,),
     ),
 }
 """By `loading_mode`."""

@@ -167,7 +167,8 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     if refused and not (recipe.search and cases):
         raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))
     if not cases:
-        line = f"[[exclude]] drops all {count:,} cases; allowed: tables that leave at least one"
+        every = f"all {count:,} cases" if count > 1 else "the only case"
+        line = f"[[exclude]] drops {every}; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
     faults = [_dropping_none(recipe, k) for k in range(len(recipe.exclude)) if k not in dropped]
     if any(unused.values()):

@@ -201,7 +201,8 @@ def test_winners_are_the_first_of_the_rankings():
     """README has a cell for each front and mass, docs/rammed.md the ranking behind it."""
     text = readme.PAGES["docs/rammed.md"]
     rankings = re.findall(r"^## (.*?)\n+```text\n(.*?)^```", text, re.M | re.S)
-    names = {"hex": "honeycomb", "triangle": "triangles", "reentrant": "re-entrant"}
+    names = {"hex": "honeycomb", "triangle": "triangles", "diamond": "diamonds"}
+    names |= {"square": "squares", "kagome": "kagome"}
     first = []
     for _, lines in rankings:
         (row,) = [line.split() for line in lines.splitlines() if line.startswith(("1*", " 1*"))]

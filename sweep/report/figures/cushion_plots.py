@@ -159,4 +159,4 @@ def _rings(ax: Axes, x: Any, y: Any, style: dict[str, Any]) -> None:
 
 def _entry(words: str) -> dict[str, Any]:
     """An entry of the legend for the meaning of markers."""
-    return PLAIN | {"label": f"sign: {words}", "marker": ""}
+    return PLAIN | {"label": f"marker: {words}", "marker": ""}

@@ -23,7 +23,7 @@ PARTS = {
     "kinetic_J": "motion",
     "dissipated_material_J": "lost in the material",
     "dissipated_friction_J": "lost to friction",
-    INTEGRATOR: "lost in snap-through, time steps",
+    INTEGRATOR: "lost in snap-through, in steps",
 }
 """Columns of a history that add up to the work done, in words."""
 

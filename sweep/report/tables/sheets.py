@@ -212,9 +212,11 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
         columns |= impact_text(rows) if mode_of(rows).struck else strain
         shown |= {least}
     else:
-        columns |= _crushed(rows, ranking) | panel_column(rows)
+        columns |= _absorbed(rows, ranking)
         shown |= {ranking.energy, ranking.per_gram}
-        columns |= {} if ranking.limited else crush_text(rows)
+        if not mode_of(rows).probed:
+            columns |= {"peak N": numerals(rows["passed_on_N"])} | panel_column(rows)
+            columns |= {} if ranking.limited else crush_text(rows)
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
     shown |= {DECELERATION} if "decel. g0" in columns else set()
@@ -238,15 +240,15 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
     }
 
 
-def _crushed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
+def _absorbed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "usable"
+    noun = "absorbed" if mode_of(rows).probed else noun
     unit = "mJ" if energy.max() < 1.0 else "J"
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})
     return {
         f"{noun} {unit}": more + numerals(in_unit(energy, unit)),
         "J/g": more + numerals(rows[ranking.per_gram]),
-        "peak N": numerals(rows["passed_on_N"]),
     }
 
 

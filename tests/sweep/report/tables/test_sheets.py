@@ -4,6 +4,7 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.design_text import design_labels, design_text
+from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import OPEN, ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, designs, summary
 
@@ -101,3 +102,11 @@ def test_both_directions_stand_side_by_side_in_one_ranking():
     assert [row[1] for row in sheet.rows] == ["along", "across"]
     assert design_labels(table, table) == ["pressed across", "pressed along"]
     assert "pressed" not in design_text(table.iloc[:1], table.iloc[:1])
+
+
+def test_a_structure_of_a_file_has_its_work_and_no_columns_of_a_crush():
+    table = summary({"loading_mode": "custom", "peak_strain": 0.3, "densification_strain": NAN})
+    ranking = ranked(table)
+    (sheet,) = ranking_sheets(ranking, table)
+    assert sheet.heads == ["#", "mass g", "absorbed mJ", "J/g"]
+    assert "absorbed: work done" in legend(ranking)
