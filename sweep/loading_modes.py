@@ -161,7 +161,7 @@ MODES: Mapping[str, Mode] = {
             *("max_mass", "max_stroke"),
         ),
         title=_struck,
-        curve=(STRAIN, Axis("reaction_bottom_N", "N", "force on the support, N")),
+        curve=(STRAIN, Axis("reaction_bottom_N", "N", "force on the support, unfiltered, N")),
         columns=(
             *("striker_mass_g", "striker_speed_m_per_s", "impact_energy_J", "gravity"),
             "target_mass_g",
@@ -169,7 +169,7 @@ MODES: Mapping[str, Mode] = {
         scene=(*STRIKER, "gravity"),
         struck=True,
         least=Least(
-            *("peak_force_N", "N", "greatest force on the support, N", "Force over mass"),
+            *("peak_force_N", "N", "greatest force on the support, filtered, N", "Force over mass"),
             quantity="force on the support",
             merit="{} N on the support",
             order="least force on the support",

@@ -181,9 +181,9 @@ def _words(schema: dict[str, Any]) -> str:
     return ", ".join([" or ".join(nouns), *bounds])
 
 
-def one_of(words: Iterable[str]) -> str:
-    """Words in quotes: "a", "b" or "c"."""
-    *others, last = [f'"{word}"' for word in words]
+def one_of(words: Iterable[str | int]) -> str:
+    """Words in quotes, or numbers: "a", "b" or "c"; 60 or 180."""
+    *others, last = [f'"{word}"' if isinstance(word, str) else str(word) for word in words]
     return f"{', '.join(others)} or {last}" if others else last
 
 

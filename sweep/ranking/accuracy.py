@@ -264,7 +264,7 @@ def energy(row: Series, history: DataFrame) -> float:
 
 
 def peak(row: Series, history: DataFrame) -> float:
-    """Greatest force (N), unfiltered where rows are too far apart for `peak_force_N`; for a
+    """Greatest force (N), also under a dead load whose rows are too far apart to resolve it; for a
     custom structure, the greatest reaction at a probe.
     """
     if not MODES[row["loading_mode"]].probed:

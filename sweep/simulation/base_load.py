@@ -11,7 +11,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
-from sweep.simulation.filter_class import filtered_peak
+from sweep.simulation.filter_class import filtered_force
 from sweep.simulation.striker import rebound
 from sweep.simulation.time_resolution import peak_row
 
@@ -39,14 +39,11 @@ def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
 
 
 def peak_force(loading: Impact, history: Mapping[str, Floats]) -> float:
-    """Greatest force of an impact on the support behind its filter, N; NaN if rows are too far
-    apart.
+    """Greatest force of an impact on the support behind its filter, N; in the end it bears the
+    weight.
     """
-    from scipy.integrate import cumulative_trapezoid
-
     time, force = history["time_s"], history["reaction_bottom_N"]
-    impulse = cumulative_trapezoid(force, time, initial=0.0)
-    return filtered_peak(time, impulse, loading.filter_class)
+    return float(filtered_force(time, force, loading.filter_class, loading.weight).max())
 
 
 def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:

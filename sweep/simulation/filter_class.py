@@ -21,31 +21,52 @@ RINGING = 5.0  # times 1 / corner after which the filter has settled
 ROUND_OFF = 1e-9
 
 
-def filtered_peak(time: Floats, total: Floats, filter_class: int) -> float:
-    """Greatest slope of a quantity behind a filter of a class; NaN if rows are too far apart.
+def filtered_peak(time: Floats, velocity: Floats, filter_class: int, after: float = 0.0) -> float:
+    """Greatest deceleration (m/s^2) behind a filter of a class; NaN if rows are too far apart.
 
-    time (rows,) s; total (rows,): a velocity for the deceleration, an impulse for the force.
+    time (rows,) s; velocity (rows,) m/s, upwards; after: deceleration after the last row.
     """
     longest = float(np.diff(time).max(initial=0.0))
     if not 0.0 < longest * SAMPLES * filter_class <= 1.0 + ROUND_OFF:
         return nan
+    even = evenly(time)
+    step = float(even[1] - even[0])
+    deceleration = np.diff(np.interp(even, time, velocity)) / step
+    return float(filtered(deceleration, step, filter_class, after).max())
+
+
+def filtered_force(time: Floats, force: Floats, filter_class: float, after: float) -> Floats:
+    """A force behind a filter of a class, (rows,) N. time (rows,) s; force (rows,) N; after:
+    the force after the last row.
+
+    Rows may be so far apart that they hold nothing that the filter removes: its corner is not below
+    half of their frequency.
+    """
+    if len(time) < 2:
+        return force
+    even = evenly(time)
+    step = float(even[1] - even[0])
+    if 2.0 * CORNER * filter_class * step >= 1.0:
+        return force
+    return np.interp(time, even, filtered(np.interp(even, time, force), step, filter_class, after))
+
+
+def evenly(time: Floats) -> Floats:
+    """Times at an even distance, as long as the longest between rows (rows,), s."""
+    longest = float(np.diff(time).max())
     span = float(time[-1] - time[0])
-    even = np.linspace(time[0], time[-1], ceil(span / longest * (1.0 - ROUND_OFF)) + 1)
-    step = span / (len(even) - 1)
-    slope = np.diff(np.interp(even, time, total)) / step
-    return float(filtered(slope, step, filter_class).max())
+    return np.linspace(time[0], time[-1], ceil(span / longest * (1.0 - ROUND_OFF)) + 1)
 
 
-def filtered(signal: Floats, step: float, filter_class: int) -> Floats:
+def filtered(signal: Floats, step: float, filter_class: float, after: float) -> Floats:
     """A signal (n,), sampled every ``step`` (s), behind a filter of a class.
 
-    Before its start the signal is 0, as nothing touches the striker; after its end it keeps its
-    last value.
+    Before its start the signal is 0, as nothing touches the striker; after its end it is ``after``.
     """
     from scipy.signal import butter, sosfiltfilt
 
     corner = CORNER * filter_class
     around = ceil(RINGING / (corner * step))
-    padded = np.concatenate([np.zeros(around), signal, np.full(around, signal[-1])])
+    padded = np.concatenate([np.zeros(around), signal, np.full(around, after)])
     passed = sosfiltfilt(butter(2, corner, fs=1.0 / step, output="sos"), padded, padlen=0)
     return passed[around : around + len(signal)]

@@ -128,7 +128,9 @@ def hit_columns(loading: Impact, history: Curves) -> dict[str, float]:
     peak = history["deceleration_m_per_s2"].max()
     time, velocity = history["time_s"], -history["striker_speed_m_per_s"]
     pushed = against_falling(loading, time, velocity)
-    filtered = filtered_peak(time, pushed, loading.filter_class)
+    filtered = filtered_peak(
+        time, pushed, loading.filter_class, loading.weight / loading.striker_mass
+    )
     return {
         "peak_deceleration_m_per_s2": float(peak),
         "peak_deceleration_filtered_m_per_s2": float(filtered),

@@ -29,6 +29,7 @@ from sweep.simulation.densification import (
     span,
     weights,
 )
+from sweep.simulation.filter_class import filtered_force
 from sweep.simulation.iso_13314 import figures
 from sweep.simulation.load_step_error import load_step_error
 from sweep.simulation.plate_shapes import surface_crossings
@@ -93,6 +94,9 @@ OF_THE_WHOLE_RUN = (
 )
 """Columns that need a run to its end: on unloading, and on losses until then."""
 ROUND_OFF = 1e-9
+REACTIONS = ("reaction_top_N", "reaction_bottom_N")
+CLASS = 1000.0  # of the filter of a crush with a speed
+WAVES = 2.0  # least waves in a stroke that it passes
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 
 
@@ -151,19 +155,21 @@ def summarise(  # noqa: PLR0913  of one case each
     unloaded; energies and the curve of the loading belong to the first cycle. peaks: from
     `peaks_of`.
     """
-    curves = history | {"work_in_J": work_on_lattice(case, history)}
+    curves = (
+        history | {"work_in_J": work_on_lattice(case, history)} | filtered_reactions(case, history)
+    )
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
     drawn = in_unit(drawn_mass(case, scene), "g")
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
-    force = transmitted(case, history)
+    force = transmitted(case, curves)
     strain = max(peaks[0], float(history["strain"].max()))
     if isinstance(case.loading, Impact):
         peak = peak_force(case.loading, history)
     else:
-        peak = known_peak(case, force, peaks[1])
+        peak = float(force.max()) if moves(case) else known_peak(case, force, peaks[1])
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
     return {
@@ -176,7 +182,7 @@ def summarise(  # noqa: PLR0913  of one case each
         **lost_columns(given, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
-        "integrator_share": integrator_share(case.loading, history),
+        "integrator_share": integrator_share(case.loading, loading if moves(case) else history),
         "path_error": path_error(case, history, strain),
         "load_step_error": load_step_error(case, loading),
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
@@ -191,6 +197,7 @@ def summarise(  # noqa: PLR0913  of one case each
         **striker_columns(case, scene, history),
         **base_columns(case, history),
         **crush_columns(case, loading, peak),
+        **until_columns(case, history, cycles[0].loaded + 1),
         **(dict.fromkeys(PEAKS, peak) if isinstance(case.loading, DeadLoad | Impact) else {}),
         **_shape_columns(case, scene, frames, strains, loading),
     }
@@ -249,6 +256,28 @@ def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
     }
 
 
+def moves(case: Case) -> bool:
+    """Whether a platen crushes at a speed."""
+    return isinstance(case.loading, Crush) and not case.loading.quasi_static
+
+
+def filtered_reactions(case: Case, history: dict[str, Floats]) -> dict[str, Floats]:
+    """The reactions of a crush with a speed behind a filter, (rows,) N; none of other loadings.
+
+    A platen that starts at full speed hits the lattice with a force that rises without limit as
+    time steps get shorter. The filter has class 1000, or passes a wave of half the stroke if that
+    is shorter.
+    """
+    if not moves(case):
+        return {}
+    time = history["time_s"]
+    stroke = float(time[history["top_displacement_m"].argmax()] - time[0])
+    passed = max(CLASS, WAVES / stroke) if stroke > 0.0 else CLASS
+    return {
+        name: filtered_force(time, history[name], passed, history[name][-1]) for name in REACTIONS
+    }
+
+
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
     """The greater force of the two platens, (rows,) N; for an impact, the force on the support."""
     if isinstance(case.loading, Impact):
@@ -261,11 +290,6 @@ def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[s
 
     most: greatest force of an impact, filtered, N.
     """
-    force, work = transmitted(case, loading), loading["work_in_J"]
-    until = {  # from the rows, as the stored curve gives it for any other force
-        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
-        for allowed in case.loading.allowed_forces
-    }
     if isinstance(case.loading, Crush):
         loading = between_rows(loading)
     work, force = loading["work_in_J"], transmitted(case, loading)
@@ -281,8 +305,18 @@ def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[s
         "peak_force_until_packed_N": float(share @ peak),
     }
     greatest = most if isinstance(case.loading, Impact) else float(transmitted(case, loading).max())
-    columns |= ratios(case, loading, columns, greatest)
-    return columns | until
+    return columns | ratios(case, loading, columns, greatest)
+
+
+def until_columns(case: Case, history: dict[str, Floats], rows: int) -> dict[str, float]:
+    """Energy absorbed up to each allowed force in the first ``rows`` of an unfiltered curve, as the
+    stored one gives it for any other force.
+    """
+    force, work = transmitted(case, history)[:rows], work_on_lattice(case, history)[:rows]
+    return {
+        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
+        for allowed in case.loading.allowed_forces
+    }
 
 
 def ratios(

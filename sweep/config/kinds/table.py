@@ -143,9 +143,11 @@ def keys_of(model: type[BaseModel]) -> set[str]:
     return {*model.model_fields}
 
 
-def similar(word: str, words: Iterable[str]) -> str:
+def similar(word: str, words: Iterable[object]) -> str:
     """A clause with the known word most similar to this one; empty if none is."""
-    near = get_close_matches(word.lower(), [*words], n=1)
+    near = get_close_matches(
+        word.lower(), [known for known in words if isinstance(known, str)], n=1
+    )
     return f'; the nearest is "{near[0]}"' if near else ""
 
 

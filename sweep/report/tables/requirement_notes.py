@@ -40,7 +40,7 @@ WHOLE_PANEL = "panel N: force of a panel in one piece of {} mm; effects of its e
 STRUCK_PANEL = "All specimens of a panel are struck at once, each by its own striker."
 COLUMN_NOTES = {
     "decel. g0": "decel.: greatest deceleration of the striker, filtered (loading.filter_class).",
-    "base kPa": "base: greatest pressure on a patch of the base (loading.base_patch).",
+    "base kPa": "base: greatest pressure on a patch of the base (loading.base_patch), unfiltered.",
     "target g0": "target: greatest acceleration of the base, which moves freely.",
     "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }

@@ -20,6 +20,7 @@ KINDS = [f'"{word}"' for word in (*families(), *SHEETS, "custom", "drawn")]
     [
         ('[lattice]\nkind = "heptagon"', ['"hex" ("honeycomb"), ', '"kagome" ("stars"), ', *KINDS]),
         ('[solver]\nintegrator = "bdf3"', ['"bdf2", "newmark", "static" or "arc_length"']),
+        ('[loading]\nmode = "impact"\nfilter_class = "60"', ["60, 180, 600 or 1000"]),
     ],
 )
 def test_unknown_choices_name_the_known_ones(last_refused, text, known):

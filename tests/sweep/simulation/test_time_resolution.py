@@ -46,7 +46,7 @@ def test_steps_longer_than_the_contact_are_no_result(case, why):
     result = simulate(case)
     assert result.status == result.summary["status"] == Status.UNRESOLVED
     assert why in result.message
-    assert np.isnan(result.summary["peak_force_N"])  # rows too far apart for its filter
+    assert result.summary["peak_force_N"] < 0.5 * RIGHT
     assert "try a solver.time_step of 6.25 us" in result.message
 
 

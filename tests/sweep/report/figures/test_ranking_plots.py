@@ -105,7 +105,7 @@ def test_force_of_a_panel_stands_beside_that_of_a_specimen():
     hit = {"loading_mode": "impact", "stroke_m": np.nan, "peak_force_N": 30.0}
     (ax,) = drawn(ranked(summary(hit, hit), panel=("130 mm", "50 mm"), top=None)).axes
     assert "30.0 N on the support, 1500 N on the panel" in ax.get_title("left")
-    assert ax.get_ylabel() == "greatest force on the support, N, of a specimen"
+    assert ax.get_ylabel() == "greatest force on the support, filtered, N, of a specimen"
 
 
 def test_map_of_a_dead_load_shows_how_far_it_sinks(ranking):
