@@ -655,7 +655,7 @@ def _number(text: str) -> int:
     """A whole number, zero included."""
     if text.isdecimal():
         return int(text)
-    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number")
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 0 or more")
 
 
 def _path(text: str) -> str:

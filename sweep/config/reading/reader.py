@@ -96,13 +96,17 @@ class Reader:
         self.of_file = next(iter(named), None if words else FILED[0])
         stated = {target for name in keys for target in (name, *ALIASES.get(name, ()))}
         base = self._base(document)
+        grid = self._axes(_flat(self._section(document, "grid")), "[grid]")
+        self.notes += [
+            f"{key}: [grid] replaces the value in [{_table(key)}]" for key in grid if key in base
+        ]
         if one is not None:
             base |= self._profile(one, stated)
         tied = {} if several is None else self._profiles(several, stated, one is not None)
         ties = map(self._zip, self._tables(document, "zip"))
         return Recipe(
             base=base,
-            grid=self._axes(_flat(self._section(document, "grid")), "[grid]"),
+            grid=grid,
             zip=tuple(filter(None, [*ties, tied])),
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
             search=self._search(document),

@@ -261,6 +261,15 @@ BOX = 'width = "30 mm"\nheight = "30 mm"\n'
 SAME = 'slicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 3\n'
 
 
+def test_a_value_that_the_grid_replaces_is_named(load):
+    text = (
+        '[lattice]\nwall_thickness = "1 mm"\n[grid]\nlattice.wall_thickness = ["0.4 mm", "0.8 mm"]'
+    )
+    config = load(text)
+    assert config.notes == ("lattice.wall_thickness: [grid] replaces the value in [lattice]",)
+    assert [case.lattice.wall_thickness for case in config.cases] == [0.4e-3, 0.8e-3]
+
+
 @pytest.fixture
 def profile(tmp_path):
     """The profile of a slicer beside the config."""
