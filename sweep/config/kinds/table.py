@@ -146,7 +146,7 @@ def keys_of(model: type[BaseModel]) -> set[str]:
 def similar(word: str, words: Iterable[object]) -> str:
     """A clause with the known word most similar to this one; empty if none is."""
     near = get_close_matches(
-        word.lower(), [known for known in words if isinstance(known, str)], n=1
+        word.lower(), [choice for choice in words if isinstance(choice, str)], n=1
     )
     return f'; the nearest is "{near[0]}"' if near else ""
 
