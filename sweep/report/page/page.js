@@ -197,7 +197,7 @@ function requiredText() {
   const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
   const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: shorter steps may change that.` : "";
   return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
-    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.`;
+    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.${unsure}`;
 }
 
 // The requirements that a row misses, with its values.

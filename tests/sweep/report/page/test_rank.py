@@ -1,12 +1,16 @@
 """The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from py_mini_racer import MiniRacer
 
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question
 from sweep.ranking.rank import ranked
 from sweep.ranking.unfinished import PLACES
+from sweep.report.page import gather
 from sweep.report.page.gather import page_data
 from tests.support.results.questions import (
     OTHERS,
@@ -162,3 +166,36 @@ def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
     counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
     assert min(*counts, missing, stopped, passed_over) > 5
     assert min(nearest, border) > 0
+
+
+STAND_INS = """
+const data = { measures: { max_force: { noun: "force", shown: "N", limit: "force at most {}" } } };
+const asked = { per: "specimen", budget: null, panel: null, require: { max_force: 60 } };
+const askedOf = () => asked.require, inUnits = (value) => value, ofOne = () => "the part";
+const design = (coarse, crossed = false) =>
+  ({ mass: 1, misses: {}, beyond: false, design: { coarse, crossed } });
+let now = { rows: [], placed: [], missing: [] };
+"""
+
+
+@pytest.mark.parametrize(
+    ("placed", "said"),
+    [
+        ("design(false)", ""),
+        ("design(true), design(false)", " Of these, 1 is marked i: shorter steps may change that."),
+        ("design(true), design(true)", " Of these, 2 are marked i: shorter steps may change that."),
+        ("design(true, true)", ""),
+    ],
+)
+def test_requirements_that_coarse_steps_meet_are_named(placed, said):
+    folder = Path(gather.__file__).parent
+    page = (folder / "page.js").read_text("utf-8")
+    words = page[page.index("function limitText") : page.index("// The requirements that a row")]
+    with MiniRacer() as engine:
+        engine.eval(
+            (folder / "rank.js").read_text("utf-8").replace("function askedOf", "function of")
+        )
+        engine.eval(STAND_INS + words)
+        engine.eval(f"now.placed = [{placed}]; now.rows = now.placed")
+        told = engine.eval("requiredText()")
+    assert told.endswith(f"designs fulfil this.{said}")
