@@ -55,6 +55,7 @@ MEASURES = {
         none="None transmits less than {}; the least is {}",
         example="60 N",
         about="required, while the usable energy is absorbed",
+        unknown="time steps are too long for peaks (solver.time_step)",
     ),
     "max_deceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),

@@ -43,7 +43,7 @@ def peak_force(loading: Impact, history: Mapping[str, Floats]) -> float:
     weight.
     """
     time, force = history["time_s"], history["reaction_bottom_N"]
-    return float(filtered_force(time, force, loading.filter_class, loading.weight).max())
+    return float(filtered_force(time, force, loading.filter_class, (0.0, loading.weight)).max())
 
 
 def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:

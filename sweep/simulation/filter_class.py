@@ -13,7 +13,7 @@ from math import ceil, nan
 
 import numpy as np
 
-from sweep.config.kinds.impact import SAMPLES
+from sweep.config.kinds.striker import SAMPLES
 from sweep.scene.mesh import Floats
 
 CORNER = 2.0775  # corner over the class, Hz
@@ -32,15 +32,16 @@ def filtered_peak(time: Floats, velocity: Floats, filter_class: int, after: floa
     even = evenly(time)
     step = float(even[1] - even[0])
     deceleration = np.diff(np.interp(even, time, velocity)) / step
-    return float(filtered(deceleration, step, filter_class, after).max())
+    return float(filtered(deceleration, step, filter_class, (0.0, after)).max())
 
 
-def filtered_force(time: Floats, force: Floats, filter_class: float, after: float) -> Floats:
-    """A force behind a filter of a class, (rows,) N. time (rows,) s; force (rows,) N; after:
-    the force after the last row.
+def filtered_force(
+    time: Floats, force: Floats, filter_class: float, ends: tuple[float, float]
+) -> Floats:
+    """A force behind a filter of a class, (rows,) N. time (rows,) s; force (rows,) N; ends:
+    the force before the first row and after the last one.
 
-    Rows may be so far apart that they hold nothing that the filter removes: its corner is not below
-    half of their frequency.
+    Unfiltered where rows are so far apart that the corner is not below half of their frequency.
     """
     if len(time) < 2:
         return force
@@ -48,7 +49,7 @@ def filtered_force(time: Floats, force: Floats, filter_class: float, after: floa
     step = float(even[1] - even[0])
     if 2.0 * CORNER * filter_class * step >= 1.0:
         return force
-    return np.interp(time, even, filtered(np.interp(even, time, force), step, filter_class, after))
+    return np.interp(time, even, filtered(np.interp(even, time, force), step, filter_class, ends))
 
 
 def evenly(time: Floats) -> Floats:
@@ -58,15 +59,15 @@ def evenly(time: Floats) -> Floats:
     return np.linspace(time[0], time[-1], ceil(span / longest * (1.0 - ROUND_OFF)) + 1)
 
 
-def filtered(signal: Floats, step: float, filter_class: float, after: float) -> Floats:
+def filtered(signal: Floats, step: float, filter_class: float, ends: tuple[float, float]) -> Floats:
     """A signal (n,), sampled every ``step`` (s), behind a filter of a class.
 
-    Before its start the signal is 0, as nothing touches the striker; after its end it is ``after``.
+    ends: its values before its start and after its end.
     """
     from scipy.signal import butter, sosfiltfilt
 
     corner = CORNER * filter_class
     around = ceil(RINGING / (corner * step))
-    padded = np.concatenate([np.zeros(around), signal, np.full(around, after)])
+    padded = np.concatenate([np.full(around, ends[0]), signal, np.full(around, ends[1])])
     passed = sosfiltfilt(butter(2, corner, fs=1.0 / step, output="sos"), padded, padlen=0)
     return passed[around : around + len(signal)]

@@ -4,7 +4,7 @@ import numpy as np
 
 from sweep.columns import absorbed_energy_column
 from sweep.config.case import Case
-from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.crush import FILTER_CLASS, Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
@@ -95,7 +95,6 @@ OF_THE_WHOLE_RUN = (
 """Columns that need a run to its end: on unloading, and on losses until then."""
 ROUND_OFF = 1e-9
 REACTIONS = ("reaction_top_N", "reaction_bottom_N")
-CLASS = 1000.0  # of the filter of a crush with a speed
 WAVES = 2.0  # least waves in a stroke that it passes
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 
@@ -108,7 +107,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     time, loading, struck = rows["time"].copy(), case.loading, {}
     if isinstance(loading, Impact):
         struck = striker_curves(loading, time, rows["speed"], rows["base_speed"])
-    return {
+    columns = {
         "time_s": time,
         "strain": travel / (case.height or np.nan),
         "top_displacement_m": travel,
@@ -120,6 +119,30 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         "base_pressure_Pa": rows["patch_force"] / (patch_width(case) * case.lattice.depth),
         "base_pressure_x_m": rows["patch_at"].copy(),
     } | struck
+    if moves(case):
+        columns |= {name: _without_blows(time, travel, columns[name]) for name in REACTIONS}
+    return columns
+
+
+def moves(case: Case) -> bool:
+    """Whether a platen crushes at a speed."""
+    return isinstance(case.loading, Crush) and not case.loading.quasi_static
+
+
+def _without_blows(time: Floats, travel: Floats, force: Floats) -> Floats:
+    """A reaction of a crush with a speed behind a filter, (rows,) N.
+
+    A platen that starts at full speed hits the lattice with a force that grows without bound as
+    time steps get shorter. The filter has class 1000, or passes `WAVES` waves in the stroke if that
+    is more. What follows the first loading starts with a blow too, and is filtered by itself.
+    """
+    rows = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
+    stroke = float(time[rows - 1] - time[0])
+    passed = max(FILTER_CLASS, WAVES / stroke) if stroke > 0.0 else FILTER_CLASS
+    full = float(force[rows - 1])
+    loading = filtered_force(time[:rows], force[:rows], passed, (0.0, full))
+    later = filtered_force(time[rows:], force[rows:], passed, (full, float(force[-1])))
+    return np.concatenate([loading, later])
 
 
 def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
@@ -155,21 +178,17 @@ def summarise(  # noqa: PLR0913  of one case each
     unloaded; energies and the curve of the loading belong to the first cycle. peaks: from
     `peaks_of`.
     """
-    curves = (
-        history | {"work_in_J": work_on_lattice(case, history)} | filtered_reactions(case, history)
-    )
+    curves = history | {"work_in_J": work_on_lattice(case, history)}
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
     drawn = in_unit(drawn_mass(case, scene), "g")
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
-    force = transmitted(case, curves)
+    force = transmitted(case, history)
     strain = max(peaks[0], float(history["strain"].max()))
-    if isinstance(case.loading, Impact):
-        peak = peak_force(case.loading, history)
-    else:
-        peak = float(force.max()) if moves(case) else known_peak(case, force, peaks[1])
+    peak = greatest_force(case, history, peaks[1])
+    is_whole = np.isnan(peak) or isinstance(case.loading, DeadLoad | Impact)
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
     return {
@@ -197,8 +216,7 @@ def summarise(  # noqa: PLR0913  of one case each
         **striker_columns(case, scene, history),
         **base_columns(case, history),
         **crush_columns(case, loading, peak),
-        **until_columns(case, history, cycles[0].loaded + 1),
-        **(dict.fromkeys(PEAKS, peak) if isinstance(case.loading, DeadLoad | Impact) else {}),
+        **(dict.fromkeys(PEAKS, peak) if is_whole else {}),
         **_shape_columns(case, scene, frames, strains, loading),
     }
 
@@ -256,26 +274,18 @@ def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
     }
 
 
-def moves(case: Case) -> bool:
-    """Whether a platen crushes at a speed."""
-    return isinstance(case.loading, Crush) and not case.loading.quasi_static
-
-
-def filtered_reactions(case: Case, history: dict[str, Floats]) -> dict[str, Floats]:
-    """The reactions of a crush with a speed behind a filter, (rows,) N; none of other loadings.
-
-    A platen that starts at full speed hits the lattice with a force that rises without limit as
-    time steps get shorter. The filter has class 1000, or passes a wave of half the stroke if that
-    is shorter.
+def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float:
+    """Greatest force on a platen, or of an impact on the support, N; NaN if time steps are too long
+    for it. most: from `peaks_of`.
     """
+    loading = case.loading
+    if isinstance(loading, Impact):
+        return peak_force(loading, history)
+    force = transmitted(case, history)
     if not moves(case):
-        return {}
-    time = history["time_s"]
-    stroke = float(time[history["top_displacement_m"].argmax()] - time[0])
-    passed = max(CLASS, WAVES / stroke) if stroke > 0.0 else CLASS
-    return {
-        name: filtered_force(time, history[name], passed, history[name][-1]) for name in REACTIONS
-    }
+        return known_peak(case, force, most)
+    assert isinstance(loading, Crush)
+    return float(force.max()) if loading.resolves_peaks(case.solver) else np.nan
 
 
 def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
@@ -290,6 +300,11 @@ def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[s
 
     most: greatest force of an impact, filtered, N.
     """
+    force, work = transmitted(case, loading), loading["work_in_J"]
+    until = {  # from the rows, as the stored curve gives it for any other force
+        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
+        for allowed in case.loading.allowed_forces
+    }
     if isinstance(case.loading, Crush):
         loading = between_rows(loading)
     work, force = loading["work_in_J"], transmitted(case, loading)
@@ -305,18 +320,8 @@ def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[s
         "peak_force_until_packed_N": float(share @ peak),
     }
     greatest = most if isinstance(case.loading, Impact) else float(transmitted(case, loading).max())
-    return columns | ratios(case, loading, columns, greatest)
-
-
-def until_columns(case: Case, history: dict[str, Floats], rows: int) -> dict[str, float]:
-    """Energy absorbed up to each allowed force in the first ``rows`` of an unfiltered curve, as the
-    stored one gives it for any other force.
-    """
-    force, work = transmitted(case, history)[:rows], work_on_lattice(case, history)[:rows]
-    return {
-        absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
-        for allowed in case.loading.allowed_forces
-    }
+    columns |= ratios(case, loading, columns, greatest)
+    return columns | until
 
 
 def ratios(

@@ -8,7 +8,7 @@ from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, Solver
 from sweep.config.kinds.specimen import ENDLESS
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import SAMPLES, Struck
 from sweep.config.kinds.table import (
     STEADY,
     Cycles,
@@ -24,6 +24,9 @@ from sweep.config.kinds.table import (
     own_values,
 )
 
+FILTER_CLASS = 1000  # of the filter of forces under a speed
+LONGEST = 1.0 / (SAMPLES * FILTER_CLASS)  # time step for this filter, s
+ENOUGH = 1000  # steps that resolve the peak force of a slow stroke
 STRAIN_RATE = 0.01  # 1/s, in a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
@@ -90,6 +93,16 @@ class Crush(Struck):
         """The time of a stroke down and back up, with the pause between, s."""
         return 2.0 * self.stroke / (self.speed or inf) + (self.hold_time or 0.0)
 
+    def usual_motion(self, given: Inputs, body: Body, modulus: float) -> dict[str, Any]:
+        """Steps of bdf2, as of an impact."""
+        return {"integrator": "bdf2"}
+
+    def resolves_peaks(self, solver: Solver) -> bool:
+        """Whether time steps are short enough for peak forces, as the usual ones are."""
+        stroke = self.stroke / (self.speed or inf)
+        longest = max(LONGEST, stroke / ENOUGH) * (1.0 + 1e-9)
+        return not isinstance(solver, InTime) or solver.time_step <= longest
+
     @property
     def approach(self) -> float | None:
         """Speed with which walls are pressed together, m/s; None if the crush takes no time."""
@@ -102,9 +115,11 @@ class Crush(Struck):
 
 
 def steps_in(time: float, time_step: float | None) -> int:
-    """Number of steps of at most ``time_step`` (s) in ``time`` (s); 200 if no step is given."""
+    """Number of steps of at most ``time_step`` (s) in ``time`` (s); if no step is given 200, or up
+    to `ENOUGH` if they are longer than `LONGEST`.
+    """
     if time_step is None:
-        return LOAD_STEPS
+        return min(max(LOAD_STEPS, steps_in(time, LONGEST)), ENOUGH)
     return ceil(min(time / time_step * (1 - 1e-9), MAX_STEPS + 1.0))
 
 

@@ -68,7 +68,7 @@ def rated():
             material=dict(loss=0.4),
             loading=dict(mode="displacement", strain=DEEP, quasi_static=not moving, **pace),
             damping={},
-            solver=dict(load_steps=200),
+            solver=dict(load_steps=200) | ({"integrator": "backward_euler"} if moving else {}),
         )
     return found
 

@@ -271,7 +271,12 @@ def _loading(draw, keys):
         "loading.unload": draw.chance(0.5),
         "solver.load_steps": draw.whole(5, 100),
     }
-    return keys | ({"loading.speed": draw.between(1e-3, 300.0)} if mode == "fast" else {})
+    if mode != "fast":
+        return keys
+    return keys | {
+        "loading.speed": draw.between(1e-3, 300.0),
+        "solver.integrator": "backward_euler",
+    }
 
 
 def _force(draw, buckling):

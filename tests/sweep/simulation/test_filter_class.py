@@ -8,6 +8,7 @@ import pytest
 from sweep.simulation.filter_class import filtered, filtered_force, filtered_peak
 
 CLASS = 1000
+REST = (0.0, 0.0)  # before and after a signal
 
 
 def half_sine(duration, step, height=100.0):
@@ -38,7 +39,7 @@ def test_recursion_of_the_standard():
     signal = np.where(np.arange(600) % 90 < 40, 1.0, 0.2)
     signal[:100] = signal[-200:] = 0.0
     np.testing.assert_allclose(
-        filtered(signal, step, CLASS, 0.0), recursion(signal, step), atol=1e-9
+        filtered(signal, step, CLASS, REST), recursion(signal, step), atol=1e-9
     )
 
 
@@ -47,7 +48,7 @@ def test_what_is_passed(share, passed):
     """All of a slow vibration, 3 dB less at 5/3 of the class, nothing of a fast one."""
     step = 2e-6
     time = np.arange(0.0, 0.05, step)
-    wave = filtered(np.sin(2.0 * pi * share * CLASS * time), step, CLASS, 0.0)
+    wave = filtered(np.sin(2.0 * pi * share * CLASS * time), step, CLASS, REST)
     assert np.abs(wave[8000:-8000]).max() == pytest.approx(passed, rel=0.01, abs=1e-4)
 
 
@@ -69,9 +70,9 @@ def test_rows_without_fast_parts_need_no_filter():
     """At half of their frequency, 2.1 kHz, the filter of class 1000 has its corner."""
     force = np.array([0.0, 3.0, 1.0, 0.0])
     for step, passes_all in ((0.23e-3, False), (0.25e-3, True)):
-        passed = filtered_force(step * np.arange(4), force, CLASS, 0.0)
+        passed = filtered_force(step * np.arange(4), force, CLASS, REST)
         assert (passed == force).all() == passes_all
-    assert filtered_force(np.zeros(1), np.ones(1), CLASS, 0.0) == 1.0
+    assert filtered_force(np.zeros(1), np.ones(1), CLASS, REST) == 1.0
 
 
 @pytest.mark.parametrize("step", [2e-6, 1e-4])
@@ -79,8 +80,8 @@ def test_force_behind_the_filter_is_that_of_its_own_samples(step):
     """A half sine of 0.5 ms, of which the filter of class 1000 lets 0.90 pass."""
     time = np.arange(0.0, 2e-3, step)
     force = np.where(time < 0.5e-3, np.sin(pi * time / 0.5e-3), 0.0)
-    passed = filtered_force(time, force, CLASS, 0.0)
-    np.testing.assert_allclose(passed, filtered(force, step, CLASS, 0.0), atol=1e-9)
+    passed = filtered_force(time, force, CLASS, REST)
+    np.testing.assert_allclose(passed, filtered(force, step, CLASS, REST), atol=1e-9)
     assert passed.max() == pytest.approx(0.904, rel=0.04)
 
 
@@ -89,5 +90,5 @@ def test_a_record_that_ends_within_a_blow_does_not_go_on_with_its_force():
     step = 1e-5
     force = np.append(np.zeros(300), np.linspace(0.0, 9.0, 4))
     time = step * np.arange(len(force))
-    low, held = (filtered_force(time, force, CLASS, after).max() for after in (0.0, 9.0))
+    low, held = (filtered_force(time, force, CLASS, (0.0, after)).max() for after in (0.0, 9.0))
     assert low < 2.0 < held

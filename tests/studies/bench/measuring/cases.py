@@ -54,4 +54,5 @@ def blow(cells=3, strain=0.6, steps=200, **left_out):
     """Crush at a speed with all there is: measured curve, contact, friction, damping."""
     chosen = {"material": material_with(), "contact": ROUGH, "damping": {}} | left_out
     loading = dict(mode="displacement", strain=strain, unload=False, speed=SPEED)
-    return Case.of(lattice=lattice(cells), loading=loading, solver=dict(load_steps=steps), **chosen)
+    solver = dict(load_steps=steps, integrator="backward_euler")
+    return Case.of(lattice=lattice(cells), loading=loading, solver=solver, **chosen)
