@@ -291,8 +291,9 @@ COLUMNS: dict[str, Column] = {
     "peak_force_N": Column(
         "N",
         "greatest force on a platen or support; in an impact on the support, filtered with "
-        "loading.filter_class, in a crush with a speed with class 1000; NaN where "
-        "time steps of a dead load or of a crush with a speed are too long for its peak",
+        "loading.filter_class, in a crush with a speed with class 1000; NaN of a "
+        "custom structure, and where time steps of a dead load or of a crush with a speed are too "
+        "long for its peak",
         "less",
     ),
     "peak_force_at_densification_N": Column(

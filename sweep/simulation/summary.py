@@ -8,6 +8,7 @@ from sweep.config.kinds.crush import FILTER_CLASS, Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
+from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import given_or
@@ -275,10 +276,12 @@ def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
 
 
 def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float:
-    """Greatest force on a platen, or of an impact on the support, N; NaN if time steps are too long
-    for it. most: from `peaks_of`.
+    """Greatest force on a platen, or of an impact on the support, N; NaN without platens, or if
+    time steps are too long for it. most: from `peaks_of`.
     """
     loading = case.loading
+    if isinstance(loading, OfFile):
+        return np.nan  # reactions are those of its probes
     if isinstance(loading, Impact):
         return peak_force(loading, history)
     force = transmitted(case, history)

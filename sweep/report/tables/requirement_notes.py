@@ -275,7 +275,7 @@ def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
     """The number of specimens in a panel, what strikes them, and whether the panel differs from
     the lengths (m) of the question; none without a panel.
     """
-    if "panel_specimens" not in rows or has(rows, "dead").all():
+    if "panel_specimens" not in rows or (has(rows, "dead") | has(rows, "probed")).all():
         return []
     whole = is_period(rows)
     if whole.all():

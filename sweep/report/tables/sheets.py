@@ -241,8 +241,8 @@ def impact_text(rows: DataFrame) -> dict[str, Series]:
 
 
 def _absorbed(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
-    energy, noun = rows[ranking.energy], "panel" if "panel_mass_g" in rows else "usable"
-    noun = "absorbed" if mode_of(rows).probed else noun
+    energy, noun = rows[ranking.energy], "absorbed" if mode_of(rows).probed else "usable"
+    noun = "panel" if "panel_mass_g" in rows else noun
     unit = "mJ" if energy.max() < 1.0 else "J"
     early = rows["ends_early"] & ranking.limited & energy.notna()
     more = early.map({True: "> ", False: ""})

@@ -224,3 +224,15 @@ def test_what_follows_a_loading_with_a_speed_does_not_change_its_curve():
     for name in ("reaction_top_N", "reaction_bottom_N"):
         np.testing.assert_allclose(back.history[name][:rows], held.history[name], rtol=1e-9)
     assert back.summary["peak_force_until_packed_N"] == held.summary["peak_force_until_packed_N"]
+
+
+def test_the_peak_of_steps_that_are_too_long_is_unknown():
+    """Usual steps are at most 0.1 ms long, or a thousandth of a slow stroke."""
+    names = ("peak_force_N", "peak_force_until_packed_N", "peak_force_at_densification_N")
+    for speed, step, is_known in ((0.2, 5e-4, False), (0.2, None, True), (1e-3, None, True)):
+        loading = {"speed": speed, "strain": 0.3, "unload": False}
+        solver = {} if step is None else {"time_step": step}
+        case = Case.of(lattice=dict(cells_x=2, cells_y=2), loading=loading, solver=solver)
+        summary = converged(case).summary
+        assert [np.isfinite(summary[name]) for name in names] == [is_known] * 3
+        assert np.isfinite(summary["absorbed_energy_J"])
