@@ -14,10 +14,12 @@ from pandas import DataFrame
 from sweep.loading_modes import has
 from sweep.ranking.merit import AT_ALLOWED, STROKE_AT_ALLOWED, panel_in
 from sweep.ranking.question import Question, in_si
+from sweep.simulation.filter_class import without_blows
 from sweep.simulation.up_to_force import absorbed_until, stroke_until
 
 ROUND_OFF = 1e-9
-READ = ("top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")
+FORCES = ("reaction_top_N", "reaction_bottom_N")
+READ = ("top_displacement_m", *FORCES, "work_in_J", "time_s", "kinetic_J")
 """Columns of a curve from which energy and stroke are read."""
 Cache = dict[tuple[str, float], tuple[float, float]]
 """Energy (J) and stroke (m) of a case by its id and a force (N)."""
@@ -64,11 +66,13 @@ def reached(curve: Mapping[str, Any], force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
     curve : the history of the crush, with at least its columns `READ`. With several cycles, the
-    first one counts. NaN without rows.
+    first one counts, and with a speed the forces behind the filter. NaN without rows.
     """
-    travel, top, bottom, work = (np.asarray(curve[name], float) for name in READ)
+    travel, work = (np.asarray(curve[name], float) for name in ("top_displacement_m", "work_in_J"))
     if not len(travel):
         return float("nan"), float("nan")
+    forces = without_blows(curve) if np.any(curve["kinetic_J"]) else curve
+    top, bottom = (np.asarray(forces[name], float) for name in FORCES)
     end = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
     borne, work, travel = np.fmax(top, bottom)[:end], work[:end], travel[:end]
     return absorbed_until(force, borne, work), stroke_until(force, borne, travel)

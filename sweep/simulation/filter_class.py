@@ -9,16 +9,21 @@ Without a filter the greatest force is of single walls that snap or touch, for s
 depends on the time step (docs/accuracy.md).
 """
 
+from collections.abc import Mapping
 from math import ceil, nan
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sweep.config.kinds.striker import SAMPLES
-from sweep.scene.mesh import Floats
+from sweep.constants import FILTER_CLASS, SAMPLES
+
+Floats = NDArray[np.float64]
 
 CORNER = 2.0775  # corner over the class, Hz
 RINGING = 5.0  # times 1 / corner after which the filter has settled
 ROUND_OFF = 1e-9
+WAVES = 2.0  # least waves that the filter of a stroke passes
 
 
 def filtered_peak(time: Floats, velocity: Floats, filter_class: int, after: float = 0.0) -> float:
@@ -43,13 +48,34 @@ def filtered_force(
 
     Unfiltered where rows are so far apart that the corner is not below half of their frequency.
     """
-    if len(time) < 2:
+    if len(time) < 2 or not time[-1] > time[0]:
         return force
     even = evenly(time)
     step = float(even[1] - even[0])
     if 2.0 * CORNER * filter_class * step >= 1.0:
         return force
     return np.interp(time, even, filtered(np.interp(even, time, force), step, filter_class, ends))
+
+
+def without_blows(curve: Mapping[str, Any]) -> dict[str, Floats]:
+    """The reactions of a crush with a speed behind a filter, (rows,) N each; curve: its history.
+
+    A platen that starts at full speed hits the lattice with a force that grows without bound as
+    time steps get shorter. The filter has class 1000, or passes `WAVES` waves in the stroke if that
+    is more. What follows the first loading starts with a blow too, and is filtered by itself.
+    """
+    time, travel = (np.asarray(curve[name], float) for name in ("time_s", "top_displacement_m"))
+    rows = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
+    stroke = float(time[rows - 1] - time[0])
+    passed = max(FILTER_CLASS, WAVES / stroke) if stroke > 0.0 else FILTER_CLASS
+    filtered_curves = {}
+    for name in ("reaction_top_N", "reaction_bottom_N"):
+        force = np.asarray(curve[name], float)
+        full, last = float(force[rows - 1]), float(force[-1])
+        loading = filtered_force(time[:rows], force[:rows], passed, (0.0, full))
+        later = filtered_force(time[rows:], force[rows:], passed, (full, last))
+        filtered_curves[name] = np.concatenate([loading, later])
+    return filtered_curves
 
 
 def evenly(time: Floats) -> Floats:

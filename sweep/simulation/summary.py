@@ -4,7 +4,7 @@ import numpy as np
 
 from sweep.columns import absorbed_energy_column
 from sweep.config.case import Case
-from sweep.config.kinds.crush import FILTER_CLASS, Crush
+from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
@@ -30,7 +30,7 @@ from sweep.simulation.densification import (
     span,
     weights,
 )
-from sweep.simulation.filter_class import filtered_force
+from sweep.simulation.filter_class import without_blows
 from sweep.simulation.iso_13314 import figures
 from sweep.simulation.load_step_error import load_step_error
 from sweep.simulation.plate_shapes import surface_crossings
@@ -95,8 +95,6 @@ OF_THE_WHOLE_RUN = (
 )
 """Columns that need a run to its end: on unloading, and on losses until then."""
 ROUND_OFF = 1e-9
-REACTIONS = ("reaction_top_N", "reaction_bottom_N")
-WAVES = 2.0  # least waves in a stroke that it passes
 PLATEAU_START = 0.05  # strain where the mean up to densification starts
 
 
@@ -108,7 +106,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
     time, loading, struck = rows["time"].copy(), case.loading, {}
     if isinstance(loading, Impact):
         struck = striker_curves(loading, time, rows["speed"], rows["base_speed"])
-    columns = {
+    return {
         "time_s": time,
         "strain": travel / (case.height or np.nan),
         "top_displacement_m": travel,
@@ -120,30 +118,6 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         "base_pressure_Pa": rows["patch_force"] / (patch_width(case) * case.lattice.depth),
         "base_pressure_x_m": rows["patch_at"].copy(),
     } | struck
-    if moves(case):
-        columns |= {name: _without_blows(time, travel, columns[name]) for name in REACTIONS}
-    return columns
-
-
-def moves(case: Case) -> bool:
-    """Whether a platen crushes at a speed."""
-    return isinstance(case.loading, Crush) and not case.loading.quasi_static
-
-
-def _without_blows(time: Floats, travel: Floats, force: Floats) -> Floats:
-    """A reaction of a crush with a speed behind a filter, (rows,) N.
-
-    A platen that starts at full speed hits the lattice with a force that grows without bound as
-    time steps get shorter. The filter has class 1000, or passes `WAVES` waves in the stroke if that
-    is more. What follows the first loading starts with a blow too, and is filtered by itself.
-    """
-    rows = int(np.argmax(travel >= travel.max() * (1.0 - ROUND_OFF))) + 1
-    stroke = float(time[rows - 1] - time[0])
-    passed = max(FILTER_CLASS, WAVES / stroke) if stroke > 0.0 else FILTER_CLASS
-    full = float(force[rows - 1])
-    loading = filtered_force(time[:rows], force[:rows], passed, (0.0, full))
-    later = filtered_force(time[rows:], force[rows:], passed, (full, float(force[-1])))
-    return np.concatenate([loading, later])
 
 
 def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
@@ -180,15 +154,17 @@ def summarise(  # noqa: PLR0913  of one case each
     `peaks_of`.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
+    if moves(case):
+        curves |= without_blows(history)
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
     drawn = in_unit(drawn_mass(case, scene), "g")
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
     given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
-    force = transmitted(case, history)
+    force = transmitted(case, curves)
     strain = max(peaks[0], float(history["strain"].max()))
-    peak = greatest_force(case, history, peaks[1])
+    peak = greatest_force(case, curves, peaks[1])
     is_whole = np.isnan(peak) or isinstance(case.loading, DeadLoad | Impact)
     gaps = history["min_gap_m"][np.isfinite(history["min_gap_m"])]
     full = filled(case, scene)
@@ -273,6 +249,11 @@ def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
         "lost_share": float(lost / given) if given else np.nan,
         "lost_energy_J_per_g": float(lost / grams),
     }
+
+
+def moves(case: Case) -> bool:
+    """Whether a platen crushes at a speed."""
+    return isinstance(case.loading, Crush) and not case.loading.quasi_static
 
 
 def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float:

@@ -8,7 +8,7 @@ from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, Solver
 from sweep.config.kinds.specimen import ENDLESS
-from sweep.config.kinds.striker import SAMPLES, Struck
+from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     STEADY,
     Cycles,
@@ -23,8 +23,8 @@ from sweep.config.kinds.table import (
     given_or,
     own_values,
 )
+from sweep.constants import FILTER_CLASS, SAMPLES
 
-FILTER_CLASS = 1000  # of the filter of forces under a speed
 LONGEST = 1.0 / (SAMPLES * FILTER_CLASS)  # time step for this filter, s
 ENOUGH = 1000  # steps that resolve the peak force of a slow stroke
 STRAIN_RATE = 0.01  # 1/s, in a quasi-static crush of a material that relaxes
@@ -94,11 +94,11 @@ class Crush(Struck):
         return 2.0 * self.stroke / (self.speed or inf) + (self.hold_time or 0.0)
 
     def usual_motion(self, given: Inputs, body: Body, modulus: float) -> dict[str, Any]:
-        """Steps of bdf2, as of an impact."""
+        """Steps of bdf2, which also impacts take."""
         return {"integrator": "bdf2"}
 
     def resolves_peaks(self, solver: Solver) -> bool:
-        """Whether time steps are short enough for peak forces, as the usual ones are."""
+        """Whether time steps are short enough for peak forces."""
         stroke = self.stroke / (self.speed or inf)
         longest = max(LONGEST, stroke / ENOUGH) * (1.0 + 1e-9)
         return not isinstance(solver, InTime) or solver.time_step <= longest

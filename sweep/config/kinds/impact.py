@@ -9,7 +9,7 @@ from sweep.config.kinds.crush import PLATENS
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS, is_along
 from sweep.config.kinds.solver import IN_TIME, MAX_STEPS, Solver
-from sweep.config.kinds.striker import SAMPLES, Struck
+from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     Count,
     Duration,
@@ -23,7 +23,7 @@ from sweep.config.kinds.table import (
     given_or,
     own_values,
 )
-from sweep.constants import STANDARD_GRAVITY
+from sweep.constants import SAMPLES, STANDARD_GRAVITY
 
 DROP: Final = "drop"  # `mode` of an impact with gravity
 STEPS_OF_PASSAGE = 1000  # time steps in which a free striker travels the lattice's height

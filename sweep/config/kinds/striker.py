@@ -38,7 +38,6 @@ USUAL: dict[str, dict[str, float | None]] = {
 UNSAID = {"striker_tip": "tip ", "base_span": "span ", "base_radius": "radius "}
 SHAPED = ("striker", "base")
 _OF_KINDS = {key for keys in USUAL.values() for key in keys}
-SAMPLES = 10  # least rows per second / class of a filter of forces
 
 
 class Struck(Directed):

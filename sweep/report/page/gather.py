@@ -59,6 +59,7 @@ from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.report.tables.size_notes import narrow_note
 from sweep.result import Status
+from sweep.simulation.filter_class import without_blows
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
@@ -123,8 +124,9 @@ def page_data(
     leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(counted, scenes)]))
     rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
     stored = _Stored(len(cases))
-    for case in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
-        row = rows_by_id[case.case_id]
+    for run in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
+        row = rows_by_id[run.case_id]
+        case = _as_measured(run, row)
         design = cases.get(case.case_id) or unfinished[case.case_id]
         design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
         if len(case.history) and MODES[row["loading_mode"]].driven:
@@ -431,6 +433,14 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
     ]
     counted = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
     return max((abs(value / true - 1.0) for true, value in counted), default=0.0)
+
+
+def _as_measured(run: StoredRun, row: Series) -> StoredRun:
+    """A stored run; of a crush with a speed with the forces behind the filter, as it is ranked."""
+    history = run.history
+    if not (MODES[row["loading_mode"]].driven and len(history) and history["kinetic_J"].any()):
+        return run
+    return run._replace(history=history.assign(**without_blows(history)))
 
 
 def curve_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Any, Any]:

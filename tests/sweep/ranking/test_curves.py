@@ -71,3 +71,19 @@ def test_curves_are_left_alone_where_the_table_has_the_answer(file):
     table = read_summary(file)
     assert with_allowed("nowhere.h5", table, Question(require={"max_stroke": 1e-3})) is table
     assert with_allowed("nowhere.h5", table, Question(per="panel", panel=PANEL)) is table
+
+
+def test_energy_up_to_a_force_under_a_speed_is_from_the_filtered_force():
+    """A blow of one row, as of a platen at full speed, does not end the count."""
+    rows = np.arange(201.0)
+    force = np.where(rows == 1.0, 1e3, 10.0)
+    curve = {
+        "time_s": 1e-5 * rows,
+        "top_displacement_m": 1e-5 * rows,
+        "reaction_top_N": force,
+        "reaction_bottom_N": force,
+        "work_in_J": 1e-4 * rows,
+    }
+    still, moving = (reached(curve | {"kinetic_J": each * rows}, 120.0) for each in (0.0, 1.0))
+    assert still[1] < 2e-5
+    assert moving == pytest.approx((2e-2, 2e-3))
