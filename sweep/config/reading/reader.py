@@ -97,19 +97,22 @@ class Reader:
         stated = {target for name in keys for target in (name, *ALIASES.get(name, ()))}
         base = self._base(document)
         grid = self._axes(_flat(self._section(document, "grid")), "[grid]")
+        ties = [*map(self._zip, self._tables(document, "zip"))]
+        search = self._search(document)
         self.notes += [
-            f"{key}: [grid] replaces the value in [{_table(key)}]" for key in grid if key in base
+            f"{key}: {where} replaces the value in [{_table(key)}]"
+            for key, where in self.varied.items()
+            if key in base and not any(_has_blank(tied, key) for tied in ties)
         ]
         if one is not None:
             base |= self._profile(one, stated)
         tied = {} if several is None else self._profiles(several, stated, one is not None)
-        ties = map(self._zip, self._tables(document, "zip"))
         return Recipe(
             base=base,
             grid=grid,
             zip=tuple(filter(None, [*ties, tied])),
             exclude=tuple(filter(None, map(self._exclude, self._tables(document, "exclude")))),
-            search=self._search(document),
+            search=search,
         )
 
     def trusts(self, fault: Fault) -> bool:
@@ -448,6 +451,16 @@ def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
         for name, value in _flat(table).items() if isinstance(table, dict) else ():
             keys.setdefault(name, []).extend(value if isinstance(value, list) else [value])
     return keys
+
+
+def _has_blank(tied: Axes, key: str) -> bool:
+    """Whether a row of a zip leaves a key of a case unset."""
+    return any(
+        written.value is None
+        for name, values in tied.items()
+        if key in ALIASES.get(name, (name,))
+        for written in values
+    )
 
 
 def _is_stated(key: str, stated: set[str]) -> bool:

@@ -261,13 +261,24 @@ BOX = 'width = "30 mm"\nheight = "30 mm"\n'
 SAME = 'slicer = "prusa"\npattern = "grid"\ninfill = "20 %"\nperimeters = 3\n'
 
 
-def test_a_value_that_the_grid_replaces_is_named(load):
-    text = (
-        '[lattice]\nwall_thickness = "1 mm"\n[grid]\nlattice.wall_thickness = ["0.4 mm", "0.8 mm"]'
-    )
-    config = load(text)
-    assert config.notes == ("lattice.wall_thickness: [grid] replaces the value in [lattice]",)
-    assert [case.lattice.wall_thickness for case in config.cases] == [0.4e-3, 0.8e-3]
+@pytest.mark.parametrize(
+    ("varied", "where"),
+    [
+        ("[grid]\nlattice.cells_x = [3, 4]", "[grid]"),
+        ("[grid]\nlattice.cells = [3, 4]", "[grid]"),
+        ("[[zip]]\nlattice.cells_x = [3, 4]\nlattice.kind = ['hex', 'square']", "[[zip]]"),
+    ],
+)
+def test_a_value_that_an_axis_replaces_is_named(load, varied, where):
+    config = load(f"[lattice]\ncells_x = 2\n{varied}")
+    assert config.notes == (f"lattice.cells_x: {where} replaces the value in [lattice]",)
+    assert [case.lattice.cells_x for case in config.cases] == [3, 4]
+
+
+def test_a_value_that_a_row_leaves_as_it_is_stays_unnamed(load):
+    config = load("[lattice]\ncells_x = 2\n[[zip]]\nlattice.cells_x = [3, '']")
+    assert config.notes == ()
+    assert [case.lattice.cells_x for case in config.cases] == [3, 2]
 
 
 @pytest.fixture
