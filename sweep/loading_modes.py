@@ -8,6 +8,7 @@ in `sweep/config/kinds` has the keys. No heavy imports, as every command reads t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import isnan, nan
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from sweep.numbers import energy_text, short
@@ -55,8 +56,9 @@ class Coarse(NamedTuple):
 
     column: measure of the error that they make, NaN of loadings without such steps; above the value
     ``most`` a result has a mark, as errors of the compared column often exceed the differences of
-    similar designs (`sweep.simulation.load_step_error`, `time_resolution`). steps, whole: which
-    steps, and what the measure is a share of, in words; keys: the keys that make steps shorter.
+    similar designs (`sweep.simulation.load_step_error`, `time_resolution`). If ``most`` is NaN, a
+    column that is NaN where steps are too long for it. steps, whole: which steps, and what the
+    measure is a share of, in words; keys: the keys that make steps shorter.
     """
 
     column: str
@@ -146,6 +148,10 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("integrator_share", 0.01, "time steps", "the work"),
                 keys="solver.step_error or time_step",
+            ),
+            Coarse(
+                *("peak_force_N", nan, "time steps", "the greatest force"),
+                keys="solver.time_step",
             ),
         ),
         turn="reversal",
@@ -254,7 +260,8 @@ def is_coarse(rows: DataFrame) -> Series:
 
 def exceeds(rows: DataFrame, measure: Coarse) -> Series:
     """Whether steps are too long by one measure, row by row."""
-    return rows[measure.column] > measure.most
+    values = rows[measure.column]
+    return values.isna() if isnan(measure.most) else values > measure.most
 
 
 def asked_of(requirement: str) -> tuple[str, ...]:

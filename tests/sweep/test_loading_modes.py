@@ -1,5 +1,7 @@
 """The table of modes: complete, and its words of columns and requirements are the ones in use."""
 
+from math import isnan
+
 import pytest
 from pandas import DataFrame
 
@@ -54,12 +56,15 @@ def test_each_trait_row_by_row():
 
 @pytest.mark.parametrize("much", [False, True])
 def test_steps_are_long_by_the_measure_of_the_mode(much):
-    measured = dict.fromkeys(("integrator_share", "path_error", "load_step_error"), 0.0)
+    shares = dict.fromkeys(("integrator_share", "path_error", "load_step_error"), 0.0)
     for name, coarse in ((name, each) for name, mode in MODES.items() for each in mode.coarse):
-        rows, own = ROWS.assign(**measured), ROWS["loading_mode"] == name
-        rows.loc[own, coarse.column] = coarse.most * (1.01 if much else 0.99)
+        rows, own = ROWS.assign(**shares, peak_force_N=1.0), ROWS["loading_mode"] == name
+        if isnan(coarse.most):
+            rows.loc[own & much, coarse.column] = float("nan")
+        else:
+            rows.loc[own, coarse.column] = coarse.most * (1.01 if much else 0.99)
         assert list(is_coarse(rows)) == list(own & much)
-    unknown = ROWS.assign(**dict.fromkeys(measured, float("nan")))
+    unknown = ROWS.assign(**dict.fromkeys(shares, float("nan")), peak_force_N=1.0)
     assert not is_coarse(unknown).any()
 
 

@@ -41,6 +41,7 @@ STRAINS = with_units("strain", STRAIN_UNITS)
 STRESSES = with_units("stress", STRESS_UNITS)
 STRETCH = "stretch"  # a head instead of the strain: 1 + strain
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
+AT_ORIGIN = 0.1  # largest stress at no strain, such as noise, / that at `TOE`
 REFERENCE_TIME = 1.0  # s; for a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that defines the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
@@ -230,7 +231,9 @@ def _pair(row: list[str]) -> tuple[float, float]:
 
 
 def check_curve(strain: Numbers, stress: Numbers) -> None:
-    """Refuse a curve that is not a function of strain, or whose stress does not rise at first."""
+    """Refuse a curve that is not a function of strain, that does not pass through the origin, whose
+    stress does not rise at first or does not resist the strain.
+    """
     if len(strain) != len(stress):
         raise RecordError("a curve needs a stress for every strain")
     for point in zip(strain, stress, strict=True):
@@ -248,6 +251,10 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
         raise RecordError(f"a curve must reach a strain of {SECANT[1]:g}")
     if (toe := stress_at(TOE, strain, stress)) <= 0.0:
         raise RecordError(f"the stress of a curve must be positive at 1 % strain, not {toe:g} Pa")
+    for e, s in zip(strain, stress, strict=True):
+        if s * e < 0.0 or (e == 0.0 and abs(s) > AT_ORIGIN * toe):
+            must = "negative in compression, 0 at the origin, positive in tension"
+            raise RecordError(f"a stress of {s:g} Pa at a strain of {e:g}; a curve must be {must}")
     modulus = secant_modulus(strain, stress)
     if modulus > 0.0 and (why := suspicion("curve_modulus", modulus)):
         unit = unit_meant("curve_modulus", modulus)

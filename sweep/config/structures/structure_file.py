@@ -1,6 +1,7 @@
 """Reads the file of a custom structure and lists its faults, one line each."""
 
 import json
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -59,7 +60,9 @@ def read_structure(path: Path, check: Callable[..., Iterator[str]] | None = None
 def _check_object(text: str) -> None:
     """Refuse a text that is no JSON object."""
     try:
-        document = json.loads(text)
+        document = json.loads(text, object_pairs_hook=_without_repeats)
+    except MisfitError:
+        raise
     except json.JSONDecodeError as error:
         raise MisfitError(f"not JSON at line {error.lineno}, column {error.colno}") from None
     except (ValueError, RecursionError):
@@ -70,6 +73,14 @@ def _check_object(text: str) -> None:
         raise MisfitError(
             "of another program; needed: nodes_mm, pairs of mm, and walls, pairs of nodes"
         )
+
+
+def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON; refused if it has a key twice, of which readers take the last."""
+    counts = Counter(key for key, _ in pairs)
+    if repeated := [key for key, count in counts.items() if count > 1]:
+        raise MisfitError(f"{repeated[0]} stands twice in one object; allowed: once")
+    return dict(pairs)
 
 
 def _misfits(error: ValidationError) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """The marks of doubtful results in the tables of a ranking, and what each mark means."""
 
 from functools import reduce
+from math import isnan
 from operator import add
 
 from pandas import DataFrame, Series
@@ -12,9 +13,12 @@ from sweep.ranking.unfinished import unloaded
 
 LONG_SPAN = 0.1  # span of strain
 COARSE = """\
-i: {} are long: their estimated error is above {} % of {} ({}).
-Energies and strains may err by several percent, peak forces by a fifth or more. Shorter steps help
-({})."""
+i: {} are long: their estimated error is above {} % of {}, here up to {} %
+({}). Energies and strains may err by several times that, peak forces by
+more. Shorter steps help ({})."""
+NO_PEAK = """\
+i: {} are too long for the greatest force (–). Densification, and energies until then
+or up to a force, may err by a tenth or more. Shorter steps help ({})."""
 MEANINGS = {
     "!": """\
 !: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
@@ -48,19 +52,24 @@ def mark_notes(rows: DataFrame) -> tuple[str, ...]:
     marked = _marked(rows)
     meanings = [meaning for mark, meaning in MEANINGS.items() if marked[mark].any()]
     long = rows[marked["i"]]
-    exceeded = dict.fromkeys(
-        measure
+    steps = [
+        _coarse_note(measure, rows_of[exceeds(rows_of, measure)])
         for name, rows_of in long.groupby("loading_mode", sort=False)
         for measure in MODES[str(name)].coarse
-        if exceeds(rows_of, measure).any()
+    ]
+    return (*filter(None, steps), *meanings)
+
+
+def _coarse_note(coarse: Coarse, rows: DataFrame) -> str:
+    """The meaning of "i" in rows that exceed one measure; empty without such rows."""
+    if rows.empty:
+        return ""
+    if isnan(coarse.most):
+        return NO_PEAK.format(coarse.steps, coarse.keys)
+    most, greatest = in_unit(coarse.most, "%"), tenths(float(rows[coarse.column].max()))
+    return COARSE.format(
+        coarse.steps, f"{most:g}", coarse.whole, greatest, coarse.column, coarse.keys
     )
-    return (*map(_coarse_note, exceeded), *meanings)
-
-
-def _coarse_note(coarse: Coarse) -> str:
-    """The meaning of "i" by one measure."""
-    most = in_unit(coarse.most, "%")
-    return COARSE.format(coarse.steps, f"{most:g}", coarse.whole, coarse.column, coarse.keys)
 
 
 def _marked(rows: DataFrame) -> dict[str, Series]:

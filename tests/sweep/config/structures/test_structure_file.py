@@ -100,6 +100,7 @@ def test_all_mistakes_are_told(lines):
     [
         ("{", "not JSON at line 1, column 2"),
         ("[]", "not a JSON object"),
+        ('{"walls": [[0, 1]], "walls": [[1, 2]]}', "walls stands twice in one object"),
         ('{"nodes": [[0, 0]], "edges": []}', "of another program; needed: nodes_mm"),
         ('{"walls": [[0, 1]]}', "nodes_mm is miss"),
     ],

@@ -58,6 +58,19 @@ def test_coarse_steps_are_explained_by_the_measure_of_their_loading():
     assert "integrator_share" not in text
 
 
+def test_steps_that_are_too_long_for_the_peak_are_marked():
+    (sheet,) = ranking_sheets(ranked(table := TWO.assign(peak_force_N=[10.0, NAN])), table)
+    seen, text = [row[0] for row in sheet.rows], legend(ranked(table))
+    assert seen == ["1*", "2 i"]
+    assert "too long for the greatest force (–)" in text
+    assert "load_step_error" not in text
+
+
+def test_the_greatest_estimate_is_told():
+    table = TWO.assign(integrator_share=[0.02, 0.153])
+    assert "above 1 % of the work, here up to 15 %" in " ".join(mark_notes(ranked(table).table))
+
+
 def test_a_measure_of_another_loading_is_not_explained():
     """The integrator takes much of the vibrations of a dead load, which is no mark of it."""
     crushes = TWO.assign(load_step_error=[0.004, 0.006], integrator_share=NAN, path_error=NAN)
