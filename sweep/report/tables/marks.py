@@ -7,8 +7,8 @@ from operator import add
 from pandas import DataFrame, Series
 
 from sweep.columns import end_columns
-from sweep.loading_modes import MODES, Coarse, exceeds
-from sweep.numbers import in_unit, tenths
+from sweep.loading_modes import MODES, Coarse, exceeds, has
+from sweep.numbers import in_unit, tenths, to_si
 from sweep.ranking.unfinished import unloaded
 
 LONG_SPAN = 0.1  # span of strain
@@ -30,6 +30,9 @@ all others.""",
     "p": """\
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these.""",
+    "f": """\
+f: the filter cuts the pulse, which is shorter than it passes: the greatest filtered force is below
+the mean one. A greater loading.filter_class helps.""",
     "^": """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far).""",
@@ -78,11 +81,21 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
         "!": rows["beyond_model"],
         "x": rows["crossed"],
         "i": rows["coarse"],
+        "f": cut_by_filter(rows),
         "^": rows["beyond_curve"],
         "p": rows["does_not_print"] != "",
         "u": unloaded(rows),
         "b": other_bow(rows),
     }
+
+
+def cut_by_filter(rows: DataFrame) -> Series:
+    """True for impacts whose greatest filtered deceleration could not do the work on the lattice
+    over its greatest stroke.
+    """
+    mass = to_si(rows["striker_mass_g"], "g")
+    force = mass * rows["peak_deceleration_filtered_m_per_s2"]
+    return has(rows, "struck") & (rows["absorbed_energy_J"] > force * rows["indentation_m"])
 
 
 def other_bow(rows: DataFrame) -> Series:

@@ -58,6 +58,15 @@ def test_coarse_steps_are_explained_by_the_measure_of_their_loading():
     assert "integrator_share" not in text
 
 
+def test_a_pulse_that_the_filter_cuts_is_marked():
+    """5 J over 2 cm need 250 N on the mean, which a striker of 100 g takes at 2500 m/s^2."""
+    hit = {"striker_mass_g": 100.0, "absorbed_energy_J": 5.0, "indentation_m": 0.02}
+    table = IMPACTS.assign(**hit, peak_deceleration_filtered_m_per_s2=[2400.0, 2600.0])
+    seen, text = marked(table)
+    assert seen == ["1*f", "2 "]
+    assert MEANINGS["f"] in text
+
+
 def test_steps_that_are_too_long_for_the_peak_are_marked():
     (sheet,) = ranking_sheets(ranked(table := TWO.assign(peak_force_N=[10.0, NAN])), table)
     seen, text = [row[0] for row in sheet.rows], legend(ranked(table))
