@@ -42,7 +42,7 @@ def print_ranking(
         say(_heading(question, ranking))
         print_sheets(ranking_sheets(ranking, summary))
     if not ranking.table.empty and not brief:
-        say(legend(ranking))
+        say_all(_wrapped([legend(ranking)], _width()))
     say_all(warnings(file, ranking))
     say_all([] if brief else nearest_commands(file, ranking, summary))
     return ranking
@@ -157,8 +157,7 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
     """Print tables that fit the terminal, with a blank line before each and after the last."""
     from rich.console import Console
 
-    console = Console()
-    limit = console.width if console.is_terminal or "COLUMNS" in os.environ else None
+    console, limit = Console(), _width()
     console.width = limit or WIDE
     for sheet in sheets:
         say("")
@@ -175,8 +174,24 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
             console.width = limit or WIDE
             lines += [heads.get(), *_lines(shown)]
         write(sys.stdout, "".join(lines))
-        say_all([*sheet.notes, *_left_out(sheet, shown.sheet, limit or WIDE)])
+        say_all(_wrapped(sheet.notes, limit))
+        say_all(_left_out(sheet, shown.sheet, limit or WIDE))
     say("")
+
+
+def _width() -> int | None:
+    """Characters in a line of the terminal; None where no terminal limits them."""
+    from rich.console import Console
+
+    console = Console()
+    return console.width if console.is_terminal or "COLUMNS" in os.environ else None
+
+
+def _wrapped(texts: Iterable[str], limit: int | None) -> Iterator[str]:
+    """Lines of texts, those that are longer than the limit broken at blanks."""
+    most = limit or WIDE
+    for line in (line for text in texts for line in text.split("\n")):
+        yield from [line] if len(line) <= most else wrap(line, most, break_on_hyphens=False)
 
 
 def _plain(sheet: Sheet) -> Sheet:

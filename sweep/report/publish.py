@@ -119,8 +119,20 @@ def _sweep_figures(
     cushion curves, shapes of the winners. Masses of periods of unequal area are not compared.
     """
     for name, figure in _pictures(file, shown, ranking, drop_heights):
-        case_plots.footnote(figure, picture_note(shown))
+        notes = _first_of(name, shown.table, ranking), picture_note(shown)
+        case_plots.footnote(figure, "\n".join(filter(None, notes)))
         yield name, figure
+
+
+def _first_of(name: str, shown: DataFrame, ranking: Ranking) -> str:
+    """A line below a picture that draws only the first scenes or winners; else empty."""
+    if name == "winners":
+        count, most, what = len(_firsts(shown)), MAX_WINNERS, "winners"
+    else:
+        drawn = [mode for mode, each in MODES.items() if each.picture == name] or ["displacement"]
+        rows = ranking.table[ranking.table["loading_mode"].isin(drawn)]
+        count, most, what = rows["scene"].nunique(), MAX_SCENES, "rankings"
+    return f"The first {most} of {count} {what}." if count > most else ""
 
 
 def _pictures(file: str, shown: Ranking, ranking: Ranking, drop_heights: Sequence[float]) -> Named:
@@ -197,11 +209,15 @@ def _size(designs: DataFrame) -> tuple[float, float]:
     return 5.0 * min(2, scenes) + 1.8, 4.2 * -(-scenes // 2)
 
 
+def _firsts(shown: DataFrame) -> DataFrame:
+    """The first crushed or struck design of each budget and scene, each once."""
+    first = shown[~has(shown, "dead")].drop_duplicates(["budget_g", "scene"])
+    return first.drop_duplicates("case_id")
+
+
 def _winners(file: str, shown: DataFrame, designs: DataFrame) -> dict[str, Mapping[str, Any]]:
     """Frames of the best crushed or struck designs, by a title with budget, scene and design."""
-    first = shown[~has(shown, "dead")].drop_duplicates(["budget_g", "scene"])
-    first = first.drop_duplicates("case_id").head(MAX_WINNERS)
-    winners = {}
+    first, winners = _firsts(shown).head(MAX_WINNERS), {}
     for (_, row), design in zip(first.iterrows(), design_labels(first, designs), strict=True):
         budget = f"up to {budget_text(row['budget_g'])}, " if row["budget_g"] > 0.0 else ""
         if frames := _frames(file, row):

@@ -14,6 +14,7 @@ import numpy as np
 from kernels.solve import outcomes
 from kernels.solve.march import MOST_DOUBLINGS
 from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import Arcs, InTime
@@ -148,13 +149,15 @@ def momentum_unresolved(case: Case, share: float) -> Failure:
 
 
 def faster_than_sound(case: Case) -> str:
-    """Why an impact fails if its striker is faster than c = (modulus / density)^(1/2); empty if it
-    is slower. The wave front strains walls with a linear law by v / c.
+    """Why an impact, or a crush with a speed, fails if it is faster than c = (modulus /
+    density)^(1/2); empty if it is slower. The wave front strains walls with a linear law by v / c.
     """
-    if not isinstance(case.loading, Impact):
+    loading = case.loading
+    if loading.quasi_static or not isinstance(loading, Impact | Crush):
         return ""
-    ratio = case.loading.striker_speed / sqrt(case.material.modulus / case.material.density)
-    what = f"the striker moves at {short(ratio)} times the speed of sound in the walls"
+    ratio = (loading.approach or 0.0) / sqrt(case.material.modulus / case.material.density)
+    presses = "striker" if isinstance(loading, Impact) else "platen"
+    what = f"the {presses} moves at {short(ratio)} times the speed of sound in the walls"
     return f"; {what}: its wave front would press them to no length" if ratio > 1.0 else ""
 
 

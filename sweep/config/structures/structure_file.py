@@ -112,6 +112,8 @@ def _misfit(loc: Sequence[str | int], wrong: dict[str, Any]) -> str:
     if wrong["type"] == "missing":
         return f"{_where(wrong['loc'])} is missing"
     allowed = wrong["msg"].removeprefix("Input should be ").removeprefix("Input should ")
+    if wrong["type"] == "too_short":
+        allowed = f"at least {wrong['ctx']['min_length']} values"
     return _fault(loc, wrong["input"], f"does not fit; allowed: {allowed}")
 
 

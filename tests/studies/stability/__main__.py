@@ -26,6 +26,7 @@ from rich.progress import track
 from sweep.config.grid import expand
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.impact import Impact
 from sweep.config.load import load_config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
@@ -86,7 +87,8 @@ def has_no_answer(case, found):
     """Whether a scene that failed has no equilibrium or motion that could be resolved."""
     if found.status == "stopped" and (ROUND_OFF in found.message or _folds_flat(case)):
         return True
-    return found.status not in DONE and faster_than_sound(case) != ""
+    struck = isinstance(case.loading, Impact)
+    return struck and found.status not in DONE and faster_than_sound(case) != ""
 
 
 def _folds_flat(case):

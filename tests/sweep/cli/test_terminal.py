@@ -165,3 +165,13 @@ def test_output_that_nobody_reads_or_that_is_closed_changes_no_exit_status(
         done = started(words[0], file, *words[1:], **how)
         assert done.returncode == status
         assert not re.search("pipe|descriptor|Traceback", done.stderr or "")
+
+
+def test_notes_are_broken_at_blanks_where_the_terminal_is_narrow(capsys, monkeypatch):
+    note = "Some lattices have fewer than eight cells.\nShort."
+    monkeypatch.delenv("COLUMNS", raising=False)
+    print_sheets([DESIGNS._replace(notes=(note,))])
+    assert note in capsys.readouterr().out
+    monkeypatch.setenv("COLUMNS", "30")
+    print_sheets([DESIGNS._replace(notes=(note,))])
+    assert "Some lattices have fewer than\neight cells.\nShort.\n" in capsys.readouterr().out

@@ -71,6 +71,22 @@ def test_pictures_have_all_designs_the_budgets_and_as_many_scenes_as_fit(
     assert [list(ranking.table["platen"]) for ranking in pictured] == [["glued"]]
 
 
+@pytest.mark.usefixtures("unpainted")
+def test_pictures_say_that_they_draw_the_first_alone(published, monkeypatch):
+    texts = []
+    monkeypatch.setattr(
+        "sweep.report.figures.case_plots.footnote", lambda _, text: texts.append(text)
+    )
+    three = summary({}, {"platen": "contact"}, {"platen": "sliding"})
+    published(three)
+    assert set(texts) == {""}
+    monkeypatch.setattr("sweep.report.publish.MAX_SCENES", 2)
+    monkeypatch.setattr("sweep.report.publish.MAX_WINNERS", 1)
+    published(three)
+    assert "The first 2 of 3 rankings." in texts
+    assert "The first 1 of 3 winners." in texts
+
+
 def test_each_kind_of_scene_and_each_drop_height_has_its_picture(published):
     pictures = [name for name in published(drop_heights=(0.5, 1.22)) if name.endswith(".png")]
     cushions = ["cushion_500mm.png", "cushion_1220mm.png"]

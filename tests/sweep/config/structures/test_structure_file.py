@@ -27,6 +27,7 @@ WRONG = [
     ({"springs": [{"nodes": [1, 1], "stiffness_N_mm": 1}]}, "springs[0].nodes = [1, 1]", APART),
     ({"wall_thickness_mm": [1.0, -1.0]}, "wall_thickness_mm[1] = -1.0", "greater than 0"),
     ({"subdivide": [4]}, "subdivide = [4]", "1 values; allowed: one value, or"),
+    ({"nodes_mm": [[0, 0]]}, "nodes_mm = [[0, 0]]", "at least 2 values"),
     ({"initial_velocity_mm_s": []}, "initial_velocity_mm_s = []", "3 here"),
     ({"depth_mm": "10 mm"}, 'depth_mm = "10 mm"', "a valid number"),
     ({"rest_angles": "round"}, 'rest_angles = "round"', "'as_drawn'"),
