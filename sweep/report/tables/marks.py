@@ -11,6 +11,7 @@ from sweep.loading_modes import MODES, Coarse, exceeds, has
 from sweep.numbers import in_unit, tenths, to_si
 from sweep.ranking.unfinished import unloaded
 
+LITTLE_STROKE = 0.1  # of the stroke that closes all voids
 LONG_SPAN = 0.1  # span of strain
 COARSE = """\
 i: {} are long: their estimated error is above {} % of {}, here up to {} %
@@ -33,6 +34,9 @@ gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true e
     "f": """\
 f: the filter cuts the pulse, which is shorter than it passes: the greatest filtered force is below
 the mean one. A greater loading.filter_class helps.""",
+    "s": """\
+s: less than a tenth of the stroke is left, where the force rises steeply: it may err by a third
+(more lattice.nodes_per_wall, or --error-bars, tell).""",
     "^": """\
 ^: a wall is stretched beyond the measured curve, which is continued as a straight line (column
 stretch_over_curve: how far).""",
@@ -82,6 +86,7 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
         "x": rows["crossed"],
         "i": rows["coarse"],
         "f": cut_by_filter(rows),
+        "s": uses_up_stroke(rows) & ~rows["beyond_model"],
         "^": rows["beyond_curve"],
         "p": rows["does_not_print"] != "",
         "u": unloaded(rows),
@@ -96,6 +101,13 @@ def cut_by_filter(rows: DataFrame) -> Series:
     mass = to_si(rows["striker_mass_g"], "g")
     force = mass * rows["peak_deceleration_filtered_m_per_s2"]
     return has(rows, "struck") & (rows["absorbed_energy_J"] > force * rows["indentation_m"])
+
+
+def uses_up_stroke(rows: DataFrame) -> Series:
+    """True for impacts that leave little of the stroke that closes all voids."""
+    left = rows["stroke_left_m"]
+    whole = left + rows["peak_strain"] * rows["height_m"]
+    return has(rows, "struck") & (left < LITTLE_STROKE * whole)
 
 
 def other_bow(rows: DataFrame) -> Series:

@@ -99,7 +99,7 @@ CRUSHES = summary(*designs([1.0, 2.0, 3.0], [0.10, 0.18, 0.40], height_m=12.5e-3
 )
 """Three crushes: the heavier, the more energy and force."""
 HIT = {"loading_mode": "impact", "stroke_m": np.nan, "striker_mass_g": 50.0, "height_m": 12.5e-3}
-HIT |= {"impact_energy_J": 1.5, "peak_strain": 0.5, "indentation_m": 6e-3}
+HIT |= {"impact_energy_J": 1.5, "peak_strain": 0.5, "indentation_m": 6e-3, "stroke_left_m": 4e-3}
 IMPACTS = summary(*(HIT | {"peak_force_N": force} for force in (76.0, 90.0))).assign(
     peak_deceleration_filtered_m_per_s2=[500.0, np.nan]
 )

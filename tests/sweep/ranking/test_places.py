@@ -140,7 +140,8 @@ def test_error_bars_follow_into_what_is_derived():
     assert list(rank(table, by="passed_on_N")["ranked_error"]) == [0.5, 0.5]
 
 
-def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path):
+def test_command_line_tells_ties_and_what_has_no_bar(capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
     file = write(tmp_path / "trial.h5", summary(*with_bars([10.0, 9.0, 1.0], [0.6, 0.6, NAN])))
     text = crumple(capsys, "rank", file, "--panel", "100 mm", "50 mm")[1]
     assert all(words in text for words in ("1=*", TIED, "1 ranked case has no error bar: "))

@@ -67,6 +67,16 @@ def test_a_pulse_that_the_filter_cuts_is_marked():
     assert MEANINGS["f"] in text
 
 
+def test_an_impact_that_uses_up_the_stroke_is_marked():
+    """Of 10 mm, 5 are used and 5 or half a millimetre are left."""
+    table = IMPACTS.assign(height_m=0.01, peak_strain=0.5, stroke_left_m=[0.5e-3, 5e-3])
+    seen, text = marked(table)
+    assert seen == ["1*s", "2 "]
+    assert MEANINGS["s"] in text
+    seen, _ = marked(table.assign(stroke_left_m=[-0.5e-3, 5e-3]))
+    assert seen == ["1*", "2 !"]
+
+
 def test_steps_that_are_too_long_for_the_peak_are_marked():
     (sheet,) = ranking_sheets(ranked(table := TWO.assign(peak_force_N=[10.0, NAN])), table)
     seen, text = [row[0] for row in sheet.rows], legend(ranked(table))
