@@ -12,11 +12,11 @@ from sweep.config.kinds.striker import Struck
 from sweep.config.kinds.table import (
     STEADY,
     Cycles,
-    Duration,
     Forces,
     Frequency,
     Inputs,
     Length,
+    Pause,
     RefusedError,
     Speed,
     Strain,
@@ -27,6 +27,7 @@ from sweep.constants import FILTER_CLASS, SAMPLES
 
 LONGEST = 1.0 / (SAMPLES * FILTER_CLASS)  # time step for this filter, s
 ENOUGH = 1000  # steps that resolve the peak force of a slow stroke
+NO_PAUSE = "hold_time", 0.0
 STRAIN_RATE = 0.01  # 1/s, in a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
@@ -35,12 +36,13 @@ class Crush(Struck):
     """A platen that moves down and back up if `unload`; the whole is done `cycles` times.
 
     strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
-    is quasi-static and the stress of the material does not depend on time. platen "none": an
-    endless lattice under a mean strain; "clamped": the ends of walls stay upright, along the cells.
+    is quasi-static and the stress of the material does not depend on time. hold_time: None without
+    a pause. platen "none": an endless lattice under a mean strain; "clamped": the ends of walls
+    stay upright, along the cells.
     """
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
-    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1}
+    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1, "hold_time": 0.0}
     needs: ClassVar[dict[str, str]] = Struck.needs | {"strain_rate": STEADY, "hold_time": STEADY}
     words: ClassVar[tuple[str, ...]] = ("displacement",)
     driven: ClassVar[bool] = True
@@ -52,7 +54,7 @@ class Crush(Struck):
     speed: Speed | None = None
     strain_rate: Frequency | None = None
     quasi_static: bool
-    hold_time: Duration | None = None
+    hold_time: Pause | None = None
     unload: bool = True
     cycles: Cycles = 1
     platen: Literal["none", "contact", "glued", "sliding", "clamped"] = "glued"
@@ -61,6 +63,7 @@ class Crush(Struck):
     @classmethod
     def of(cls, inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> "Crush":
         """The crush of these values; for an endless lattice, a mean strain."""
+        inputs = {key: value for key, value in inputs.items() if (key, value) != NO_PAUSE}
         if body.endless:
             return _mean_crush(inputs, body, integrator, relaxes)
         if inputs.get("platen") == "none":

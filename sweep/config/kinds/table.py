@@ -33,6 +33,7 @@ SIGNIFICANT = 12  # digits of a number that enter an id; unit conversions do not
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "m"})]
 Size = Annotated[float, Field(gt=0, le=1e3, json_schema_extra={"unit": "m"})]
+Pause = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Duration = Annotated[float, Field(gt=0, json_schema_extra={"unit": "s"})]
 Lag = Annotated[float, Field(ge=0, json_schema_extra={"unit": "s"})]
 Frequency = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/s"})]

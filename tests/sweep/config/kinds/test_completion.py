@@ -90,6 +90,7 @@ def test_only_a_crush_that_takes_time_has_a_pause():
     assert pressed().loading.hold_time is None
     assert pressed(hold_time=3.0).case_id == pressed().case_id
     assert pressed(**fast, hold_time=3.0).case_id != pressed(**fast).case_id
+    assert pressed(**fast, hold_time=0.0).case_id == pressed(**fast).case_id
     relaxing, held = (
         Case.of(material=dict(loss=0.3), loading=dict(mode="displacement", hold_time=time))
         for time in (None, 3.0)
