@@ -1,7 +1,7 @@
 """The marks of doubtful results in the tables of a ranking, and what each mark means."""
 
 from functools import reduce
-from math import isnan
+from math import inf, isnan
 from operator import add
 
 from pandas import DataFrame, Series
@@ -73,10 +73,9 @@ def _coarse_note(coarse: Coarse, rows: DataFrame) -> str:
         return ""
     if isnan(coarse.most):
         return NO_PEAK.format(coarse.steps, coarse.keys)
-    most, greatest = in_unit(coarse.most, "%"), tenths(float(rows[coarse.column].max()))
-    return COARSE.format(
-        coarse.steps, f"{most:g}", coarse.whole, greatest, coarse.column, coarse.keys
-    )
+    most = f"{in_unit(coarse.most, '%'):g}"
+    greatest = tenths(float(rows[coarse.column].replace(inf, 1.0).max()))
+    return COARSE.format(coarse.steps, most, coarse.whole, greatest, coarse.column, coarse.keys)
 
 
 def _marked(rows: DataFrame) -> dict[str, Series]:
