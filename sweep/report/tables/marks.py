@@ -43,6 +43,8 @@ stretch_over_curve: how far).""",
     "u": """\
 u: stopped after its loading (message: why), which determines energy, peak and densification; what
 only unloading tells is not known (–).""",
+    "r": """\
+r: simulated with another value of a key that varies, as it failed with this one (retry: which).""",
     "b": """\
 b: simulated with another imperfection, as it stopped with the one asked for (retry: which).""",
 }
@@ -89,6 +91,7 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
         "^": rows["beyond_curve"],
         "p": rows["does_not_print"] != "",
         "u": unloaded(rows),
+        "r": retried(rows),
         "b": other_bow(rows),
     }
 
@@ -107,6 +110,12 @@ def uses_up_stroke(rows: DataFrame) -> Series:
     left = rows["stroke_left_m"]
     whole = left + rows["peak_strain"] * rows["height_m"]
     return has(rows, "struck") & (left < LITTLE_STROKE * whole)
+
+
+def retried(rows: DataFrame) -> Series:
+    """True for results whose retry has another value of a key that varies in the sweep."""
+    keys = [str(name) for name in rows if "." in str(name)]
+    return rows["retry"].map(lambda retry: any(f"{key} = " in retry for key in keys)).astype(bool)
 
 
 def other_bow(rows: DataFrame) -> Series:

@@ -77,6 +77,15 @@ def test_an_impact_that_uses_up_the_stroke_is_marked():
     assert seen == ["1*", "2 !"]
 
 
+def test_a_retry_that_changes_what_varies_is_marked():
+    retries = ["", "solver.time_step = 1.25 us"]
+    table = IMPACTS.assign(retry=retries)
+    assert marked(table)[0] == ["1*", "2 "]
+    seen, text = marked(table.assign(**{"solver.time_step": 2e-4}))
+    assert seen == ["1*", "2 r"]
+    assert MEANINGS["r"] in text
+
+
 def test_steps_that_are_too_long_for_the_peak_are_marked():
     (sheet,) = ranking_sheets(ranked(table := TWO.assign(peak_force_N=[10.0, NAN])), table)
     seen, text = [row[0] for row in sheet.rows], legend(ranked(table))
