@@ -41,7 +41,7 @@ STRAINS = with_units("strain", STRAIN_UNITS)
 STRESSES = with_units("stress", STRESS_UNITS)
 STRETCH = "stretch"  # a head instead of the strain: 1 + strain
 TOE = 0.01  # below this strain a record is replaced by a straight line from the origin
-AT_ORIGIN = 0.1  # largest stress at no strain, such as noise, / that at `TOE`
+NOISE = 0.1  # largest stress below that strain of the wrong sign, or at no strain, / that at `TOE`
 REFERENCE_TIME = 1.0  # s; for a record that states none
 SECANT = (0.01, 0.04)  # strains of the secant that defines the modulus of a curve
 MEMORY = ("loss", "softening_r", "softening_m", "softening_beta")
@@ -252,7 +252,8 @@ def check_curve(strain: Numbers, stress: Numbers) -> None:
     if (toe := stress_at(TOE, strain, stress)) <= 0.0:
         raise RecordError(f"the stress of a curve must be positive at 1 % strain, not {toe:g} Pa")
     for e, s in zip(strain, stress, strict=True):
-        if s * e < 0.0 or (e == 0.0 and abs(s) > AT_ORIGIN * toe):
+        opposed = abs(s) if e == 0.0 else -s if e > 0.0 else s
+        if opposed > (NOISE * toe if abs(e) < TOE else 0.0):
             must = "negative in compression, 0 at the origin, positive in tension"
             raise RecordError(f"a stress of {s:g} Pa at a strain of {e:g}; a curve must be {must}")
     modulus = secant_modulus(strain, stress)
