@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from sweep.report.tables.sheet import Sheet
 
 USUAL = 80  # usual width in characters; in wider tables, columns are closer
+LATE = ("densification_strain", "highest_densification_strain")  # unknown in a short crush
+WHOLE = ("absorbed_energy_J", "specific_absorption_J_per_g")  # columns of the whole crush
 WIDE = 10_000  # width where no terminal limits it
 
 
@@ -73,7 +75,8 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         cases_have = _counted(ranking.without_bar, "ranked case")
         yield f"{cases_have} no error bar: placed by value alone."
     if ranking.unranked:
-        yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and cannot be ranked."
+        late = " Those that did not densify in their crush may lead." if ranking.by in LATE else ""
+        yield f"{_counted(ranking.unranked, 'case')} no {ranking.by} and cannot be ranked.{late}"
     if ranking.pointed:
         some = f"In {ranking.pointed} of {ranking.cases} cases some walls end in points"
         yield f"{some}, not in solid joints: see solid_joint_share."
@@ -134,6 +137,10 @@ def _heading(question: Question, ranking: Ranking) -> str:
     crushed = ranking.table.empty or has(ranking.table, "driven").any()
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
+        if by in WHOLE:
+            lines.append(
+                "Here the order, unlike usable energy and requirements, is of the whole crush."
+            )
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if len(ranking.budgets_g) == 1:

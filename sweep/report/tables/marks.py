@@ -11,6 +11,7 @@ from sweep.loading_modes import MODES, Coarse, exceeds, has
 from sweep.numbers import in_unit, tenths, to_si
 from sweep.ranking.unfinished import unloaded
 
+LITTLE_PASSED = 1.0 / 3.0  # of the greatest unfiltered deceleration
 LITTLE_STROKE = 0.1  # of the stroke that closes all voids
 LONG_SPAN = 0.1  # span of strain
 COARSE = """\
@@ -32,8 +33,8 @@ all others.""",
 p: does not print as drawn (does_not_print: why): walls are not a multiple of the line width, or
 gaps narrower (lattice.line_width or lattice.nozzle). lattice.printable = true excludes these.""",
     "f": """\
-f: the filter cuts the pulse, which is shorter than it passes: the greatest filtered force is below
-the mean one. A greater loading.filter_class helps.""",
+f: the filter takes most of the pulse: the greatest filtered force on the striker is below the mean
+one, or less than a third of the unfiltered one. A greater loading.filter_class helps.""",
     "s": """\
 s: less than a tenth of the stroke is left, where the force rises steeply: it may err by a third
 (more lattice.nodes_per_wall, or --error-bars, tell).""",
@@ -98,11 +99,13 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
 
 def cut_by_filter(rows: DataFrame) -> Series:
     """True for impacts whose greatest filtered deceleration could not do the work on the lattice
-    over its greatest stroke.
+    over its greatest stroke, or is less than `LITTLE_PASSED` of the unfiltered one.
     """
-    mass = to_si(rows["striker_mass_g"], "g")
-    force = mass * rows["peak_deceleration_filtered_m_per_s2"]
-    return has(rows, "struck") & (rows["absorbed_energy_J"] > force * rows["indentation_m"])
+    passed = rows["peak_deceleration_filtered_m_per_s2"]
+    force = to_si(rows["striker_mass_g"], "g") * passed
+    is_cut = rows["absorbed_energy_J"] > force * rows["indentation_m"]
+    little = passed < LITTLE_PASSED * rows["peak_deceleration_m_per_s2"]
+    return has(rows, "struck") & (is_cut | little)
 
 
 def uses_up_stroke(rows: DataFrame) -> Series:

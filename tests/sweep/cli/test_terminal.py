@@ -14,6 +14,7 @@ from rich.text import Text
 
 from sweep.cli.terminal import fitted, print_sheets, quoted
 from sweep.report.tables.sheet import Sheet
+from tests.support.command import crumple
 from tests.support.results.specimens import summary, write
 
 ROOT = Path(__file__).parents[3]
@@ -175,3 +176,19 @@ def test_notes_are_broken_at_blanks_where_the_terminal_is_narrow(capsys, monkeyp
     monkeypatch.setenv("COLUMNS", "30")
     print_sheets([DESIGNS._replace(notes=(note,))])
     assert "Some lattices have fewer than\neight cells.\nShort.\n" in capsys.readouterr().out
+
+
+def test_an_order_of_the_whole_crush_is_told_beside_an_allowed_force(capsys, tmp_path):
+    table = summary({}, {"mass_g": 2.0}).assign(absorbed_energy_at_10N_J=0.01)
+    file = write(tmp_path / "f.h5", table)
+    asked = "rank", file, "--allowed-force", "10 N", "--brief"
+    whole = "Here the order, unlike usable energy and requirements, is of the whole crush."
+    assert whole in crumple(capsys, *asked, "--by", "absorbed_energy_J")[1]
+    assert whole not in crumple(capsys, *asked)[1]
+
+
+def test_designs_that_densify_later_may_lead(capsys, tmp_path):
+    table = summary({}, {"densification_strain": float("nan")})
+    file = write(tmp_path / "f.h5", table)
+    text = crumple(capsys, "rank", file, "--by", "densification_strain", "--brief")[1]
+    assert "did not densify in their crush may lead" in text

@@ -65,6 +65,9 @@ def test_a_pulse_that_the_filter_cuts_is_marked():
     seen, text = marked(table)
     assert seen == ["1*f", "2 "]
     assert MEANINGS["f"] in text
+    peaks = {"peak_deceleration_m_per_s2": [2700.0, 8000.0]}
+    rising = table.assign(**peaks, peak_deceleration_filtered_m_per_s2=2600.0)
+    assert marked(rising)[0] == ["1*", "2 f"]
 
 
 def test_an_impact_that_uses_up_the_stroke_is_marked():
