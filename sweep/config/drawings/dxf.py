@@ -63,7 +63,7 @@ def _curves(entities: list[Any], hidden: set[str], left_out: Counter[str]) -> It
         kind, layer = entity.dxftype(), entity.dxf.get("layer", "0")
         if kind not in LINES:
             left_out[kind] += 1
-        elif layer in hidden:
+        elif layer in hidden or entity.dxf.get("invisible", 0):
             left_out["hidden line"] += 1
         else:
             yield from _beziers(make_path(entity))

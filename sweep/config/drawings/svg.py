@@ -19,6 +19,7 @@ PIXEL = METRES["in"] / 96.0  # m, in CSS
 LENGTHS = METRES | {"": PIXEL, "px": PIXEL, "pt": METRES["in"] / 72.0, "pc": METRES["in"] / 6.0}
 PAGE = ("width", "height", "viewBox", "preserveAspectRatio")
 USE = re.compile(r"(?:\{.*\})?use$")
+_ZERO = re.compile(r"0+(?:\.0*)?(?:%|[a-z]*)|\.0+(?:%|[a-z]*)")
 _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 
 
@@ -43,8 +44,11 @@ def read_svg(path: Path) -> Lines:
         unit = _unit(root)
         for key in PAGE:
             root.attrib.pop(key, None)
+        _drop_templates(root)
         drawing = SVG.parse(BytesIO(Xml.tostring(root)))
-        shapes = [shape for shape in drawing.elements() if isinstance(shape, Shape)]
+        shapes = [
+            each for each in drawing.elements() if isinstance(each, Shape) and _is_shown(each)
+        ]
         drawn = [shape for shape in shapes if _is_stroked(shape)] or shapes
         shapes = [Outline(shape) for shape in drawn]
         ends = straightened(control for shape in shapes for control in _beziers(abs(shape)))
@@ -89,6 +93,26 @@ def _drawn(root: Xml.Element) -> int:
         return count[id(element)]
 
     return drawn(root)
+
+
+def _drop_templates(root: Xml.Element) -> None:
+    """Remove markers, and symbols that nothing uses."""
+    uses = [element for element in root.iter() if USE.match(str(element.tag))]
+    used = {v[1:] for use in uses for k, v in use.items() if k.endswith("href")}
+    for parent in root.iter():
+        for child in [*parent]:
+            kind = str(child.tag).rpartition("}")[2]
+            if kind == "marker" or (kind == "symbol" and child.get("id") not in used):
+                parent.remove(child)
+
+
+def _is_shown(shape: Any) -> bool:
+    """Whether neither its visibility nor its opacity nor the width of its stroke hides a shape."""
+    values = shape.values
+    if values.get("visibility") in ("hidden", "collapse"):
+        return False
+    clear = (values.get(key) for key in ("opacity", "stroke-opacity", "stroke-width"))
+    return not any(value is not None and _ZERO.fullmatch(str(value).strip()) for value in clear)
 
 
 def _is_stroked(shape: Any) -> bool:

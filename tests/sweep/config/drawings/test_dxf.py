@@ -54,11 +54,12 @@ def test_what_is_left_out_is_told(tmp_path):
         document.layers.add("notes").off()
         space.add_line((0, 0), (1, 1))
         space.add_line((0, 0), (9, 9), dxfattribs={"layer": "notes"})
+        space.add_line((0, 0), (8, 8), dxfattribs={"invisible": 1})
         space.add_text("10 mm")
         space.add_point((0, 0))
 
     lines = read_dxf(saved(tmp_path / "a.dxf", draw))
-    assert lines.notes == ("left out: 1 x POINT, 1 x TEXT, 1 x hidden line",)
+    assert lines.notes == ("left out: 1 x POINT, 1 x TEXT, 2 x hidden line",)
     assert lines.ends.tolist() == [[[0.0, 0.0], [1.0, 1.0]]]
 
 

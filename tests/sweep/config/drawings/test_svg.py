@@ -35,6 +35,29 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
     assert ends.max() < 90.0
 
 
+@pytest.mark.parametrize(
+    "hidden",
+    [
+        '<line x2="9" y2="9" visibility="hidden"/>',
+        '<g style="visibility:collapse"><line x2="9" y2="9"/></g>',
+        '<style>.no {visibility: hidden}</style><line class="no" x2="9" y2="9"/>',
+        '<line x2="9" y2="9" opacity="0"/>',
+        '<line x2="9" y2="9" stroke="red" stroke-opacity="0.0"/>',
+        '<line x2="9" y2="9" stroke="red" stroke-width="0px"/>',
+        '<symbol id="s"><line x2="9" y2="9"/></symbol>',
+        '<defs><marker id="m"><line x2="9" y2="9"/></marker></defs>',
+    ],
+)
+def test_what_is_hidden_is_no_wall(tmp_path, hidden):
+    lines = read_svg(written(tmp_path / "a.svg", hidden + LINE))
+    assert lines.ends.tolist() == [[[0.0, 0.0], [10.0, -5.0]]]
+
+
+def test_what_is_faint_or_thin_is_a_wall(tmp_path):
+    thin = '<line x2="9" y2="9" stroke="red" stroke-width="0.01" opacity="0.05"/>'
+    assert len(read_svg(written(tmp_path / "a.svg", thin)).ends) == 1
+
+
 def test_beside_strokes_what_is_only_filled_is_left_out(tmp_path):
     """A style sheet or a group may say so too; the black fill of CSS is no stroke."""
     line = '<line x1="0" y1="0" x2="10" y2="5" {}/>'
