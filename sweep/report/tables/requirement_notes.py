@@ -30,6 +30,9 @@ PANEL = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
 )
+UNEQUAL = (
+    "Their number differs, so that places depend on it: compare J/g, or choose sides that all fill."
+)
 TOLERATED = 0.05  # relative difference of a side
 OTHER_SIZE = (
     "Whole specimens make a panel whose sides differ by up to {} % from the {} mm of the question."
@@ -288,8 +291,9 @@ def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
     other = _other_size(rows, panel)
     if most == 1:
         return [ONE_SPECIMEN.format(size), *other]
-    count = least if least == most else f"{least} to {most}"
-    return [PANEL.format(count, size), *other, *struck]
+    unequal = [UNEQUAL] if least < most else []
+    count = f"{least} to {most}" if unequal else least
+    return [PANEL.format(count, size), *unequal, *other, *struck]
 
 
 def _other_size(rows: DataFrame, panel: Sequence[float]) -> Iterator[str]:

@@ -4,6 +4,7 @@ import pytest
 
 from sweep.ranking.rank import ranked
 from sweep.report.tables.legend import legend
+from sweep.report.tables.requirement_notes import UNEQUAL
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHES, IMPACTS
 
@@ -40,7 +41,10 @@ def test_force_of_the_panel_stands_beside_that_of_the_specimen(table, head):
 
 def test_number_of_specimens_is_a_range_if_designs_differ_in_width():
     table = CRUSHES.assign(outer_width_m=[13e-3, 13e-3, 14e-3])
-    assert "of the 45 to 50 separate specimens of a panel" in legend(ranked(table, panel=PANEL))
+    text = legend(ranked(table, panel=PANEL))
+    assert "of the 45 to 50 separate specimens of a panel" in text
+    assert UNEQUAL in text
+    assert UNEQUAL not in legend(ranked(CRUSHES, panel=PANEL))
     large = legend(ranked(CRUSHES.assign(outer_width_m=0.13, depth_m=0.05), panel=PANEL))
     assert ("which is one specimen of" in large, "neighbours" in large) == (True, False)
 
