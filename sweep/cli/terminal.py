@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 USUAL = 80  # usual width in characters; in wider tables, columns are closer
 LATE = ("densification_strain", "highest_densification_strain")  # unknown in a short crush
+OF_THE_WHOLE = "The order is by the whole crush; requirements are not."
 WHOLE = ("absorbed_energy_J", "specific_absorption_J_per_g")  # columns of the whole crush
 WIDE = 10_000  # width where no terminal limits it
 
@@ -138,9 +139,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
         if by in WHOLE:
-            lines.append(
-                "Here the order, unlike usable energy and requirements, is of the whole crush."
-            )
+            lines.append(OF_THE_WHOLE)
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")
     if len(ranking.budgets_g) == 1:

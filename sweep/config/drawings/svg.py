@@ -24,8 +24,8 @@ _SIZE = re.compile(r"([\d.]+(?:e[+-]?\d+)?)([a-z]*)")
 
 
 def read_svg(path: Path) -> Lines:
-    """The centre lines of all visible shapes, y upwards; stroke width and fill are ignored. If some
-    shapes have a stroke, shapes that are only filled are no lines, but areas and dots. Circles that
+    """The centre lines of all visible shapes, y upwards; fill and width of a stroke are ignored. If
+    some shapes have a visible stroke, the others are no lines, but areas and dots. Circles that
     mark joints are left out (`without_marks`).
 
     The unit is the unit of the view box, from the width and the height of the page; a pixel if
@@ -87,8 +87,7 @@ def _drawn(root: Xml.Element) -> int:
             count[id(element)] = MOST_LINES + 1  # while it is open, it cannot use itself
             parts = [*element]
             if USE.match(str(element.tag)):
-                link = next((v for k, v in element.items() if k.endswith("href")), "")
-                parts += [named[link[1:]]] if link[1:] in named else []
+                parts += [named[_link(element)]] if _link(element) in named else []
             count[id(element)] = min(1 + sum(map(drawn, parts)), MOST_LINES + 1)
         return count[id(element)]
 
@@ -97,27 +96,36 @@ def _drawn(root: Xml.Element) -> int:
 
 def _drop_templates(root: Xml.Element) -> None:
     """Remove markers, and symbols that nothing uses."""
-    uses = [element for element in root.iter() if USE.match(str(element.tag))]
-    used = {v[1:] for use in uses for k, v in use.items() if k.endswith("href")}
-    for parent in root.iter():
+    elements = [*root.iter()]
+    used = {_link(element) for element in elements if USE.match(str(element.tag))}
+    for parent in elements:
         for child in [*parent]:
             kind = str(child.tag).rpartition("}")[2]
             if kind == "marker" or (kind == "symbol" and child.get("id") not in used):
                 parent.remove(child)
 
 
+def _link(use: Xml.Element) -> str:
+    """The id of the element that is used again; empty without one."""
+    return next((value for key, value in use.items() if key.endswith("href")), "")[1:]
+
+
 def _is_shown(shape: Any) -> bool:
-    """Whether neither its visibility nor its opacity nor the width of its stroke hides a shape."""
-    values = shape.values
-    if values.get("visibility") in ("hidden", "collapse"):
-        return False
-    clear = (values.get(key) for key in ("opacity", "stroke-opacity", "stroke-width"))
-    return not any(value is not None and _ZERO.fullmatch(str(value).strip()) for value in clear)
+    """Whether neither its visibility nor its opacity hides a shape."""
+    hidden = shape.values.get("visibility") in ("hidden", "collapse")
+    return not hidden and not _is_zero(shape, "opacity")
 
 
 def _is_stroked(shape: Any) -> bool:
+    """Whether a shape has a stroke that is visible."""
     stroke = shape.stroke
-    return stroke is not None and stroke.value is not None
+    clear = _is_zero(shape, "stroke-opacity") or _is_zero(shape, "stroke-width")
+    return stroke is not None and stroke.value is not None and not clear
+
+
+def _is_zero(shape: Any, key: str) -> bool:
+    """Whether a number of a shape, with or without a unit, is zero."""
+    return _ZERO.fullmatch(str(shape.values.get(key, "")).strip()) is not None
 
 
 def _beziers(path: Any) -> Iterator[Floats]:

@@ -42,15 +42,22 @@ def test_shapes_and_transforms_are_read_with_y_upwards(tmp_path):
         '<g style="visibility:collapse"><line x2="9" y2="9"/></g>',
         '<style>.no {visibility: hidden}</style><line class="no" x2="9" y2="9"/>',
         '<line x2="9" y2="9" opacity="0"/>',
-        '<line x2="9" y2="9" stroke="red" stroke-opacity="0.0"/>',
-        '<line x2="9" y2="9" stroke="red" stroke-width="0px"/>',
+        '<line x2="9" y2="9" stroke-opacity="0.0"/>',
+        '<line x2="9" y2="9" stroke-width="0px"/>',
         '<symbol id="s"><line x2="9" y2="9"/></symbol>',
         '<defs><marker id="m"><line x2="9" y2="9"/></marker></defs>',
     ],
 )
 def test_what_is_hidden_is_no_wall(tmp_path, hidden):
-    lines = read_svg(written(tmp_path / "a.svg", hidden + LINE))
+    wall = LINE.replace("/>", ' stroke="black"/>')
+    lines = read_svg(written(tmp_path / "a.svg", hidden.replace("x2", "stroke='red' x2") + wall))
     assert lines.ends.tolist() == [[[0.0, 0.0], [10.0, -5.0]]]
+
+
+def test_what_is_filled_needs_no_stroke(tmp_path):
+    """Editors write a width of 0 for shapes that are only filled."""
+    filled = '<rect width="9" height="9" style="fill:#000;stroke:none;stroke-width:0"/>'
+    assert len(read_svg(written(tmp_path / "a.svg", filled)).ends) == 4
 
 
 def test_what_is_faint_or_thin_is_a_wall(tmp_path):
