@@ -38,12 +38,12 @@ def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
 
 
-def peak_force(loading: Impact, history: Mapping[str, Floats]) -> float:
-    """Greatest force of an impact on the support behind its filter, N; in the end it bears the
+def force_on_support(loading: Impact, history: Mapping[str, Floats]) -> Floats:
+    """Force of an impact on the support behind its filter, (rows,) N; in the end it bears the
     weight.
     """
     time, force = history["time_s"], history["reaction_bottom_N"]
-    return float(filtered_force(time, force, loading.filter_class, (0.0, loading.weight)).max())
+    return filtered_force(time, force, loading.filter_class, (0.0, loading.weight))
 
 
 def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:
@@ -55,7 +55,8 @@ def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, flo
     columns = {"base_impulse_Ns": float(impulse)}
     if loading.target_mass is None:
         return columns
+    greatest = float(force_on_support(loading, history).max())
     return columns | {
         "target_speed_m_per_s": float(history["target_speed_m_per_s"][row]),
-        "peak_target_acceleration_m_per_s2": peak_force(loading, history) / loading.target_mass,
+        "peak_target_acceleration_m_per_s2": greatest / loading.target_mass,
     }

@@ -19,7 +19,7 @@ from sweep.scene.loading import CycleRows
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
-from sweep.simulation.base_load import base_columns, patch_width, peak_force
+from sweep.simulation.base_load import base_columns, force_on_support, patch_width
 from sweep.simulation.between_rows import between_rows
 from sweep.simulation.cycles import columns_of_cycles
 from sweep.simulation.densification import (
@@ -156,6 +156,8 @@ def summarise(  # noqa: PLR0913  of one case each
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     if moves(case):
         curves |= without_blows(history)
+    elif isinstance(case.loading, Impact):
+        curves["reaction_bottom_N"] = force_on_support(case.loading, history)
     loading = {name: column[: cycles[0].loaded + 1] for name, column in curves.items()}
     drawn = in_unit(drawn_mass(case, scene), "g")
     printed = printed_mass(case)
@@ -192,7 +194,7 @@ def summarise(  # noqa: PLR0913  of one case each
         **columns_of_cycles(cycles, history["work_in_J"], force),
         **striker_columns(case, scene, history),
         **base_columns(case, history),
-        **crush_columns(case, loading, peak),
+        **crush_columns(case, loading),
         **(dict.fromkeys(PEAKS, peak) if is_whole else {}),
         **_shape_columns(case, scene, frames, strains, loading),
     }
@@ -263,9 +265,9 @@ def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float
     loading = case.loading
     if isinstance(loading, OfFile):
         return np.nan  # reactions are those of its probes
-    if isinstance(loading, Impact):
-        return peak_force(loading, history)
     force = transmitted(case, history)
+    if isinstance(loading, Impact):
+        return float(force.max())
     if not moves(case):
         return known_peak(case, force, most)
     assert isinstance(loading, Crush)
@@ -279,11 +281,8 @@ def transmitted(case: Case, history: dict[str, Floats]) -> Floats:
     return np.fmax(history["reaction_top_N"], history["reaction_bottom_N"])
 
 
-def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[str, float]:
-    """Columns from the force-displacement curve of the loading; only a crush can densify.
-
-    most: greatest force of an impact, filtered, N.
-    """
+def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
+    """Columns from the force-displacement curve of the loading; only a crush can densify."""
     force, work = transmitted(case, loading), loading["work_in_J"]
     until = {  # from the rows, as the stored curve gives it for any other force
         absorbed_energy_column(allowed): absorbed_until(allowed, force, work)
@@ -303,22 +302,17 @@ def crush_columns(case: Case, loading: dict[str, Floats], most: float) -> dict[s
         "peak_force_at_densification_N": float(peak[row]),
         "peak_force_until_packed_N": float(share @ peak),
     }
-    greatest = most if isinstance(case.loading, Impact) else float(transmitted(case, loading).max())
-    columns |= ratios(case, loading, columns, greatest)
-    return columns | until
+    return columns | ratios(case, loading, columns) | until
 
 
-def ratios(
-    case: Case, loading: dict[str, Floats], columns: dict[str, float], greatest: float
-) -> dict[str, float]:
+def ratios(case: Case, loading: dict[str, Floats], columns: dict[str, float]) -> dict[str, float]:
     """Ideality and cushion factor of a crush until packed (Miltz & Gruenbaum 1981), and mean force
     / greatest force of the whole loading; NaN under a dead load, or without any force.
 
-    columns: values until packed; `packing_strain` is NaN unless the mode is displacement. greatest:
-    force of the loading, N.
+    columns: values until packed; `packing_strain` is NaN unless the mode is displacement.
     """
     height = case.height or np.nan
-    strain = loading["strain"].max()
+    strain, greatest = loading["strain"].max(), transmitted(case, loading).max()
     work, peak = columns["absorbed_energy_until_packed_J"], columns["peak_force_until_packed_N"]
     driven = isinstance(case.loading, Crush | Impact)
     brought = greatest * strain * height if driven else np.nan

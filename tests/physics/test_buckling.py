@@ -68,6 +68,7 @@ def test_steps_of_a_tenth_of_a_millisecond(force):
 def test_rest_is_found_again(material, damping):
     """At rest all energies are round-off: no search may wait for them to fall."""
     case = Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=dict(name=material),
         loading=dict(force=10.0),
         damping=damping,

@@ -121,11 +121,12 @@ def test_steps_too_few_to_balance_are_taken_in_shares():
     """In 4 steps the trapezoidal rule alone would make a tenth of the work; without friction, whose
     normal forces so long a step cannot foresee.
     """
-    loading, smooth = dict(mode="displacement", strain=0.6, platen="contact"), dict(friction=0.0)
-    few, more = (
-        simulate(Case.of(loading=loading, contact=smooth, solver=dict(load_steps=steps)))
-        for steps in (4, 200)
+    tables = dict(
+        lattice=dict(nodes_per_wall=2),
+        loading=dict(mode="displacement", strain=0.6, platen="contact"),
+        contact=dict(friction=0.0),
     )
+    few, more = (simulate(Case.of(**tables, solver=dict(load_steps=n))) for n in (4, 200))
     assert (few.status, more.status) == ("converged", "converged")
     assert few.summary["steps"] > 8  # there and back
     energies = [result.summary["absorbed_energy_J"] for result in (few, more)]
@@ -144,7 +145,7 @@ def test_a_crush_with_sections_bent_by_the_curve():
         assert is_sound(result)
     early, late = (at(by_curve, strain) / at(linear, strain) for strain in (0.051, 0.501))
     assert early == pytest.approx(1.076, abs=0.005)
-    assert late == pytest.approx(1.043, abs=0.005)
+    assert late == pytest.approx(1.055, abs=0.005)
     stretched = crushed("section", stretch="linear")
     assert is_sound(stretched)
     assert stretched.summary["absorbed_energy_J"] != by_curve.summary["absorbed_energy_J"]

@@ -21,7 +21,7 @@ def cushion(material, lattice=None, contact=None, solver=None, **loading):
     """A crush of a small lattice, to 30 % unless the loading says otherwise."""
     press = {"mode": "displacement", "strain": 0.3} if "mode" not in loading else {}
     return Case.of(
-        lattice={"cells_x": 2, "cells_y": 2} | (lattice or {}),
+        lattice={"cells_x": 2, "cells_y": 2, "nodes_per_wall": 2} | (lattice or {}),
         material=material,
         loading=press | loading,
         contact=contact or {},

@@ -54,6 +54,7 @@ def pressed(pieces, strain, contact, **solver):
 def loaded(force, contact="none", platen="none", **solver):
     """Result of a sudden dead load, three elements a wall, steps of 1 ms, undamped."""
     case = Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=MATERIAL,
         loading=dict(mode="force", force=force, platen=platen),
         contact=dict(model=contact, friction=0.0),

@@ -99,6 +99,7 @@ def test_joints_at_rest_are_no_contacts(kind):
 def dropped(model="position_based", force=15.0, time_step=2e-4, duration=0.016):
     """A dead load under which rows land on one another, let go at three quarters of the time."""
     return Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=MATERIAL,
         loading=dict(force=force, release_time=0.75 * duration, duration=duration),
         contact=dict(model=model, friction=0.0),

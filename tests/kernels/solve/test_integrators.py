@@ -215,6 +215,7 @@ def released(integrator, time_step, step_error=None):
     """A grid under 5 N, let go."""
     numerics = {"integrator": integrator, "step_error": step_error, "tolerance": 1e-9}
     return Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=MATERIAL,
         loading=dict(force=5.0, release_time=0.01, duration=0.02),
         contact=APART,

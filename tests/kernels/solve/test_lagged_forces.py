@@ -11,7 +11,7 @@ from tests.support.converged import converged
 def crushed(contact, strain, steps, **tables):
     """Result of a lattice pressed between glued platens."""
     case = Case.of(
-        **dict(lattice=dict(wall_thickness=0.6e-3), material=MATERIAL) | tables,
+        **dict(lattice=dict(wall_thickness=0.6e-3, nodes_per_wall=2), material=MATERIAL) | tables,
         loading=dict(mode="displacement", strain=strain, unload=False, platen="glued"),
         contact=contact,
         solver=dict(load_steps=steps),

@@ -179,6 +179,7 @@ def test_friction_slows_what_slides_by_mu_times_the_forces_on_it():
 def crush(steps, speed=None, **solver):
     """A 3 x 3 grid pressed to 30 % without contact."""
     return Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=MATERIAL,
         loading=dict(mode="displacement", strain=0.3, speed=speed, unload=False),
         contact=dict(model="none"),

@@ -66,6 +66,7 @@ def loaded(
 ):
     """Sudden dead load, three elements a wall; contact only between platens in contact."""
     return Case.of(
+        lattice=dict(nodes_per_wall=2),
         material=MATERIAL,
         loading=dict(
             mode="force",

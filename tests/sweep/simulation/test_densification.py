@@ -31,7 +31,7 @@ def measured(force, names=NEW):
         "reaction_top_N": force,
         "reaction_bottom_N": force,
     }
-    columns = crush_columns(CRUSH, loading, np.nan)
+    columns = crush_columns(CRUSH, loading)
     return np.array([columns[name] for name in names])
 
 

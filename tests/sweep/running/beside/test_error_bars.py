@@ -31,7 +31,7 @@ def first_order(case, control=None):
 
 def config(**axes):
     """A sweep of crushes in 40 steps; "__" stands for the dot of a key."""
-    base = {"loading.mode": "displacement", "solver.load_steps": 40}
+    base = {"lattice.nodes_per_wall": 2, "loading.mode": "displacement", "solver.load_steps": 40}
     axes = axes or {"lattice__imperfection": (0.001, 0.002)}
     recipe = Recipe(
         base={key: Written(value, str(value)) for key, value in base.items()},
