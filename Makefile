@@ -84,7 +84,7 @@ mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4
 steps: setup  ## measure how long load steps may be; kept in results/steps/ (10 min)
 	@$(PYTHON) -m tests.studies.mesh.steps results/steps
 
-rammed: setup  ## ram a panel with three fronts; the rankings and the picture of docs/rammed.md (35 min)
+rammed: setup  ## ram a panel with three fronts; the rankings and the picture of docs/rammed.md (40 min)
 	@$(PYTHON) -m sweep run configs/rammed.toml > results/rammed.txt
 	@$(PYTHON) -m sweep rank results/rammed.h5 --top 5
 	@$(PYTHON) -m sweep rank results/rammed.h5 --out results/rammed

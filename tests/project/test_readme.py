@@ -202,7 +202,7 @@ def test_winners_are_the_first_of_the_rankings():
     text = readme.PAGES["docs/rammed.md"]
     rankings = re.findall(r"^## (.*?)\n+```text\n(.*?)^```", text, re.M | re.S)
     names = {"hex": "honeycomb", "triangle": "triangles", "diamond": "diamonds"}
-    names |= {"square": "squares", "kagome": "kagome"}
+    names |= {"square": "squares", "kagome": "kagome", "reentrant": "re-entrant"}
     first = []
     for _, lines in rankings:
         (row,) = [line.split() for line in lines.splitlines() if line.startswith(("1*", " 1*"))]
