@@ -133,7 +133,7 @@ def test_long_crush_says_when_it_has_packed(monkeypatch):
 
 def test_opensees_moves_as_we_do():
     pytest.importorskip("openseespy")
-    case = cases.seed(2, 0.02).changed(lattice={"nodes_per_wall": 2})
+    case = cases.seed(2, 0.02)
     scene = build_scene(case)
     peer, state = scenes.PEERS["OpenSees, ProfileSPD"](case, scene), at_rest(scene)
     marching.go(case, scene, state, [phase.stage for phase in stages(case, scene)[:1]])

@@ -1,7 +1,7 @@
 """Whether error bars cover the error: designs of two sweeps against much finer runs of them.
 
 Run by `make bars`: the small lattices of a sweep, or every few of its cases, with error bars, and
-the same with twelve elements a wall and steps a quarter as long, which are the reference. Finished
+the same with 24 elements a wall and steps a quarter as long, which are the reference. Finished
 cases are kept in the given folder.
 """
 
@@ -23,8 +23,8 @@ from tests.studies.tables import publish
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 EVERY = {"armor.toml": 1, "impact.toml": 3}  # cases: as many of each scene
-CELLS = 6  # across, at most: with twelve elements a wall a larger crush takes minutes
-ELEMENTS, STEPS = 12, 4  # of a wall; for one of the design
+CELLS = 6  # across, at most: with 24 elements a wall a larger crush takes minutes
+ELEMENTS, STEPS = 24, 4  # of a wall; for one of the design
 PATIENCE = 1800.0  # s for a case
 DIGITS, ROUND_OFF = 9, 1e-6  # of shares; below the second there is no error to cover
 NAMES = {"displacement": "crushed", "force": "dead load", "impact": "struck"}

@@ -23,7 +23,8 @@ def new_scene(case):
 
 def lattice(cells):
     """Cells by cells, walls of 0.8 mm in three elements each."""
-    return lattice_with(cells_x=cells, cells_y=cells, width=cells * PITCH, height=cells * PITCH)
+    size = cells * PITCH
+    return lattice_with(cells_x=cells, cells_y=cells, width=size, height=size, nodes_per_wall=2)
 
 
 def seed(cells=3, duration=0.2, contact=APART):
