@@ -78,7 +78,7 @@ accuracy: setup  ## tell error against run time; tables and figures go to result
 	@failed=0; for study in configs/accuracy/*.toml; do $(PYTHON) -m sweep accuracy $$study || failed=$$?; \
 	test $$failed -le 1 || break; done; exit $$failed
 
-mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (4 min)
+mesh: setup  ## measure how many elements a wall needs; kept in results/mesh/ (10 min)
 	@$(PYTHON) -m tests.studies.mesh results/mesh
 
 steps: setup  ## measure how long load steps may be; kept in results/steps/ (10 min)

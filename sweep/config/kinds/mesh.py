@@ -1,7 +1,7 @@
 """Default number of elements of a wall: the cheapest mesh that ranks within 2 %.
 
 `make mesh` measures it, in every column of a ranking, against 24 elements a wall: for nine of ten
-designs the error is at most 2 %. How many elements a family needs is measured, not derived.
+designs of every family the error is about 2 % at most. It is measured, not derived.
 """
 
 THREE, EIGHT, TWELVE = 2, 7, 11  # nodes between joints
