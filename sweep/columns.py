@@ -167,6 +167,12 @@ COLUMNS: dict[str, Column] = {
         "other loadings",
         "less",
     ),
+    "peak_step_error": Column(
+        "1",
+        "estimated error of the load steps of a quasi-static crush in a peak of the force that no "
+        "force before it exceeds / that peak; NaN of other loadings",
+        "less",
+    ),
     "lost_energy_J": Column(
         "J",
         "absorbed energy - returned energy, if that is positive; of an impact, energy of the "
@@ -511,6 +517,7 @@ FRAME_COLUMNS: dict[str, Column] = {
 }
 """The arrays of the frames of a case, and its text."""
 
+GRID_KEY = re.compile(r"[a-z]+\.[a-z_]+")
 PROBE = re.compile(r"probe_(\d+)_(.+)_(m|rad|N|Nm)")
 ABSORBED_AT = re.compile(r"absorbed_energy_at_(.+)N_J")
 IN_CYCLE = re.compile(r"(absorbed_energy|lost_energy|peak_force)_in_cycle_(\d+)_[JN]")
@@ -575,10 +582,10 @@ def describe_history(name: str) -> Column:
 
 
 def is_grid_key(name: str) -> bool:
-    """True for the column of a grid key, such as `lattice.wall_thickness`."""
-    names = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
-    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION, ENDS)
-    return not (name in names or any(pattern.fullmatch(name) for pattern in derived))
+    """True for the column of a grid key, such as `lattice.wall_thickness`; a force in the name of a
+    column has a point too, as in `absorbed_energy_at_1.5N_J`.
+    """
+    return GRID_KEY.fullmatch(name) is not None
 
 
 def describe_column(name: str) -> Column:

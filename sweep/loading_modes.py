@@ -58,7 +58,7 @@ class Coarse(NamedTuple):
     ``most`` a result has a mark, as errors of the compared column often exceed the differences of
     similar designs (`sweep.simulation.load_step_error`, `time_resolution`). If ``most`` is NaN, a
     column that is NaN where steps are too long for it. steps, whole: which steps, and what the
-    measure is a share of, in words; keys: the keys that make steps shorter.
+    measure is a share of, in words; keys: the keys that make steps shorter; effect: what errs.
     """
 
     column: str
@@ -66,6 +66,7 @@ class Coarse(NamedTuple):
     steps: str
     whole: str
     keys: str
+    effect: str = "Energies and strains may err by several times that, peak forces by\nmore."
 
 
 class Mode(NamedTuple):
@@ -144,6 +145,11 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("load_step_error", 0.005, "load steps", "the work"),
                 keys="solver.accuracy or load_steps",
+            ),
+            Coarse(
+                *("peak_step_error", 0.02, "load steps", "a peak force"),
+                keys="more solver.load_steps",
+                effect="Densification, and energies until then or up to a force,\nmay err as much.",
             ),
             Coarse(
                 *("integrator_share", 0.01, "time steps", "the work"),

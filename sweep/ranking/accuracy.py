@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.columns import is_grid_key
 from sweep.loading_modes import MODES, Mode
 from sweep.ranking.richardson import Floats, limit, rms
 from sweep.result import Status
@@ -77,7 +78,7 @@ def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
     status = summary["status"].where(summary["retry"] == "", Status.STOPPED)
     summary = summary.assign(status=status)  # a retry has other settings than its row
     refined = refined_keys(summary)
-    keys = [key for key in summary if "." in key and not key.startswith(METHOD + REFINED)]
+    keys = [key for key in summary if is_grid_key(key) and not key.startswith(METHOD + REFINED)]
     scenes = summary.groupby(keys, dropna=False, sort=False) if keys else [(None, summary)]
     converged = [rows for _, rows in scenes if (rows["status"] == Status.CONVERGED).any()]
     return [_study(file, rows, refined) for rows in converged]

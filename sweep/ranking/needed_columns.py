@@ -27,7 +27,7 @@ NEEDED = frozenset(
         *("peak_strain", "densification_strain", "packing_strain", "stroke_left_m"),
         *("peak_deceleration_filtered_m_per_s2", "peak_base_pressure_Pa"),
         *("peak_target_acceleration_m_per_s2", "max_crossings", "stretch_over_curve"),
-        *("integrator_share", "path_error", "load_step_error"),
+        *("integrator_share", "path_error", "load_step_error", "peak_step_error"),
     }
 )
 """Columns of `COLUMNS` that rankings read, whatever the question."""

@@ -1,4 +1,5 @@
-"""Error of the load steps of a quasi-static crush, in the work that the platen does.
+"""Errors of the load steps of a quasi-static crush, in the work that the platen does and in a peak
+of its force.
 
 Two errors of a step d of the platen follow from the rows, as they do in the march, which makes
 steps of an accuracy (`kernels.solve.load_step_error`): |F'' d^3| / 12 of the trapezoidal rule, with
@@ -6,12 +7,20 @@ F'' of the quadratic through three reactions; and (r1 - r0) d / 2 of friction, w
 are estimated before the step, with r its dissipation / d. The first errors add up; the second ones
 change their sign from step to step, and the root of the sum of their squares is taken. How well
 that tells steps that are too long is in docs/accuracy.md.
+
+Walls that relax resist at the speed at which they buckle, and are soft at once afterwards: a peak
+between two rows, of which the curve shows only the flanks. It lies above the greatest row F by no
+more than the force still rose in the step before it; and, as the force falls the faster the nearer
+it is to the peak, by about twice what it falls in the step after it. The lesser of both is the
+estimate. It is next to nothing where walls are elastic, which go on at the force at which they
+buckle, or snap after a slow rise.
 """
 
 from collections.abc import Mapping
 from math import inf, nan
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
@@ -25,11 +34,10 @@ def load_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
 
     NaN of other loadings and without work, infinite with fewer steps than `STEPS`.
     """
-    if not (isinstance(case.loading, Crush) and case.loading.quasi_static):
+    if not _is_static(case):
         return nan
-    travel = np.abs(loading["top_displacement_m"])
-    moved = np.r_[True, travel[1:] > np.maximum.accumulate(travel)[:-1]]
-    travel, force = travel[moved], loading["reaction_top_N"][moved]
+    travel, moved = _moved(loading)
+    force = loading["reaction_top_N"][moved]
     step, work = np.diff(travel), abs(float(np.trapezoid(force, travel)))
     if len(step) < STEPS:
         return inf
@@ -41,3 +49,31 @@ def load_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     curved = np.abs(bend) * step[1:] ** 3 / 12.0
     lagged = np.diff(friction) * step[1:] / 2.0
     return float(curved.sum() + np.sqrt(np.sum(lagged**2))) / work
+
+
+def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
+    """Estimated error of the load steps in a peak that no force before it exceeds / that peak: the
+    greatest of all such peaks, 0 without one; loading: its rows. NaN of other loadings.
+    """
+    if not _is_static(case):
+        return nan
+    travel, moved = _moved(loading)
+    force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"])[moved]
+    if len(force) < STEPS:
+        return 0.0
+    before, peak, after = force[:-2], force[1:-1], force[2:]
+    is_peak = (peak > np.maximum.accumulate(before)) & (after < peak)
+    step = np.diff(travel)
+    missed = np.minimum((peak - before) * step[1:] / step[:-1], 2.0 * (peak - after))
+    return float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
+
+
+def _is_static(case: Case) -> bool:
+    return isinstance(case.loading, Crush) and case.loading.quasi_static
+
+
+def _moved(loading: Mapping[str, Floats]) -> tuple[Floats, NDArray[np.bool_]]:
+    """Travel at the rows that are farther than all before, and which these are."""
+    travel = np.abs(loading["top_displacement_m"])
+    moved = np.r_[True, travel[1:] > np.maximum.accumulate(travel)[:-1]]
+    return travel[moved], moved

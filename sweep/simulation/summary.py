@@ -32,7 +32,7 @@ from sweep.simulation.densification import (
 )
 from sweep.simulation.filter_class import without_blows
 from sweep.simulation.iso_13314 import figures
-from sweep.simulation.load_step_error import load_step_error
+from sweep.simulation.load_step_error import load_step_error, peak_step_error
 from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,
@@ -183,6 +183,7 @@ def summarise(  # noqa: PLR0913  of one case each
         "integrator_share": integrator_share(case.loading, loading if moves(case) else history),
         "path_error": path_error(case, history, strain),
         "load_step_error": load_step_error(case, loading),
+        "peak_step_error": peak_step_error(case, loading),
         "injected_by_projection_J": float(history["injected_by_projection_J"][-1]),
         "energy_residual_J": float(history["energy_residual_J"][-1]),
         "specific_absorption_J_per_g": absorbed / grams,

@@ -38,7 +38,7 @@ LENGTHS = {"plate_y_m": 2, "striker_m": 2, "base_m": 2, "edges": 2, "quads": 4}
 WHOLE = ("edges", "quads", TEXT)
 """Arrays of whole numbers; the others are of fractions."""
 
-FORMAT = 9
+FORMAT = 10
 """Version of the layout and of the columns of a file; `read` refuses files of another."""
 
 GROUPS = ("cases", "histories", *FRAME_GROUPS)

@@ -92,6 +92,7 @@ def test_gaps_are_described_alike_in_summary_and_history():
         (cycle_columns(12)[2], "N", "less", "cycle 12"),
         ("error_absorbed_energy_J", "J", "less", "no bound"),
         (f"error_{absorbed_energy_column(50.0)}", "J", "less", "no bound"),
+        (absorbed_energy_column(1.5), "J", "more", "1.5"),
         ("correction_peak_strain", "1", None, ""),
     ],
 )

@@ -56,7 +56,8 @@ def test_each_trait_row_by_row():
 
 @pytest.mark.parametrize("much", [False, True])
 def test_steps_are_long_by_the_measure_of_the_mode(much):
-    shares = dict.fromkeys(("integrator_share", "path_error", "load_step_error"), 0.0)
+    shares = {each.column: 0.0 for mode in MODES.values() for each in mode.coarse}
+    del shares["peak_force_N"]
     for name, coarse in ((name, each) for name, mode in MODES.items() for each in mode.coarse):
         rows, own = ROWS.assign(**shares, peak_force_N=1.0), ROWS["loading_mode"] == name
         if isnan(coarse.most):

@@ -583,7 +583,7 @@ function notes() {
   if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result. Placed behind all others.");
   if (now.passedOver) lines.push(`By value alone, ${now.passedOver} design${now.passedOver > 1 ? "s" : ""} marked ! or x would stand before the first.`);
   if (rows.some((row) => row.design.coarse))
-    lines.push("i: the steps are coarse (load_step_error, path_error, integrator_share). Energies, forces and strains are uncertain.");
+    lines.push("i: the steps are coarse (load_step_error, peak_step_error, path_error, integrator_share). Energies, forces and strains are uncertain.");
   if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
   if (rows.some((row) => row.design.undrawn))
     lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.columns import describe_column
+from sweep.columns import describe_column, is_grid_key
 from sweep.loading_modes import mode_of
 from sweep.numbers import (
     NOTHING,
@@ -54,10 +54,11 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
 def scene_title(study: Study, name: str) -> str:
     """The name of the study, its loading scene, and the keys that its cases share."""
     rows = study.settings
-    varied = [key for key in rows if "." in key and (varies(rows[key]) or rows[key].isna().all())]
+    keys = [key for key in rows if is_grid_key(key)]
+    varied = [key for key in keys if varies(rows[key]) or rows[key].isna().all()]
     rows = rows.drop(columns=varied)
-    shown = {*scene_keys(rows), *HELD_BY_SCENE}
-    kept = [key for key in rows if "." in key and key not in shown]
+    shown = {*scene_keys(rows), *HELD_BY_SCENE, *varied}
+    kept = [key for key in keys if key not in shown]
     words = [
         f"{key.replace('.', ' ').replace('_', ' ')} "
         f"{with_unit(rows[key].iloc[0], describe_column(key).units)}"

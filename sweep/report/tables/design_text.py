@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pandas import DataFrame, Series
 from pandas.api.types import is_numeric_dtype
 
-from sweep.columns import ALONG, describe_column
+from sweep.columns import ALONG, describe_column, is_grid_key
 from sweep.design.slicer.patterns import is_lateral, is_sheet
 from sweep.numbers import FACTORS, NOTHING, in_unit, scaled, short, shorts, text_in
 from sweep.ranking.scenes import ASSUMPTIONS, scene_labels
@@ -84,7 +84,7 @@ def design_text(frame: DataFrame, among: DataFrame) -> dict[str, Series]:
         by_name = by_name | {"lattice.file"}  # drawings are named by their files
     for key in frame:
         hidden = key in by_name or key.startswith(ASSUMPTIONS)
-        if "." in key and not hidden and _varies(among, key):
+        if is_grid_key(key) and not hidden and _varies(among, key):
             columns |= _grid_text(frame[key], among[key])
     return columns
 

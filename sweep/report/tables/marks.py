@@ -6,7 +6,7 @@ from operator import add
 
 from pandas import DataFrame, Series
 
-from sweep.columns import end_columns
+from sweep.columns import end_columns, is_grid_key
 from sweep.loading_modes import MODES, Coarse, exceeds, has
 from sweep.numbers import in_unit, tenths, to_si
 from sweep.ranking.unfinished import unloaded
@@ -16,8 +16,7 @@ LITTLE_STROKE = 0.1  # of the stroke that closes all voids
 LONG_SPAN = 0.1  # span of strain
 COARSE = """\
 i: {} are long: their estimated error is above {} % of {}, here up to {} %
-({}). Energies and strains may err by several times that, peak forces by
-more. Shorter steps help ({})."""
+({}). {} Shorter steps help ({})."""
 NO_PEAK = """\
 i: {} are too long for the greatest force (–). Densification, and energies until then
 or up to a force, may err by a tenth or more. Shorter steps help ({})."""
@@ -78,7 +77,8 @@ def _coarse_note(coarse: Coarse, rows: DataFrame) -> str:
         return NO_PEAK.format(coarse.steps, coarse.keys)
     most = f"{in_unit(coarse.most, '%'):g}"
     greatest = tenths(float(rows[coarse.column].replace(inf, 1.0).max()))
-    return COARSE.format(coarse.steps, most, coarse.whole, greatest, coarse.column, coarse.keys)
+    about = (coarse.steps, most, coarse.whole, greatest, coarse.column, coarse.effect, coarse.keys)
+    return COARSE.format(*about)
 
 
 def _marked(rows: DataFrame) -> dict[str, Series]:
@@ -117,7 +117,7 @@ def uses_up_stroke(rows: DataFrame) -> Series:
 
 def retried(rows: DataFrame) -> Series:
     """True for results whose retry has another value of a key that varies in the sweep."""
-    keys = [str(name) for name in rows if "." in str(name)]
+    keys = [str(name) for name in rows if is_grid_key(str(name))]
     return rows["retry"].map(lambda retry: any(f"{key} = " in retry for key in keys)).astype(bool)
 
 

@@ -28,4 +28,4 @@ def test_a_row_keeps_the_version_and_the_revision_that_it_was_run_with(path, fol
 
 def test_a_new_column_is_a_new_format():
     """Files without it are refused: every row has all columns."""
-    assert (FORMAT, len(COLUMNS)) == (9, 107)
+    assert (FORMAT, len(COLUMNS)) == (10, 108)
