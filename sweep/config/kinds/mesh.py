@@ -1,15 +1,16 @@
 """Default number of elements of a wall: the cheapest mesh that ranks within 2 %.
 
 `make mesh` measures it, in every column of a ranking, against 24 elements a wall: for nine of ten
-designs of every family the error is about 2 % at most. It is measured, not derived.
+designs of every family the error is about 2 % at most. It is measured, not derived. Hexagons and
+circles would need but three in a crush, and eight when they are struck (docs/accuracy.md).
 """
 
-THREE, EIGHT, TWELVE = 2, 7, 11  # nodes between joints
-ENOUGH = {"hex": THREE, "circle": THREE, "square": EIGHT, "brick": EIGHT, "diamond": EIGHT}
-"""For these families of infill; others, drawings, and parallel lines, whose walls run from side to
-side, have twelve elements a wall."""
+EIGHT, TWELVE = 7, 11  # nodes between joints
+WITH_EIGHT = ("square", "brick", "hex", "circle", "diamond")
+"""Families of infill for which eight elements a wall suffice; others, drawings, and parallel lines,
+whose walls run from side to side, have twelve."""
 
 
 def nodes_of(family: str) -> int:
     """Nodes inside a wall of a family of infill, of parallel lines ("") or of a drawing."""
-    return ENOUGH.get(family, TWELVE)
+    return EIGHT if family in WITH_EIGHT else TWELVE

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from sweep.config.kinds.mesh import ENOUGH, TWELVE
+from sweep.config.kinds.mesh import EIGHT, TWELVE, WITH_EIGHT
 from sweep.numbers import short, tenths
 from sweep.report.tables.sheet import Sheet
 from tests.studies.mesh.crushes import APART, BASE, COLUMNS, DESIGN, FINEST, LASTING, WINDOW
@@ -48,7 +48,6 @@ def by_column(found, title="Errors by column"):
         ratios = [(group[name] / base[name]).median() for group in every]
         rows.append([text, *(f"{ratio:.2f}" for ratio in ratios)])
     entering, designs = (len(each[DESIGN].drop_duplicates()) for each in (known, found))
-    usual = ", ".join(f"{kind} {nodes + 1}" for kind, nodes in ENOUGH.items())
     notes = (
         f"Errors in %, beside {FINEST[-1]} elements a wall: the middle one / that of nine of ten.",
         f"{entering} of {designs} designs enter; the finest meshes of the others failed or part.",
@@ -56,7 +55,7 @@ def by_column(found, title="Errors by column"):
         f"Paths part where mean forces over {100 * WINDOW:g} % of strain differ by "
         f"{100 * APART:g} %, {LASTING} times on end.",
         f"Work: iterations x elements. Work and time are medians, {BASE} elements being 1.",
-        f"default: {usual}, else {TWELVE + 1}.",
+        f"default: {EIGHT + 1} elements in {', '.join(WITH_EIGHT)} cells, else {TWELVE + 1}.",
         verdict(dict(zip(meshes, groups, strict=True)), by_default),
     )
     return Sheet(title, ["elements a wall", *map(str, meshes), "default"], rows, notes=notes)
