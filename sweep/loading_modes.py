@@ -149,7 +149,8 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("peak_step_error", 0.02, "load steps", "a peak force"),
                 keys="more solver.load_steps",
-                effect="Densification, and energies until then or up to a force,\nmay err as much.",
+                effect="Densification, and energies until then, may err as much,\n"
+                "those up to a force near the peak far more.",
             ),
             Coarse(
                 *("integrator_share", 0.01, "time steps", "the work"),

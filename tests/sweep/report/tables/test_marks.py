@@ -130,3 +130,10 @@ def test_a_lattice_that_packs_at_two_strains_is_marked():
     ranges = table.iloc[:1].assign(**ends)
     for others in (table.iloc[2:], table.iloc[1:], ranges):
         assert UNSURE not in legend(ranked(others))
+
+
+def test_a_peak_that_load_steps_miss_is_marked():
+    seen, text = marked(TWO.assign(peak_step_error=[0.019, 0.24]))
+    assert seen == ["1*", "2 i"]
+    assert "above 2 % of a peak force, here up to 24 %" in text
+    assert "up to a force near the peak" in text
