@@ -62,7 +62,7 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     if len(force) < STEPS:
         return 0.0
     before, peak, after = force[:-2], force[1:-1], force[2:]
-    is_peak = (peak > np.maximum.accumulate(before)) & (after < peak)
+    is_peak = (peak > np.maximum.accumulate(np.fmax(before, 0.0))) & (after < peak)
     step = np.diff(travel)
     missed = np.minimum((peak - before) * step[1:] / step[:-1], 2.0 * (peak - after))
     return float((missed[is_peak] / peak[is_peak]).max(initial=0.0))

@@ -103,3 +103,7 @@ def test_columns_that_follow_from_a_name_have_units_and_say_what_is_better(
     assert (column.units, column.better) == (units, better)
     assert told in column.description
     assert not is_grid_key(name)
+
+
+def test_all_keys_of_a_grid_are_known_by_their_form():
+    assert all(is_grid_key(key) for key in CHOICES)

@@ -81,6 +81,7 @@ def test_it_tells_steps_that_are_too_long():
         ([0.0, 3.0, 2.9, 8.0, 12.0], 0.2 / 3.0),  # an early peak counts, as a force may be allowed
         ([0.0, 8.0, 4.0, 5.0, 4.0], 1.0),  # a later one that is lower does not
         ([0.0, 1.0, 2.0, 3.0, 4.0], 0.0),
+        ([-2.0, -1.0, 0.0, -1.0, -2.0], 0.0),  # glued walls that pull
         ([0.0, 1.0], 0.0),
     ],
 )
