@@ -581,6 +581,13 @@ def describe_history(name: str) -> Column:
     return (HISTORY_COLUMNS | STRIKER_COLUMNS | LOAD_COLUMNS)[name]
 
 
+def is_column(name: str) -> bool:
+    """True for a column of results or of a ranking, fixed or derived from a name."""
+    names = {*COLUMNS, *STORED_COLUMNS, *RANKING_COLUMNS}
+    derived = (ABSORBED_AT, IN_CYCLE, PER_GRAM, ERROR, CORRECTION, ENDS)
+    return name in names or any(pattern.fullmatch(name) for pattern in derived)
+
+
 def is_grid_key(name: str) -> bool:
     """True for the column of a grid key, such as `lattice.wall_thickness`; a force in the name of a
     column has a point too, as in `absorbed_energy_at_1.5N_J`.

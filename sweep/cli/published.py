@@ -148,13 +148,13 @@ def _question(arguments: Namespace, mine: Path, text: str) -> tuple[Row, str]:
     """The requested row, and the number of a measured value; the row uses the unit of this
     value.
     """
-    from sweep.columns import describe_column, in_words, is_grid_key
+    from sweep.columns import describe_column, in_words, is_column
     from sweep.published.predict import cases_of
     from sweep.published.quantity import split_quantity
     from sweep.published.table import Row
 
     measure = arguments.measure or USUAL
-    if is_grid_key(measure):
+    if not is_column(measure):
         raise ArgumentError(f"--measure {measure}; allowed: a column of results ({COLUMN_LIST})")
     units = describe_column(measure).units
     number, unit, per = split_quantity(text, units) if text else ("", units, 1.0)

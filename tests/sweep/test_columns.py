@@ -15,6 +15,7 @@ from sweep.columns import (
     cycle_columns,
     describe_column,
     in_words,
+    is_column,
     is_grid_key,
 )
 from sweep.config.keys import CHOICES
@@ -102,8 +103,9 @@ def test_columns_that_follow_from_a_name_have_units_and_say_what_is_better(
     column = describe_column(name)
     assert (column.units, column.better) == (units, better)
     assert told in column.description
+    assert is_column(name)
     assert not is_grid_key(name)
 
 
 def test_all_keys_of_a_grid_are_known_by_their_form():
-    assert all(is_grid_key(key) for key in CHOICES)
+    assert all(is_grid_key(key) and not is_column(key) for key in CHOICES)

@@ -92,7 +92,7 @@ def test_a_second_stop_is_one_after_a_way_down():
 
 
 def test_a_heavy_box_set_down_hard():
-    """544 g from 100 mm: 17 to 20 g0, by the curve of a crush at the speed of the touch.
+    """544 g from 100 mm: 22 to 24 g0, by the curve of a crush at the speed of the touch.
 
     Impact and curve differ as the striker slows down, and the walls have mass.
     """
@@ -105,7 +105,7 @@ def test_a_heavy_box_set_down_hard():
     static, curve = cushion_curve(crush_of(pd.DataFrame(crush.history), crush.summary), 0.1)
     width, depth = case.footprint
     estimate = np.interp(case.loading.weight / (width * depth), static, curve)
-    assert 17.0 < peak < 20.0
+    assert 22.0 < peak < 24.0
     assert peak == pytest.approx(estimate, rel=0.15)
 
 

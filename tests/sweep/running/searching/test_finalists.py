@@ -28,7 +28,7 @@ def test_finalists_stand_on_different_peaks():
 def test_each_has_twice_the_elements_and_one_change():
     case = design("hex", 3, 0.6e-3)
     found = {corner.name: corner.case.lattice for corner in perturbed(case)}
-    assert {lattice.nodes_per_wall for lattice in found.values()} == {5}
+    assert {lattice.nodes_per_wall for lattice in found.values()} == {15}
     walls = [lattice.wall_thickness for lattice in found.values()]
     assert walls == pytest.approx([0.6e-3, 0.57e-3, 0.63e-3, 0.6e-3, 0.6e-3])
     bows = [lattice.imperfection for lattice in found.values()]
