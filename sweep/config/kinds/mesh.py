@@ -1,8 +1,8 @@
 """Default number of elements of a wall: the cheapest mesh that ranks within 2 %.
 
 `make mesh` measures it, in every column of a ranking, against 24 elements a wall: for nine of ten
-designs of every family the error is about 2 % at most. It is measured, not derived. Hexagons and
-circles would need but three in a crush, and eight when they are struck (docs/accuracy.md).
+designs of every family the error is about 2 % at most. It is measured, not derived. For
+hexagons and circles three are enough in a crush, but not when they are struck (docs/accuracy.md).
 """
 
 EIGHT, TWELVE = 7, 11  # nodes between joints
