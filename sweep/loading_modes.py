@@ -148,7 +148,7 @@ MODES: Mapping[str, Mode] = {
             ),
             Coarse(
                 *("peak_step_error", 0.02, "load steps", "a peak force"),
-                keys="more solver.load_steps",
+                keys="solver.accuracy or more load_steps",
                 effect="Densification, and energies until then, may err as much,\n"
                 "those up to a force near the peak far more.",
             ),

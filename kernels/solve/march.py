@@ -81,8 +81,8 @@ class Stage(NamedTuple):
     steps: number of rows. duration: of one row in s; static ones have one too, for rate-dependent
     materials. dynamic: whether there is inertia. scheme: time integrator. error: allowed local
     error of a step, m. accuracy: allowed error of the work in a static step, as a share of that
-    work; where it is infinite, no step spans rows. fall: time in which the load alone would move
-    the structure by its size, s.
+    work. fall: time in which the load alone would move the structure by its size, s. longest: rows
+    that a step may span, with an accuracy. relaxes: whether the material does, in `accuracy`.
     """
 
     steps: int
@@ -96,6 +96,8 @@ class Stage(NamedTuple):
     error: float = np.inf
     accuracy: float = np.inf
     fall: float = np.inf
+    longest: int = 1
+    relaxes: bool = False
 
 
 @jit_exact
@@ -280,7 +282,10 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate = ratio <= 1.0
     if stage.accuracy < np.inf and share >= 1.0:
-        ratio = load_step_error.ratio(problem, state, evaluation, work, progress) / stage.accuracy
+        ratio = load_step_error.ratio(
+            problem, stage, state, evaluation, work, progress, workspace.growing
+        )
+        ratio /= stage.accuracy
         accurate = ratio <= REJECTED_ERROR or share <= 1.0
     if accurate and share > UNCHECKED_SHARE:
         accurate = not _gains_energy(
@@ -332,10 +337,10 @@ def _accept(problem, stage, step, state, workspace, load, descent, progress):
         integrators.update(stage.scheme, state, step, problem, evaluation.u)
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
-    before = totals.reaction
+    if stage.accuracy < np.inf:
+        load_step_error.keep(problem, state, evaluation, work, progress, workspace.growing)
     problem.commit(state.x, step, evaluation)
     enter_step(problem, step, state, evaluation, work)
-    load_step_error.keep(problem, evaluation, totals.reaction - before, progress)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, evaluation, load)
     if energy_book.project(problem, step, state, evaluation, work.trial):
         descent.since_factor = np.inf

@@ -5,13 +5,10 @@ costs more than a doubled share saves: after every failure more shares have to b
 share is doubled.
 """
 
-import numpy as np
-
 from kernels.compile.jit import jit_exact
 
 DOUBLING_ERROR = 0.1  # share of the allowed error: below it the next share may be twice as long
 SPANNING_ERROR = 0.2  # the same, for static shares of a row and longer
-LONGEST = 4  # rows that a static step may span
 MOST_PATIENCE = 63  # most shares to accept after a failure before one is doubled
 
 
@@ -34,11 +31,7 @@ def _fits(stage, progress, share):
     Shares start at multiples of their own length, so that shares of a row end with it.
     """
     at = progress.row + progress.done
-    if at % share != 0.0:
-        return False
-    return share <= 1.0 or (
-        stage.accuracy < np.inf and share <= LONGEST and at + share <= stage.steps
-    )
+    return at % share == 0.0 and share <= stage.longest and at + share <= stage.steps
 
 
 @jit_exact

@@ -23,13 +23,16 @@ class Work(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """evaluation, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`)."""
+    """evaluation, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`).
+    growing (k,): of the stored energies in the last step (`load_step_error`).
+    """
 
     evaluation: Evaluation
     work: Work
     x0: np.ndarray
     y: np.ndarray
     x_pred: np.ndarray
+    growing: np.ndarray
 
 
 @jit_owning
@@ -38,4 +41,5 @@ def make_workspace(n, stored):
     a, b, c = np.zeros((5, n)), np.zeros((5, n)), np.zeros((3, n))
     sums = np.zeros(1, SUMS)
     evaluation = Evaluation(a[0], a[1], a[2], a[3], a[4], np.zeros(stored), sums)
-    return Workspace(evaluation, Work(b[0], b[1], b[2], b[3], b[4]), c[0], c[1], c[2])
+    work = Work(b[0], b[1], b[2], b[3], b[4])
+    return Workspace(evaluation, work, c[0], c[1], c[2], np.zeros(stored))

@@ -12,11 +12,12 @@ from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.directed import Ramp, Role
 from sweep.config.kinds.of_file import OfFile
-from sweep.config.kinds.solver import InTime, Solver, Static
+from sweep.config.kinds.solver import InTime, Static
 from sweep.scene.plates.scene import Scene as PlateScene
-from sweep.scene.scene import Scene, time_step
+from sweep.scene.scene import Scene, rows_in_load_step, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
+LONGEST = 4  # load steps that a step of an accuracy may span
 ROUND_OFF = 4e-15
 LOADED = 100.0  # share of the largest force / share of the force that bends a wall, of a residual
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
@@ -69,20 +70,27 @@ def cycle_rows(phases: list[Phase]) -> list[CycleRows]:
 
 def stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     """The stages of a case: linear ramps of loading and unloading, with the chosen integrator."""
-    return [phase._replace(stage=_controlled(phase, case.solver)) for phase in _stages(case, scene)]
+    return [phase._replace(stage=_controlled(phase, case)) for phase in _stages(case, scene)]
 
 
-def _controlled(phase: Phase, solver: Solver) -> march.Stage:
+def _controlled(phase: Phase, case: Case) -> march.Stage:
     """The stage of a phase with its integrator, and with the error allowed in a step.
 
     A pause has no accuracy, as nothing moves by which an error could be judged.
     """
-    stage = phase.stage._replace(scheme=SCHEMES[solver.integrator])
-    match solver:
+    stage = phase.stage._replace(scheme=SCHEMES[case.solver.integrator])
+    match case.solver:
         case InTime(step_error=float(error)):
             return stage._replace(error=error)
         case Static(accuracy=float(share)) if phase.role != "hold":
-            return stage._replace(accuracy=share)
+            rows = rows_in_load_step(case)
+            return stage._replace(
+                steps=rows * stage.steps,
+                duration=stage.duration / rows,
+                accuracy=share,
+                longest=LONGEST * rows,
+                relaxes=case.material.relaxes,
+            )
     return stage
 
 

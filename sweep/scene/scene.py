@@ -33,6 +33,9 @@ from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
 STATIC_SLIP = 0.2  # share of the wall thickness, in all steps of a loading together
+ROWS_OF_RELAXING = (
+    16  # of a load step: where walls that relax buckle, a step may be as short as one
+)
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
@@ -254,8 +257,16 @@ def friction_of(case: Case) -> friction.Friction:
     """Friction coefficient and smoothing: a slip speed in m/s, or a slip length in m in statics."""
     slip = case.contact.slip_speed
     if slip is None:
-        slip = STATIC_SLIP * case.lattice.wall_thickness / (case.solver.load_steps or 1)
+        rows = (case.solver.load_steps or 1) * rows_in_load_step(case)
+        slip = STATIC_SLIP * case.lattice.wall_thickness / rows
     return friction.Friction(case.contact.friction, slip)
+
+
+def rows_in_load_step(case: Case) -> int:
+    """The rows of a load step: several where a step of an accuracy may be shorter than that."""
+    solver = case.solver
+    by_accuracy = isinstance(solver, Static) and solver.accuracy is not None
+    return ROWS_OF_RELAXING if by_accuracy and case.material.relaxes else 1
 
 
 def time_step(case: Case) -> float:

@@ -11,12 +11,14 @@ that tells steps that are too long is in docs/accuracy.md.
 Walls that relax resist at the speed at which they buckle, and are soft at once afterwards: a peak
 between two rows, of which the curve shows only the flanks. It lies above the greatest row F by no
 more than the force still rose in the step before it; and, as the force falls the faster the nearer
-it is to the peak, by about twice what it falls in the step after it. The lesser of both is the
+it is to the peak, by about twice what it falls in the step after it. The lesser of both is an
 estimate. It is next to nothing where walls are elastic, which go on at the force at which they
-buckle, or snap after a slow rise.
+buckle, or snap after a slow rise. In a step that is too long, walls that relax also buckle too
+early, with a smooth peak; that shows in the energies a^2 of the rows before it, by the third error
+of `kernels.solve.load_step_error` / work of the step.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import inf, nan
 
 import numpy as np
@@ -26,6 +28,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
 from sweep.scene.mesh import Floats
 
+STORED = "stretch_J", "bend_J", "contact_J"
 STEPS = 3  # the fewest in which a curve of force has two second derivatives
 
 
@@ -62,10 +65,24 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     if len(force) < STEPS:
         return 0.0
     before, peak, after = force[:-2], force[1:-1], force[2:]
-    is_peak = (peak > np.maximum.accumulate(np.fmax(before, 0.0))) & (after < peak)
-    step = np.diff(travel)
-    missed = np.minimum((peak - before) * step[1:] / step[:-1], 2.0 * (peak - after))
-    return float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
+    is_greatest = peak > np.maximum.accumulate(np.fmax(before, 0.0))
+    step, rise, is_peak = np.diff(travel), peak - before, is_greatest & (after < peak)
+    missed = np.minimum(rise * step[1:] / step[:-1], 2.0 * (peak - after))
+    found = float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
+    if case.material.relaxes:
+        stored = [loading[name][moved] for name in STORED]
+        early = _of_relaxation(step, stored)[:-1] / (0.5 * (before + peak) * step[:-1])
+        found = max(found, float(early[is_greatest][2:].max(initial=0.0)))
+    return found
+
+
+def _of_relaxation(step: Floats, stored: Sequence[Floats]) -> Floats:
+    """Sum |(a1' - a0') a1'| d^2 of steps d (m), for stored energies a^2 (J); 0 in the first one."""
+    error = np.zeros_like(step)
+    for energy in stored:
+        slope = np.diff(np.sqrt(np.fmax(energy, 0.0))) / step
+        error[1:] += np.abs(np.diff(slope) * slope[1:]) * step[1:] ** 2
+    return error
 
 
 def _is_static(case: Case) -> bool:

@@ -33,10 +33,6 @@ MIXED = """\
 behaviour: of the walls. The rest is lost to friction, in the material, in snap-through or in time
 integration, or is still stored in walls that relax. In elastic walls, what is lost in the material
 is damping."""
-BUCKLES_LATER = """\
-Walls relax: in shorter load steps (more solver.load_steps) they buckle later, at forces that may be
-a quarter greater. Energies until densification may then change by a fifth, those up to a force near
-a peak by more."""
 SHAPED = """\
 striker: it acts on the whole depth as a line; a tooth or a corner narrower than that presses less
 of the lattice. Strain is its way after the first touch / height."""
@@ -105,10 +101,8 @@ def _notes(ranking: Ranking) -> list[str]:
     table = ranking.table
     crushed = table[has(table, "driven")]
     densified, twice = crushed["densification_strain"].notna(), densifies_twice(crushed)
-    relaxes = crushed["material_memory"].str.contains("relaxes")
     notes = {
         printed_note(table): "counted_mass_g" in table,
-        BUCKLES_LATER: (relaxes & crushed["load_step_error"].notna()).any(),
         **dict.fromkeys(mark_notes(table), True),
         UNSURE: (is_unsure(crushed) & densified & ~twice).any() and not ranking.limited,
         TWICE: twice.any() and not ranking.limited,

@@ -131,7 +131,7 @@ def test_friction_of_a_led_particle_is_that_of_where_it_is_led():
 def test_steps_are_as_long_as_their_accuracy_allows(friction):
     """The work up a smooth hill, compared with that in short steps."""
     chain, high, low = line(1, driven=True, friction=friction), -0.2, -1.0
-    stage = march.Stage(200, 1.0, False, 0.0, 0.0, low * WIDTH, high * WIDTH)
+    stage = march.Stage(200, 1.0, False, 0.0, 0.0, low * WIDTH, high * WIDTH, longest=4)
     _, short, _ = go(chain, begun(chain, [low * WIDTH]), stage._replace(accuracy=1e-9))
     errors, counts = [], []
     for accuracy in (3e-2, 3e-3, 3e-4):

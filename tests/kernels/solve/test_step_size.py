@@ -11,7 +11,10 @@ class Shares:
     """Shares of a step from a ``share`` on, rejected and accepted at will, in plain Python."""
 
     def __init__(self, share, accuracy=np.inf):
-        self.stage = march.Stage(16, 1.0, False, 0.0, 0.0, 0.0, 1.0, accuracy=accuracy)
+        longest = 4 if accuracy < np.inf else 1
+        self.stage = march.Stage(
+            16, 1.0, False, 0.0, 0.0, 0.0, 1.0, accuracy=accuracy, longest=longest
+        )
         self.progress = np.zeros(1, march.PROGRESS)[0]
         self.progress.share = share
         self.descent = np.zeros(1, newton.DESCENT)[0]

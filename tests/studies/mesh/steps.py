@@ -1,8 +1,8 @@
 """How long load steps may be: ranked values in steps of an accuracy and in equal ones.
 
 Run by `make steps`: the crushes of `crushes` on their default meshes, elastic and with a loss of 40
-%, against `FINEST` equal steps. Designs whose two finest runs follow different paths enter no
-average. Finished cases are kept in the given folder.
+%, against the finest of `EQUAL` steps. Designs that follow different paths in its two numbers of
+steps enter no average. Finished cases are kept in the given folder.
 """
 
 import sys
@@ -22,19 +22,22 @@ SETTINGS = {
     **{f"{share:.1%}": {"accuracy": share} for share in (1e-2, 3e-3, 1e-3)},
     **{str(count): {"load_steps": count} for count in (25, 50, 100, 200, 400)},
 }
-FINE, FINEST = "800", "1600"
 LOSSES = (0.0, 0.4)
+EQUAL = {0.0: ("800", "1600"), 0.4: ("6400", "12800")}  # by loss: a fine and the finest number
 
 
 def cases_of(designs=DESIGNS, settings=SETTINGS, losses=LOSSES):
     """The crushes by loss, design and setting."""
-    every = settings | {text: {"load_steps": int(text)} for text in (FINE, FINEST)}
     return {
         (loss, design, name): _case(design, loss, setting)
         for loss in losses
         for design in designs
-        for name, setting in every.items()
+        for name, setting in (settings | _equal(loss)).items()
     }
+
+
+def _equal(loss):
+    return {text: {"load_steps": int(text)} for text in EQUAL[loss]}
 
 
 def _case(design, loss, setting):
@@ -50,14 +53,15 @@ def compare(cases, rows, curves, loss):
     if it failed, or has no reference.
     """
     designs = list(dict.fromkeys(design for each, design, _ in cases if each == loss))
-    settings = list(dict.fromkeys(name for *_, name in cases))
+    settings = list(dict.fromkeys(name for each, _, name in cases if each == loss))
+    fine, finest = EQUAL[loss]
     kept = (*COLUMNS, "parted", "work", "estimate")
     errors = {name: {column: [] for column in kept} for name in settings}
     for design in designs:
         ids = {name: cases[loss, design, name].case_id for name in settings}
-        true, path = rows.loc[ids[FINEST]], curves[ids[FINEST]]
-        certain = all(rows.loc[ids[name], "status"] == "converged" for name in (FINE, FINEST))
-        certain = certain and np.isnan(parted(curves[ids[FINE]], path))
+        true, path = rows.loc[ids[finest]], curves[ids[finest]]
+        certain = all(rows.loc[ids[name], "status"] == "converged" for name in (fine, finest))
+        certain = certain and np.isnan(parted(curves[ids[fine]], path))
         for name, case_id in ids.items():
             row, known = rows.loc[case_id], errors[name]
             counts = certain and row["status"] == "converged"
@@ -71,7 +75,8 @@ def compare(cases, rows, curves, loss):
 
 def sheet(errors, loss):
     """Errors in %, the median / the ninth decile / the greatest, and iterations."""
-    names = [name for name in errors if name not in (FINE, FINEST)]
+    fine, finest = EQUAL[loss]
+    names = [name for name in errors if name not in EQUAL[loss]]
     rows = [
         [text, *(_errors(errors[name][column]) for name in names)]
         for column, text in COLUMNS.items()
@@ -80,11 +85,11 @@ def sheet(errors, loss):
     rows.append(["marked", *(str(int(_marked(errors[name]).sum())) for name in names)])
     rows.append(["paths part", *(str(np.isfinite(errors[name]["parted"]).sum()) for name in names)])
     rows.append(["iterations", *(f"{np.median(errors[name]['work']):.0f}" for name in names)])
-    entering = int(np.isfinite(errors[FINE]["absorbed_energy_J"]).sum())
+    entering = int(np.isfinite(errors[fine]["absorbed_energy_J"]).sum())
     notes = (
-        f"Errors in %, beside {FINEST} equal steps: the middle one / that of nine of ten / the "
+        f"Errors in %, beside {finest} equal steps: the middle one / that of nine of ten / the "
         "greatest. Accuracies in %, numbers of equal steps.",
-        f"{entering} of {len(errors[FINE]['work'])} designs enter; the others have no truth.",
+        f"{entering} of {len(errors[fine]['work'])} designs enter; the others have no truth.",
     )
     material = "elastic" if loss == 0.0 else f"loss {loss:.0%}"
     return Sheet(f"Errors of load steps, {material}", ["steps", *names], rows, notes=notes)

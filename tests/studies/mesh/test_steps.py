@@ -19,8 +19,7 @@ def test_every_design_in_every_setting():
 
 
 def test_errors_beside_the_finest(monkeypatch):
-    monkeypatch.setattr(steps, "FINE", "80")
-    monkeypatch.setattr(steps, "FINEST", "160")
+    monkeypatch.setitem(steps.EQUAL, 0.0, ("80", "160"))
     few = {name: steps.SETTINGS[name] for name in ("0.3%", "25")}
     cases = steps.cases_of(DESIGNS[:1], few, (0.0,))
     results = {case.case_id: simulate(case) for case in cases.values()}

@@ -7,6 +7,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.steps import count_of
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, Phase, cycle_rows, stages, tolerances
+from sweep.scene.scene import friction_of
 from tests.support.designs.cases import pressed
 
 
@@ -132,3 +133,21 @@ def test_the_residual_may_grow_with_the_forces_of_a_crush_not_of_a_motion(loadin
     case = Case.of(loading=loading)
     scene = build_scene(case)
     assert tolerances(case, scene, stages(case, scene)[0].stage).share == pytest.approx(share)
+
+
+def test_walls_that_relax_have_shorter_steps_where_they_buckle():
+    """A step is as short as a 16th of a load step, and as long as four of them, as of others; a
+    pause has its own steps. The slip in all steps together is the same.
+    """
+    for loss, rows in ((None, 1), (0.3, 16)):
+        tables = {} if loss is None else dict(material=dict(loss=loss))
+        loading = dict(mode="displacement", strain_rate=0.1, hold_time=1.0)
+        case = Case.of(loading=loading, **tables)
+        down, *pause, up = (phase.stage for phase in stages(case, build_scene(case)))
+        assert down.steps == up.steps == 400 * rows
+        assert down.longest == up.longest == 4 * rows
+        assert down.relaxes == up.relaxes == (loss is not None)
+        assert friction_of(case).slip * down.steps == pytest.approx(0.2 * 0.8e-3)
+        assert [(still.accuracy, still.longest, still.relaxes) for still in pause] == (
+            [(np.inf, 1, False)] if loss else []
+        )

@@ -1,7 +1,7 @@
 """The legend of a ranking explains what its tables show, and nothing else."""
 
 from sweep.ranking.rank import ranked
-from sweep.report.tables.legend import BUCKLES_LATER, EARLY, PULLED, TWICE, legend
+from sweep.report.tables.legend import EARLY, PULLED, TWICE, legend
 from sweep.report.tables.marks import MEANINGS
 from sweep.report.tables.sheets import ranking_sheets
 from tests.support.results.specimens import CRUSHED_SOLID, SPARSE, summary
@@ -30,17 +30,3 @@ def test_a_crush_that_ends_below_the_allowed_force_absorbs_at_least_so_much():
         assert sorted(sheet.columns[sheet.heads.index("usable mJ")]) == energies
         assert (EARLY in legend(ranking)) == (force is not None)
         assert TWICE not in legend(ranking)
-
-
-def test_peaks_of_slow_crushes_of_walls_that_relax_are_doubted():
-    for memory, error, doubted in (
-        ("none", 1e-3, False),
-        ("yields", 1e-3, False),
-        ("relaxes", 1e-3, True),
-        ("relaxes and softens", 1e-3, True),
-        ("relaxes", float("nan"), False),  # at a speed, in time steps
-    ):
-        table = summary(SPARSE | {"material_memory": memory, "load_step_error": error})
-        limited = ranked(table.assign(absorbed_energy_at_50N_J=0.2), allowed_force=50.0)
-        for ranking in (ranked(table), limited):
-            assert (BUCKLES_LATER in legend(ranking)) == doubted
