@@ -46,7 +46,8 @@ MOST_DOUBLINGS = 4  # of the iterations of a share that is static or longer than
 MOST_OF_ROW = 4 << MOST_DOUBLINGS  # times the iterations of a minimisation, in a static row: a row
 # that needs more would go on in very short shares, and might snap into another shape
 SHORTEST = 0.125  # share of a row: first step where steps may span rows, as it has no friction yet
-REJECTED_ERROR = 4.0  # times the allowed error: a step that spans rows is accepted below it
+REJECTED_ERROR = 4.0  # times the allowed error: a step that spans rows is accepted below it; where
+# walls relax, below the allowed error, as one that buckles too early is not undone
 LARGEST_GAIN = 2e-3  # energy that backward Euler may generate, as a share of the largest energy
 LARGEST_ERROR = 5e-2  # the same for the trapezoidal rule of other steps, whose loss has either sign
 UNCHECKED_SHARE = 2.0**-12  # shorter shares of a step may generate more energy: the sum over all
@@ -286,7 +287,7 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
             problem, stage, state, evaluation, work, progress, workspace.growing
         )
         ratio /= stage.accuracy
-        accurate = ratio <= REJECTED_ERROR or share <= 1.0
+        accurate = ratio <= (1.0 if stage.relaxes else REJECTED_ERROR) or share <= 1.0
     if accurate and share > UNCHECKED_SHARE:
         accurate = not _gains_energy(
             problem, stage, state, step, evaluation, share, tolerance.noise

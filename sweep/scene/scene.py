@@ -33,9 +33,7 @@ from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
 STATIC_SLIP = 0.2  # share of the wall thickness, in all steps of a loading together
-ROWS_OF_RELAXING = (
-    16  # of a load step: where walls that relax buckle, a step may be as short as one
-)
+ROWS_OF_RELAXING = 32  # of a load step: where walls that relax buckle, a step may be so short
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 

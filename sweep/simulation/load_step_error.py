@@ -14,8 +14,8 @@ more than the force still rose in the step before it; and, as the force falls th
 it is to the peak, by about twice what it falls in the step after it. The lesser of both is an
 estimate. It is next to nothing where walls are elastic, which go on at the force at which they
 buckle, or snap after a slow rise. In a step that is too long, walls that relax also buckle too
-early, with a smooth peak; that shows in the energies a^2 of the rows before it, by the third error
-of `kernels.solve.load_step_error` / work of the step.
+early, with a smooth peak; that shows in the energies a^2 of the rows that rise to it, by the third
+error of `kernels.solve.load_step_error` / step, a force.
 """
 
 from collections.abc import Mapping, Sequence
@@ -71,9 +71,15 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     found = float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
     if case.material.relaxes:
         stored = [loading[name][moved] for name in STORED]
-        early = _of_relaxation(step, stored)[:-1] / (0.5 * (before + peak) * step[:-1])
-        found = max(found, float(early[is_greatest][2:].max(initial=0.0)))
+        early = (_of_relaxation(step, stored) / step)[:-1] / _next_peak(peak, is_peak)
+        found = max(found, float(early[is_greatest].max(initial=0.0)))
     return found
+
+
+def _next_peak(force: Floats, is_peak: NDArray[np.bool_]) -> Floats:
+    """The force at the next peak from each row on; after the last one, the greatest force."""
+    peaks = np.append(force[is_peak], force.max())
+    return peaks[np.searchsorted(np.flatnonzero(is_peak), np.arange(len(force)))]
 
 
 def _of_relaxation(step: Floats, stored: Sequence[Floats]) -> Floats:

@@ -51,7 +51,7 @@ class Static(_Solver):
     """Equilibria after steps of a load or a platen.
 
     `accuracy`: allowed error of the work in a step, as a share of it; a step then spans up to four
-    of `load_steps` equal ones, and is as short as a 16th of one where walls that relax buckle.
+    of `load_steps` equal ones, and is as short as a 32nd of one where walls that relax buckle.
     Without it, steps are equal.
     """
 

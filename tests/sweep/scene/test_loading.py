@@ -136,10 +136,10 @@ def test_the_residual_may_grow_with_the_forces_of_a_crush_not_of_a_motion(loadin
 
 
 def test_walls_that_relax_have_shorter_steps_where_they_buckle():
-    """A step is as short as a 16th of a load step, and as long as four of them, as of others; a
+    """A step is as short as a 32nd of a load step, and as long as four of them, as of others; a
     pause has its own steps. The slip in all steps together is the same.
     """
-    for loss, rows in ((None, 1), (0.3, 16)):
+    for loss, rows in ((None, 1), (0.3, 32)):
         tables = {} if loss is None else dict(material=dict(loss=loss))
         loading = dict(mode="displacement", strain_rate=0.1, hold_time=1.0)
         case = Case.of(loading=loading, **tables)
