@@ -3,7 +3,7 @@
 import numpy as np
 from pandas import DataFrame, Series, concat
 
-from sweep.columns import correction_column, end_columns, less_is_better
+from sweep.columns import correction_column, end_columns, error_column, less_is_better
 from sweep.ranking.merit import doubtful
 
 
@@ -18,7 +18,8 @@ def places_by(rows: DataFrame, by: str) -> Series:
 
 
 def _shared(rows: DataFrame, by: str) -> Series:
-    return shared_places(rows[by], rows.get(correction_column(by)), *reach(rows, by))
+    bars = (rows.get(name(by)) for name in (correction_column, error_column))
+    return shared_places(rows[by], *bars, *reach(rows, by))
 
 
 def passed_over(rows: DataFrame, by: str) -> Series:
@@ -38,25 +39,28 @@ def reach(rows: DataFrame, by: str) -> tuple[Series, Series]:
 def shared_places(
     values: Series,
     corrections: Series | None = None,
+    errors: Series | None = None,
     below: Series | None = None,
     above: Series | None = None,
 ) -> Series:
     """Places of sorted values, the best first.
 
     A value shares a place if it differs from the first value of the place by no more than their
-    corrections differ, so that an error that both have in common does not count. A missing
-    correction is 0. A value also shares the place if its range, up to `above`, overlaps the range
-    of the first value, down to `below`. Otherwise the value starts a new place, whose number is 1 +
-    the number of values before it.
+    corrections or their errors differ, so that an error that both have in common does not count. A
+    missing correction is 0, a missing error differs from none. A value also shares the place if its
+    range, up to `above`, overlaps the range of the first value, down to `below`. Otherwise the
+    value starts a new place, whose number is 1 + the number of values before it.
     """
-    shifts = np.zeros(len(values)) if corrections is None else corrections.fillna(0.0)
-    down, up = (np.zeros(len(values)) if one is None else one for one in (below, above))
+    columns = (corrections, errors, below, above)
+    shifts, bars, down, up = (np.zeros(len(values)) if one is None else one for one in columns)
+    known = np.nan_to_num(shifts), bars, down, up
     places: list[int] = []
-    best = first = low = np.nan
-    for value, correction, under, over in zip(values, shifts, down, up, strict=True):
-        if abs(value - best) <= abs(correction - first) + low + over:
+    best = shift = bar = low = np.nan
+    for value, correction, error, under, over in zip(values, *known, strict=True):
+        apart = np.fmax(abs(correction - shift), abs(error - bar))
+        if abs(value - best) <= apart + low + over:
             places.append(places[-1])
         else:
-            best, first, low = value, correction, under
+            best, shift, bar, low = value, correction, error, under
             places.append(len(places) + 1)
     return Series(places, index=values.index, dtype=int)

@@ -195,17 +195,18 @@ function markFront(rows, merit, weight) {
 }
 
 // Places of sorted rows, doubtful ones last: a value shares the place of the first value of that
-// place if it differs from it by no more than their corrections differ, a missing one is 0, or if
-// their ranges meet; but no doubtful row shares a place with one that is not.
+// place if it differs from it by no more than their corrections or their errors differ, if those are
+// known, or if their ranges meet; but no doubtful row shares a place with one that is not.
 function markPlaces(rows) {
   let best = NaN;
-  let [first, low] = [NaN, NaN];
+  let [shift, bar, low] = [NaN, NaN, NaN];
   rows.forEach((row, i) => {
-    const correction = row.correction ?? 0;
+    const [correction, error] = [row.correction ?? 0, row.error ?? NaN];
     const apart = i > 0 && doubtful(row) !== doubtful(rows[i - 1]);
-    const reached = Math.abs(row.value - best) <= Math.abs(correction - first) + low + row.above;
+    const differ = Math.max(Math.abs(correction - shift), Math.abs(error - bar) || 0);
+    const reached = Math.abs(row.value - best) <= differ + low + row.above;
     if (reached && !apart) row.place = rows[i - 1].place;
-    else [best, first, low, row.place] = [row.value, correction, row.below, i + 1];
+    else [best, shift, bar, low, row.place] = [row.value, correction, error, row.below, i + 1];
   });
   const sharing = new Map();
   for (const row of rows) sharing.set(row.place, (sharing.get(row.place) ?? 0) + 1);

@@ -55,6 +55,13 @@ def test_values_share_the_place_of_the_first_that_their_corrections_reach(
     assert list(shared_places(pd.Series(values), corrections)) == places
 
 
+def test_values_share_a_place_if_one_of_them_is_known_far_less_well():
+    """Its corrections by mesh and by steps may cancel."""
+    values, errors = pd.Series([10.0, 9.7, 9.5, 9.0]), pd.Series([0.1, 0.5, 0.3, NAN])
+    assert list(shared_places(values, None, errors)) == [1, 1, 3, 4]
+    assert list(shared_places(values, 0.0 * errors, 0.0 * errors + 5.0)) == [1, 2, 3, 4]
+
+
 def test_errors_that_all_designs_share_make_no_ties():
     table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.9] * 4))
     correction = "correction_absorbed_energy_until_packed_J"
