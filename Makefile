@@ -90,7 +90,7 @@ rammed: setup  ## ram a panel with three fronts; the rankings and the picture of
 	@$(PYTHON) -m sweep rank results/rammed.h5 --out results/rammed
 	@cp results/rammed/winners.png docs/pictures/rammed.png
 
-gyroid: setup  ## press sheets and prisms both ways; the table and the picture of README.md (20 min)
+gyroid: setup  ## press sheets and prisms both ways; the table and the picture of README.md (25 min)
 	@$(PYTHON) -m sweep run configs/gyroid.toml > results/gyroid.txt
 	@COLUMNS=104 $(PYTHON) -m sweep rank results/gyroid.h5 --top 18
 	@$(PYTHON) -m sweep show results/gyroid.h5 4df76c33
