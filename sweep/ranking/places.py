@@ -18,8 +18,8 @@ def places_by(rows: DataFrame, by: str) -> Series:
 
 
 def _shared(rows: DataFrame, by: str) -> Series:
-    bars = (rows.get(name(by)) for name in (correction_column, error_column))
-    return shared_places(rows[by], *bars, *reach(rows, by))
+    correction, error = rows.get(correction_column(by)), rows.get(error_column(by))
+    return shared_places(rows[by], correction, error, *reach(rows, by))
 
 
 def passed_over(rows: DataFrame, by: str) -> Series:
