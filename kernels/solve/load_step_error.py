@@ -10,13 +10,13 @@ through the last three reactions, 2 (s1 - s0) / (d + d0) with slopes s = dF / d.
 bounds the error of friction, whose normal forces are estimated before the step (`march`): its
 forces r are off by no more than their change in a step, in which the coordinates move by u.
 
-The third part is that of walls that relax, whose stress is exact if strains change evenly in a step
-(`laws.relaxation`). Where walls begin to buckle they do not, and in a step that is too long they
-buckle too early, against the stiffness of a wall that has relaxed meanwhile. A stored energy a^2 is
-that of a shape with the amplitude a, whose force is 2 a; with a' the change of a in a step / d,
-half of the unexpected change (a1' - a0') d is the error of the amplitude, as of backward Euler, and
-the energy errs by its force times the change a1' d. It counts fourfold, as it grows with the shape:
-with less weight some re-entrant cells and diamonds take other folds (docs/accuracy.md).
+The third part is the error of walls that relax, whose stress is exact if strains change evenly in a
+step (`laws.relaxation`). Where walls begin to buckle they do not, and in a step that is too long
+they buckle too early, against the stiffness of a wall that has relaxed meanwhile. A stored energy
+a^2 belongs to a shape with the amplitude a, whose force is 2 a; with a' the change of a in a step /
+d, half of the unexpected change (a1' - a0') d is the error of the amplitude, as in backward Euler,
+and the energy errs by the force times the change a1' d. It counts fourfold, as it grows with the
+shape: with less weight some re-entrant cells and diamonds take other folds (docs/accuracy.md).
 """
 
 import math

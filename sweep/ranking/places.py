@@ -53,10 +53,10 @@ def shared_places(
     """
     columns = (corrections, errors, below, above)
     shifts, bars, down, up = (np.zeros(len(values)) if one is None else one for one in columns)
-    known = np.nan_to_num(shifts), bars, down, up
+    rows = zip(values, np.nan_to_num(shifts), bars, down, up, strict=True)
     places: list[int] = []
     best = shift = bar = low = np.nan
-    for value, correction, error, under, over in zip(values, *known, strict=True):
+    for value, correction, error, under, over in rows:
         apart = np.fmax(abs(correction - shift), abs(error - bar))
         if abs(value - best) <= apart + low + over:
             places.append(places[-1])

@@ -68,12 +68,12 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     is_greatest = peak > np.maximum.accumulate(np.fmax(before, 0.0))
     step, rise, is_peak = np.diff(travel), peak - before, is_greatest & (after < peak)
     missed = np.minimum(rise * step[1:] / step[:-1], 2.0 * (peak - after))
-    found = float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
+    error = float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
     if case.material.relaxes:
         stored = [loading[name][moved] for name in STORED]
         early = (_of_relaxation(step, stored) / step)[:-1] / _next_peak(peak, is_peak)
-        found = max(found, float(early[is_greatest].max(initial=0.0)))
-    return found
+        error = max(error, float(early[is_greatest].max(initial=0.0)))
+    return error
 
 
 def _next_peak(force: Floats, is_peak: NDArray[np.bool_]) -> Floats:

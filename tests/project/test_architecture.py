@@ -89,7 +89,6 @@ TESTED_ELSEWHERE = {
     "kernels.linear.supernodal.symbolic": "kernels/linear/supernodal/test_factor.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",
     "kernels.solve.history": "kernels/solve/test_chain.py",
-    "kernels.solve.load_step_error": "kernels/solve/test_chain.py",
     "kernels.solve.residual": "kernels/solve/test_newton.py",
     "kernels.solve.workspace": "kernels/solve/test_first_guess.py",
     "kernels.laws.law": "physics/test_memories.py",

@@ -68,7 +68,7 @@ PINNED = [
     pin(
         "panel",
         PANEL | SQUARE | dict(lattice__wall_thickness=0.8e-3),
-        absorbed_energy_until_packed_J=7.8795,
+        absorbed_energy_until_packed_J=8.0324,
     ),
     # A panel whose walls are as thick as its mass says.
     pin("drawn", BRACED, absorbed_energy_until_packed_J=0.40548, mass_g=near(4.0, 1e-9)),
@@ -218,11 +218,11 @@ def test_which_way_lost_presses_the_same_prints_of_a_material_that_loses_30_perc
 @pytest.mark.parametrize(
     ("name", "laid", "along", "energy"),
     [
-        ("gyroid", False, True, 2.5483),
-        ("schwarz_d", False, True, 2.7183),
-        ("square", False, True, 5.8111),
-        ("gyroid", True, False, 2.5194),
-        ("tpmsd", True, True, 2.9508),
+        ("gyroid", False, True, 2.5591),
+        ("schwarz_d", False, True, 2.7291),
+        ("square", False, True, 5.8319),
+        ("gyroid", True, False, 2.5306),
+        ("tpmsd", True, True, 2.9624),
     ],
 )
 def test_gyroid_holds_its_numbers(name, laid, along, energy):
