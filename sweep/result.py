@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 23
+MODEL_VERSION = 24
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = [name for name in COLUMNS if any(name in mode.columns for mode in MODES.values())]

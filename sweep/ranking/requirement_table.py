@@ -16,7 +16,8 @@ class Measure(NamedTuple):
     shared: whether the values of the specimens of a panel add up. asked_of: kinds of loading in
     which the design, not the loading, sets the value. least: the limit is a least value; else it is
     a greatest one. noun: the value in words. none: why nothing fulfils it. unknown: why a value is
-    unknown. example: a limit. about: the meaning of the option, before the example.
+    unknown. example: a limit. about: the meaning of the option, before the example. step_error:
+    column of the error of load steps, as a share of the value in a crush; empty without one.
     """
 
     unit: str
@@ -30,6 +31,7 @@ class Measure(NamedTuple):
     about: str = "required"
     least: bool = False
     unknown: str = "not measured"
+    step_error: str = ""
 
     @property
     def limit(self) -> str:
@@ -56,6 +58,7 @@ MEASURES = {
         example="60 N",
         about="required, while the usable energy is absorbed",
         unknown="time steps are too long for peaks (solver.time_step)",
+        step_error="peak_step_error",
     ),
     "max_deceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
@@ -103,6 +106,7 @@ MEASURES = {
         none="None absorbs as much as {}; the most is {}",
         example="1.5 J",
         least=True,
+        step_error="load_step_error",
     ),
     "max_stroke": Measure(
         *("m", "mm", "LENGTH"),

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from pandas import DataFrame, Series
 
+from sweep.columns import error_column
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
@@ -43,7 +44,8 @@ class Outcome:
     mode: of loading. budget_g: NaN without a budget.
     designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
         of designs that fulfil them and are marked as beyond the model or as crossed. coarse: number
-        of others that fulfil them, with steps that are too long.
+        of others that fulfil them, with steps that are too long. close: number of designs that
+        meet or miss each requirement by less than the error of their value.
     failed: number of designs that fail each requirement. unknown: number of these designs that
         have no value for it. open: number of designs that fail only `min_absorbed` and may fulfil
         it in a longer crush, as they were crushed too little for all energy to be counted.
@@ -64,6 +66,7 @@ class Outcome:
     fulfil: int
     doubtful: int
     coarse: int
+    close: Mapping[str, int]
     failed: Mapping[str, int]
     unknown: Mapping[str, int]
     open: int
@@ -123,7 +126,8 @@ class Judged(NamedTuple):
 
     mass: name of the column that budgets limit. limits: the limits (SI) of the requirements that
     apply to this kind of loading; left_out: the other requirements. measures (rows, limits):
-    measured values. shares (rows, limits): from `misses`. fulfil (rows,).
+    measured values. shares (rows, limits): from `misses`. close (rows, limits): whether a value is
+    nearer to its limit than its error. fulfil (rows,).
     """
 
     rows: DataFrame
@@ -132,13 +136,15 @@ class Judged(NamedTuple):
     left_out: tuple[str, ...]
     measures: DataFrame
     shares: DataFrame
+    close: DataFrame
     fulfil: Series
 
     def within(self, budget_g: float) -> "Judged":
         """The same for the rows within a budget."""
         kept = within_budget(self.rows[self.mass], budget_g)
         parts = {
-            name: getattr(self, name)[kept] for name in ("rows", "measures", "shares", "fulfil")
+            name: getattr(self, name)[kept]
+            for name in ("rows", "measures", "shares", "close", "fulfil")
         }
         return self._replace(**parts)
 
@@ -163,7 +169,10 @@ def judge(
     shares = misses(rows, measures, mode_limits)
     fulfil = rows["mass_g"].notna() & (shares == 0.0).all(axis=1)
     left_out = tuple(name for name in required if name not in mode_limits)
-    judged = Judged(rows, names.mass, mode_limits, left_out, values, shares, fulfil)
+    errors = relative_errors(rows, names)
+    near = {k: _close(k, values[k], mode_limits[k], errors[k]) for k in mode_limits}
+    close = DataFrame(near, index=rows.index)
+    judged = Judged(rows, names.mass, mode_limits, left_out, values, shares, close, fulfil)
     if not required or rows.empty:
         return fulfil, ()
     rectangle = _rectangle(rows, required, per, allowed)
@@ -185,6 +194,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         fulfil=int(part.fulfil.sum()),
         doubtful=int(part.fulfil.sum()) - soundly,
         coarse=coarse,
+        close={name: int(part.close[name].sum()) for name in part.limits},
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.limits},
         unknown={name: int(part.measures[name].isna().sum()) for name in part.limits},
         open=_open(part, energy, force),
@@ -222,6 +232,34 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
         name: values * together if per == "panel" and MEASURES[name].shared else values
         for name, values in of_specimen.items()
     }
+
+
+def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
+    """The error of the value of each row for each requirement, relative to that value: the greater
+    of the estimate of its load steps and of its error bar. 0 where neither is known.
+    """
+    crushed = has(rows, "driven")
+    bars = {
+        "max_force": _bar(rows, "passed_on_N").where(crushed, _bar(rows, "peak_force_N")),
+        "max_deceleration": _bar(rows, "peak_deceleration_filtered_m_per_s2"),
+        "min_absorbed": _bar(rows, names.energy),
+    }
+    none = Series(0.0, index=rows.index)
+    return {
+        name: np.fmax(bars.get(name, none), rows.get(measure.step_error, none).fillna(0.0))
+        for name, measure in MEASURES.items()
+    }
+
+
+def _bar(rows: DataFrame, name: str) -> Series:
+    """The error bar of a column relative to its values, 0 without one."""
+    error = rows.get(error_column(name), Series(0.0, index=rows.index))
+    return (error / rows[name]).fillna(0.0)
+
+
+def _close(name: str, values: Series, limit: float, error: Series) -> Series:
+    """Whether a value is nearer to its limit than its error, by which its limit may be missed."""
+    return abs(MEASURES[name].share_missed(values, limit)) < error * values / limit
 
 
 def misses(

@@ -14,6 +14,7 @@ from sweep.scene.joints import Arms, point_joints, solid_joints
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 SHORTEST = 0.5  # length of an element over its thickness, between solid joints
+ROUND_OFF = 1e-9  # relative, of the lengths of equal walls
 
 
 @dataclass(frozen=True)
@@ -126,7 +127,7 @@ def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
     sliced = network.gyration is not None
     least = (1.0 if sliced else SHORTEST) * network.wall_thickness
-    fit = np.floor(free / least).astype(np.int64)
+    fit = np.floor(free / least * (1.0 + ROUND_OFF)).astype(np.int64)
     limited = (arms.length > 0.0).any(axis=1) | sliced | (network.part is not None)
     pieces = network.pieces(most)
     return np.where(limited, np.clip(fit, 1, pieces), pieces)

@@ -71,8 +71,9 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     error = float((missed[is_peak] / peak[is_peak]).max(initial=0.0))
     if case.material.relaxes:
         stored = [loading[name][moved] for name in STORED]
-        early = (_of_relaxation(step, stored) / step)[:-1] / _next_peak(peak, is_peak)
-        error = max(error, float(early[is_greatest].max(initial=0.0)))
+        early = _of_relaxation(step, stored) / step
+        rising = early[:-1] / _next_peak(peak, is_peak)
+        error = max(error, float(rising[is_greatest].max(initial=0.0)))
     return error
 
 
@@ -83,11 +84,14 @@ def _next_peak(force: Floats, is_peak: NDArray[np.bool_]) -> Floats:
 
 
 def _of_relaxation(step: Floats, stored: Sequence[Floats]) -> Floats:
-    """Sum |(a1' - a0') a1'| d^2 of steps d (m), for stored energies a^2 (J); 0 in the first one."""
+    """Sum |(a1' - a0') a1'| d^2 of steps d (m), for stored energies a^2 (J). The first step, which
+    has no a0', takes the value of the second one.
+    """
     error = np.zeros_like(step)
     for energy in stored:
         slope = np.diff(np.sqrt(np.fmax(energy, 0.0))) / step
         error[1:] += np.abs(np.diff(slope) * slope[1:]) * step[1:] ** 2
+    error[0] = error[1]
     return error
 
 

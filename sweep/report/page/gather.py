@@ -21,14 +21,21 @@ from sweep.loading_modes import MODES, compared, mode_of
 from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
-from sweep.ranking.merit import SEVEN_DIGITS, gap_behind, is_period, merits, through_solid
+from sweep.ranking.merit import (
+    SEVEN_DIGITS,
+    Compared,
+    gap_behind,
+    is_period,
+    merits,
+    through_solid,
+)
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
-from sweep.ranking.requirements import limits, relative_energy
+from sweep.ranking.requirements import limits, relative_energy, relative_errors
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
 from sweep.report.figures.panel_piece import piece, places
@@ -245,6 +252,7 @@ def _cases(
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
             "coarse": part["coarse"].tolist(),
+            "errors": _errors(part, counted[0].names),
             "stretched": part["beyond_curve"].tolist(),
             "undrawn": part["does_not_print"],
             "open": part["ends_early"].tolist(),
@@ -261,6 +269,13 @@ def _cases(
             case = dict(zip(columns, values, strict=True))
             cases[case["id"]] = case
     return cases
+
+
+def _errors(part: DataFrame, names: Compared) -> list[dict[str, float]]:
+    """The known relative errors of the values for the requirements, row by row."""
+    columns = relative_errors(part, names)
+    rows = zip(*(_exact(values) for values in columns.values()), strict=True)
+    return [{name: v for name, v in zip(columns, row, strict=True) if v} for row in rows]
 
 
 def _exact(values: Iterable[float]) -> list[float | None]:

@@ -196,8 +196,11 @@ function requiredText() {
   if (!designs) return required;
   const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
   const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: shorter steps may change that.` : "";
+  const near = now.rows.filter((row) => row.mass <= greatestMass(data, asked));
+  const close = near.map((row) => closeOf(data, row, asked)).filter((names) => names.length).length;
+  const border = close ? ` ${close} meet${close === 1 ? "s" : ""} or miss${close === 1 ? "es" : ""} a limit by less than the error of the value.` : "";
   return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
-    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.${unsure}`;
+    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.${unsure}${border}`;
 }
 
 // The requirements that a row misses, with its values.

@@ -95,6 +95,16 @@ function missesOf(data, row, question) {
   return Object.fromEntries(shares);
 }
 
+// The requirements whose limits a row is nearer to than the error of its value.
+function closeOf(data, row, question) {
+  const values = required(data, row, question);
+  const within = ([name, limit]) => {
+    const error = (row.design.errors[name] ?? 0) * (values[name] ?? 0);
+    return Math.abs(values[name] - limit) < error;
+  };
+  return Object.entries(askedOf(data, question)).filter(within).map(([name]) => name);
+}
+
 // The energy (J) that must be absorbed, of a striker or as required, the force (N) that is allowed
 // meanwhile, the least stroke (m) for both, and the greatest height; null if one is not known.
 function rectangle(data, rows, question) {

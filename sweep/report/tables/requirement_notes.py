@@ -123,6 +123,10 @@ def _of_budgets(
     for name, count in widest.unknown.items():
         if count:
             yield f"{count} without a value for {name}: {MEASURES[name].unknown}."
+    for name, count in widest.close.items():
+        if count:
+            which = "design meets or misses" if count == 1 else "designs meet or miss"
+            yield f"{count} {which} {name} by less than the error of the value."
     if widest.open:
         which = f"{widest.open} of them may fulfil min_absorbed in a longer crush"
         yield f"{which}: this one ended before {_end(ranking)}."

@@ -91,6 +91,7 @@ def _row(rng, mass, energy, factor):
         "peak_deceleration_filtered_m_per_s2": float(rng.choice([300.0, near(500.0), np.nan])),
         "peak_base_pressure_Pa": float(apart.choice([2e5, 3e5, np.nan])),
         "peak_target_acceleration_m_per_s2": float(apart.choice([200.0, 400.0, np.nan])),
+        "peak_step_error": float(apart.choice([np.nan, 0.01, 0.6])),
         "stroke_left_m": float(rng.choice([1e-3, 0.0, -1e-10, -1e-8])),
         "returned_energy_J": 0.9 * energy,
         "max_crossings": int(rng.random() < 0.1),

@@ -257,3 +257,28 @@ def test_limits_are_si_and_those_that_are_none_are_left_out():
     given = dict.fromkeys(MEASURES) | {"max_mass": "2 oz", "max_deceleration": "10 g0"}
     assert limits(given) == pytest.approx({"max_deceleration": 98.0665, "max_mass": 0.05669904625})
     assert limits(None) == {}
+
+
+@pytest.mark.parametrize(
+    ("columns", "asked", "close"),
+    [
+        ({}, {"max_force": "30.1 N"}, 0),
+        ({"peak_step_error": [0.6, 0.01, 0.01]}, {"max_force": "30.1 N"}, 2),
+        ({"peak_step_error": [0.0, 0.01, 0.01]}, {"max_force": "29.9 N"}, 1),
+        ({"error_peak_force_until_packed_N": [0.0, 0.3, 0.1]}, {"max_force": "29.9 N"}, 1),
+        ({"peak_step_error": [0.2, 0.2, 0.2]}, {"min_absorbed": "179 mJ"}, 0),
+        ({"load_step_error": [0.2, 0.01, NAN]}, {"min_absorbed": "179 mJ"}, 1),
+        ({"error_absorbed_energy_until_packed_J": [0.1, 0.01, NAN]}, {"min_absorbed": 0.179}, 2),
+    ],
+)
+def test_a_limit_that_is_nearer_than_the_error_of_a_value_is_counted(columns, asked, close):
+    """Designs at 30 N and with 180 mJ are near a limit, one of 20 N if it errs by a half."""
+    bars = {"error_absorbed_energy_until_packed_J": 0.0, "error_peak_force_until_packed_N": 0.0}
+    outcome = the_outcome(CRUSHED.assign(**bars | columns), require=asked)
+    assert list(outcome.close.values()) == [close]
+
+
+def test_errors_of_a_panel_are_those_of_its_specimens():
+    table = CRUSHED.assign(peak_step_error=0.01)
+    outcome = the_outcome(table, panel=PANEL, require={"max_force": "1.51 kN"}, per="panel")
+    assert (outcome.fulfil, outcome.close) == (2, {"max_force": 1})

@@ -122,6 +122,16 @@ def test_walls_that_relax_and_buckle_too_early_are_told_by_their_energies():
     assert peak_step_error(relaxing, loading) == pytest.approx(1e-2 * 2e-2 / 1e-3 / 13.0)
 
 
+def test_a_peak_in_the_first_row_is_judged_by_the_step_after_it():
+    """Squares whose walls buckle in the second step: the slope of a jumps from 0 to 20 J^0.5/m."""
+    way = 1e-3 * np.arange(5.0)
+    none = dict.fromkeys(("stretch_J", "contact_J"), np.zeros(5))
+    bending = np.array([0.0, 0.0, 2.0, 4.0, 6.0]) * 1e-2
+    loading = rows(way, np.array([0.0, 13.0, 12.9, 12.8, 12.7])) | none | {"bend_J": bending**2}
+    relaxing = Case.of(loading={"mode": "displacement"}, material={"loss": 0.3})
+    assert peak_step_error(relaxing, loading) == pytest.approx(2e-2 * 2e-2 / 1e-3 / 13.0)
+
+
 def test_walls_that_relax_buckle_at_the_right_force_by_default():
     """Thin squares, whose peak is a fifth too low in 400 equal steps, and hexagons, which then
     buckle at 2.1 in place of 2.6 % strain: beside steps eight times as short.

@@ -25,6 +25,12 @@ SWEEPS, ASKED = 5, 32
 DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 ASK = """
+function closeCounts(data, rows, asked) {
+  const within = rows.filter((row) => row.mass <= greatestMass(data, asked));
+  const names = within.flatMap((row) => closeOf(data, row, asked));
+  const count = (name) => names.filter((other) => other === name).length;
+  return Object.fromEntries(Object.keys(askedOf(data, asked)).map((name) => [name, count(name)]));
+}
 function answersOf({ data, questions }) {
   return questions.map((question) => data.scenes.map((_, scene) => {
     const asked = { ...question, scene };
@@ -43,6 +49,7 @@ function answersOf({ data, questions }) {
       lightest: found.lightestMeeting ? found.lightestMeeting.design.id : null,
       misses: found.nearest ? found.nearest.misses : {},
       needed: rectangle(data, found.rows, asked),
+      close: closeCounts(data, found.rows, asked),
     };
   }));
 }
@@ -91,6 +98,7 @@ def _of_requirements(outcome):
         "nearest": next(iter(ids["nearest"]), None),
         "lightest": next(iter(ids["lightest"]), None),
         "misses": dict(outcome.misses),
+        "close": dict(outcome.close),
         "needed": {name: getattr(outcome, name) for name in NEEDED} if known else None,
     }
 
@@ -148,8 +156,10 @@ def asked_of_both(page_answers, path, seed):
 @pytest.mark.parametrize("seed", range(SWEEPS))
 def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
     """Values that the page reads from curves have four digits."""
-    rows, missing, nearest, border, stopped, passed_over = [], 0, 0, 0, 0, 0
+    rows, missing, nearest, border, stopped, passed_over, close = [], 0, 0, 0, 0, 0, 0
     for question, found, wanted in asked_of_both(page_answers, tmp_path, seed):
+        if question["force"] is not None:  # the page has the errors until packed
+            wanted.pop("close", None)
         one, other = of_the_page(found, wanted), wanted
         if read_from_curves(question):
             assert blurred(one) == near(blurred(other)), question
@@ -161,11 +171,13 @@ def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
         stopped += sum(best > 1 for _, best, _ in found["stopped"])
         stopped += sum(least is not None for _, _, least in found["stopped"])
         nearest += bool(found["nearest"])
+        close += sum(wanted.get("close", {}).values())
         most = 1e3 * (question["budget"] or np.inf)
         border += sum(0.0 < abs(most / row["mass"] - 1.0) < 5e-9 for row in found["placed"])
     counts = [sum(row[flag] for row in rows) for flag in ("pareto", "beyond_model", "crossed")]
     assert min(*counts, missing, stopped, passed_over) > 5
     assert min(nearest, border) > 0
+    assert close > 0
 
 
 STAND_INS = """
@@ -174,6 +186,7 @@ const asked = { per: "specimen", budget: null, panel: null, require: { max_force
 const askedOf = () => asked.require, inUnits = (value) => value, ofOne = () => "the part";
 const design = (coarse, crossed = false) =>
   ({ mass: 1, misses: {}, beyond: false, design: { coarse, crossed } });
+const closeOf = (_, row) => row.close ?? [];
 let now = { rows: [], placed: [], missing: [] };
 """
 
@@ -185,16 +198,21 @@ let now = { rows: [], placed: [], missing: [] };
         ("design(true), design(false)", " Of these, 1 is marked i: shorter steps may change that."),
         ("design(true), design(true)", " Of these, 2 are marked i: shorter steps may change that."),
         ("design(true, true)", ""),
+        (
+            "{ ...design(false), close: ['max_force', 'max_mass'] }",
+            " 1 meets or misses a limit by less than the error of the value.",
+        ),
     ],
 )
-def test_requirements_that_coarse_steps_meet_are_named(placed, said):
+def test_requirements_that_coarse_steps_or_errors_meet_are_named(placed, said):
     folder = Path(gather.__file__).parent
     page = (folder / "page.js").read_text("utf-8")
     words = page[page.index("function limitText") : page.index("// The requirements that a row")]
     with MiniRacer() as engine:
-        engine.eval(
-            (folder / "rank.js").read_text("utf-8").replace("function askedOf", "function of")
-        )
+        script = (folder / "rank.js").read_text("utf-8")
+        for name in ("askedOf", "closeOf"):
+            script = script.replace(f"function {name}", f"function {name}Itself")
+        engine.eval(script)
         engine.eval(STAND_INS + words)
         engine.eval(f"now.placed = [{placed}]; now.rows = now.placed")
         told = engine.eval("requiredText()")
