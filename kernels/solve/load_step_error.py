@@ -2,8 +2,8 @@
 
 With F the reaction at the driven coordinate, d its move in the step, and d0 in the previous step:
 
-    work = (F0 + F1) d / 2,
-    error = |F'' d^3 / 12| + |(r1 - r0) . u| / 2 + 4 sum |(a1' - a0') a1'| d^2
+    work = (F0 + F1) d / 2
+    error = |F''| d^3 / 12  +  |(r1 - r0) . u| / 2  +  4 sum |(a1' - a0') a1'| d^2
 
 The first part is the error of the trapezoidal rule, with the second derivative F'' of the quadratic
 through the last three reactions, 2 (s1 - s0) / (d + d0) with slopes s = dF / d. The second part
@@ -13,10 +13,13 @@ forces r are off by no more than their change in a step, in which the coordinate
 The third part is the error of walls that relax, whose stress is exact if strains change evenly in a
 step (`laws.relaxation`). Where walls begin to buckle they do not, and in a step that is too long
 they buckle too early, against the stiffness of a wall that has relaxed meanwhile. A stored energy
-a^2 belongs to a shape with the amplitude a, whose force is 2 a; with a' the change of a in a step /
-d, half of the unexpected change (a1' - a0') d is the error of the amplitude, as in backward Euler,
-and the energy errs by the force times the change a1' d. It counts fourfold, as it grows with the
-shape: with less weight some re-entrant cells and diamonds take other folds (docs/accuracy.md).
+U = a^2 belongs to a shape of amplitude a. With a' the change of a in a step / d:
+
+    error of the amplitude    e = (a1' - a0') d / 2, as in backward Euler
+    work of its force         dU / da = 2 a: in a step, 2 a1' d for each e, |(a1' - a0') a1'| d^2
+
+Errors grow with the shape. So they count fourfold (`WEIGHT`); with less, some re-entrant cells and
+diamonds take other folds (docs/accuracy.md).
 """
 
 import math
@@ -36,25 +39,25 @@ def _of_friction(state, evaluation):
 
 
 @jit_exact
-def _growth(state, evaluation, k):
+def _amplitude_change(state, evaluation, k):
     """Return the change of the amplitude of stored energy ``k`` in a step, J^0.5."""
     return math.sqrt(max(evaluation.stored[k], 0.0)) - math.sqrt(max(state.stored[k], 0.0))
 
 
 @jit_exact
-def measure_growth(state, evaluation, move, growing):
-    """Fill ``growing`` (k,) with a' of each stored energy in a step, J^0.5 / m."""
-    for k in range(growing.size):
-        growing[k] = _growth(state, evaluation, k) / move
+def measure_amplitude_rates(state, evaluation, move, amplitude_rate):
+    """Fill ``amplitude_rate`` (k,) with a' of each stored energy in a step, J^0.5 / m."""
+    for k in range(amplitude_rate.size):
+        amplitude_rate[k] = _amplitude_change(state, evaluation, k) / move
 
 
 @jit_exact
-def of_relaxation(state, evaluation, move, growing):
-    """Return sum |(a1' - a0') a1'| d^2 in J. growing (k,): a0' of each stored energy."""
+def of_relaxation(state, evaluation, move, amplitude_rate):
+    """Return sum |(a1' - a0') a1'| d^2 in J. amplitude_rate (k,): a0' of each stored energy."""
     error = 0.0
-    for k in range(growing.size):
-        growth = _growth(state, evaluation, k)
-        error += abs((growth - growing[k] * move) * growth)
+    for k in range(amplitude_rate.size):
+        change = _amplitude_change(state, evaluation, k)
+        error += abs((change - amplitude_rate[k] * move) * change)
     return error
 
 
@@ -69,33 +72,35 @@ def _driven(problem, evaluation, work):
 
 
 @jit_exact
-def ratio(problem, stage, state, evaluation, work, progress, growing):
+def relative_error(problem, stage, state, evaluation, work, progress, amplitude_rate):
     """Return the error of the work in a step as a share of that work, 0 where nothing is driven.
 
-    evaluation: at the end of the step, before `Problem.commit`. progress, growing: see `keep`.
+    evaluation: at the end of the step, before `Problem.commit`. progress, amplitude_rate: see
+    `keep`.
     """
     move, after = _driven(problem, evaluation, work)
     if move == 0.0:
         return 0.0
     before, error = state.totals[0].reaction, _of_friction(state, evaluation)
     if progress.move != 0.0:
-        bend = ((after - before) / move - progress.slope) / (move + progress.move)
-        error += abs(bend * move**3) / 6.0
+        slope = (after - before) / move
+        second_derivative = 2.0 * (slope - progress.slope) / (move + progress.move)
+        error += abs(second_derivative * move**3) / 12.0
         if stage.relaxes:
-            error += WEIGHT * of_relaxation(state, evaluation, move, growing)
-    done = 0.5 * abs((before + after) * move)
-    if done > 0.0:
-        return error / done
+            error += WEIGHT * of_relaxation(state, evaluation, move, amplitude_rate)
+    step_work = 0.5 * abs((before + after) * move)
+    if step_work > 0.0:
+        return error / step_work
     return math.inf if error > 0.0 else 0.0
 
 
 @jit_exact
-def keep(problem, state, evaluation, work, progress, growing):
-    """Keep the move of a step that is accepted, the slope of its reaction in ``progress``, and a'
-    of each stored energy in ``growing`` (k,), J^0.5 / m. Before `Problem.commit`.
+def keep(problem, state, evaluation, work, progress, amplitude_rate):
+    """Keep the move of a step that is accepted and the slope of its reaction in ``progress``, and
+    a' of each stored energy in ``amplitude_rate`` (k,), J^0.5 / m. Before `Problem.commit`.
     """
     move, after = _driven(problem, evaluation, work)
     progress.move, progress.slope = move, 0.0
     if move != 0.0:
         progress.slope = (after - state.totals[0].reaction) / move
-        measure_growth(state, evaluation, move, growing)
+        measure_amplitude_rates(state, evaluation, move, amplitude_rate)

@@ -83,7 +83,7 @@ class Stage(NamedTuple):
     materials. dynamic: whether there is inertia. scheme: time integrator. error: allowed local
     error of a step, m. accuracy: allowed error of the work in a static step, as a share of that
     work. fall: time in which the load alone would move the structure by its size, s. longest: rows
-    that a step may span, with an accuracy. relaxes: whether the material does, in `accuracy`.
+    that a step may span, with an accuracy. relaxes: whether walls relax, which adds to the error.
     """
 
     steps: int
@@ -283,10 +283,10 @@ def _judge(problem, stage, state, step, tolerance, load, workspace, descent, pro
         ratio = integrators.error(state, step, problem.scene.coordinates.heavy) / stage.error
     accurate = ratio <= 1.0
     if stage.accuracy < np.inf and share >= 1.0:
-        ratio = load_step_error.ratio(
-            problem, stage, state, evaluation, work, progress, workspace.growing
+        error = load_step_error.relative_error(
+            problem, stage, state, evaluation, work, progress, workspace.amplitude_rate
         )
-        ratio /= stage.accuracy
+        ratio = error / stage.accuracy
         accurate = ratio <= (1.0 if stage.relaxes else REJECTED_ERROR) or share <= 1.0
     if accurate and share > UNCHECKED_SHARE:
         accurate = not _gains_energy(
@@ -339,7 +339,7 @@ def _accept(problem, stage, step, state, workspace, load, descent, progress):
         book.kinetic = kinetic(state.v, problem.scene.coordinates.mass)
         totals.last = step.duration
     if stage.accuracy < np.inf:
-        load_step_error.keep(problem, state, evaluation, work, progress, workspace.growing)
+        load_step_error.keep(problem, state, evaluation, work, progress, workspace.amplitude_rate)
     problem.commit(state.x, step, evaluation)
     enter_step(problem, step, state, evaluation, work)
     totals.force = resolution.largest_force(problem.scene.coordinates, state, evaluation, load)

@@ -24,7 +24,7 @@ class Work(NamedTuple):
 
 class Workspace(NamedTuple):
     """evaluation, work: of the minimisation. x0, y, x_pred (n,): of the step (`problem.Step`).
-    growing (k,): of the stored energies in the last step (`load_step_error`).
+    amplitude_rate (k,): of the stored energies in the last step (`load_step_error`).
     """
 
     evaluation: Evaluation
@@ -32,7 +32,7 @@ class Workspace(NamedTuple):
     x0: np.ndarray
     y: np.ndarray
     x_pred: np.ndarray
-    growing: np.ndarray
+    amplitude_rate: np.ndarray
 
 
 @jit_owning

@@ -13,13 +13,14 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.directed import Ramp, Role
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import InTime, Static
+from sweep.config.kinds.steps import rows_in_load_step
 from sweep.scene.plates.scene import Scene as PlateScene
-from sweep.scene.scene import Scene, rows_in_load_step, time_step
+from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
-LONGEST = 4  # load steps that a step of an accuracy may span
+LONGEST = 4  # load steps that an accuracy-controlled step may span
 ROUND_OFF = 4e-15
-LOADED = 100.0  # share of the largest force / share of the force that bends a wall, of a residual
+LOADED = 100.0  # a residual in shares of the largest force / in shares of a wall's bending force
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
 SCHEMES = {
     "backward_euler": integrators.BACKWARD_EULER,
@@ -83,7 +84,7 @@ def _controlled(phase: Phase, case: Case) -> march.Stage:
         case InTime(step_error=float(error)):
             return stage._replace(error=error)
         case Static(accuracy=float(share)) if phase.role != "hold":
-            rows = rows_in_load_step(case)
+            rows = rows_in_load_step(case.solver, case.material)
             return stage._replace(
                 steps=rows * stage.steps,
                 duration=stage.duration / rows,
@@ -95,14 +96,14 @@ def _controlled(phase: Phase, case: Case) -> march.Stage:
 
 
 def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
-    loading, solver, pace = case.loading, case.solver, time_step(case)
+    loading, solver, longest = case.loading, case.solver, time_step(case)
     fall = inf
     if isinstance(loading, DeadLoad) and solver.integrator == "backward_euler":
         fall = _time_of_fall(case, scene)
-    start, way = _course(case, scene)
+    start, travel = _course(case, scene)
     cycle = list[Phase]()
     for ramp in loading.ramps(solver):
-        stage = _stage(ramp, pace, not loading.quasi_static, start, way)._replace(fall=fall)
+        stage = _stage(ramp, longest, not loading.quasi_static, start, travel)._replace(fall=fall)
         parts = _parts(stage) if ramp.watched else [stage]
         cycle += [Phase(ramp.name, part, ramp.role) for part in parts]
     return _repeated(cycle, loading.cycles)
@@ -118,15 +119,16 @@ def _course(case: Case, scene: Scene | PlateScene) -> tuple[float, float]:
     return float(scene.x_rest[-1]), 0.0
 
 
-def _stage(ramp: Ramp, pace: float, dynamic: bool, start: float, way: float) -> march.Stage:
-    """The stage of a ramp, in equal steps of at most ``pace`` (s); start, way: m."""
-    steps, duration = ramp.steps, pace
+def _stage(ramp: Ramp, longest: float, dynamic: bool, start: float, travel: float) -> march.Stage:
+    """The stage of a ramp, in equal steps of at most ``longest`` (s); start, travel: m."""
+    steps, duration = ramp.steps, longest
     if ramp.time is not None:
-        steps = steps or max(ceil(ramp.time / pace - WHOLE), 1)
-        if ramp.steps or abs(steps * pace / ramp.time - 1.0) >= WHOLE:
+        steps = steps or max(ceil(ramp.time / longest - WHOLE), 1)
+        if ramp.steps or abs(steps * longest / ramp.time - 1.0) >= WHOLE:
             duration = ramp.time / steps
-    driven = (start + share * way for share in ramp.way)
-    return march.Stage(steps or 1, duration, dynamic, *ramp.load, *driven)
+    factor0, factor1 = ramp.load
+    driven0, driven1 = (start + share * travel for share in ramp.way)
+    return march.Stage(steps or 1, duration, dynamic, factor0, factor1, driven0, driven1)
 
 
 def _time_of_fall(case: Case, scene: Scene | PlateScene) -> float:

@@ -26,6 +26,7 @@ from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime, Static
+from sweep.config.kinds.steps import rows_in_load_step
 from sweep.design.network import Network
 from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import BetweenPlatens, Numbering
@@ -33,7 +34,6 @@ from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
 STATIC_SLIP = 0.2  # share of the wall thickness, in all steps of a loading together
-ROWS_OF_RELAXING = 32  # of a load step: where walls that relax buckle, a step may be so short
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
 
 
@@ -255,16 +255,9 @@ def friction_of(case: Case) -> friction.Friction:
     """Friction coefficient and smoothing: a slip speed in m/s, or a slip length in m in statics."""
     slip = case.contact.slip_speed
     if slip is None:
-        rows = (case.solver.load_steps or 1) * rows_in_load_step(case)
+        rows = (case.solver.load_steps or 1) * rows_in_load_step(case.solver, case.material)
         slip = STATIC_SLIP * case.lattice.wall_thickness / rows
     return friction.Friction(case.contact.friction, slip)
-
-
-def rows_in_load_step(case: Case) -> int:
-    """The rows of a load step: several where a step of an accuracy may be shorter than that."""
-    solver = case.solver
-    by_accuracy = isinstance(solver, Static) and solver.accuracy is not None
-    return ROWS_OF_RELAXING if by_accuracy and case.material.relaxes else 1
 
 
 def time_step(case: Case) -> float:

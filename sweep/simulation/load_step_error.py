@@ -1,21 +1,25 @@
 """Errors of the load steps of a quasi-static crush, in the work that the platen does and in a peak
 of its force.
 
-Two errors of a step d of the platen follow from the rows, as they do in the march, which makes
-steps of an accuracy (`kernels.solve.load_step_error`): |F'' d^3| / 12 of the trapezoidal rule, with
-F'' of the quadratic through three reactions; and (r1 - r0) d / 2 of friction, whose normal forces
-are estimated before the step, with r its dissipation / d. The first errors add up; the second ones
-change their sign from step to step, and the root of the sum of their squares is taken. How well
-that tells steps that are too long is in docs/accuracy.md.
+The march estimates the error of each step (`kernels.solve.load_step_error`); here the rows of a
+crush are judged as a whole. In the work, with steps d of the platen:
+
+    |F''| d^3 / 12      of the trapezoidal rule, with F'' of the quadratic through three reactions
+    (r1 - r0) d / 2     of friction, whose forces r are estimated before the step: dissipation / d
+
+The first errors add up; the second ones change their sign from step to step, and the root of the
+sum of their squares is taken. docs/accuracy.md compares the sum with true errors.
 
 Walls that relax resist at the speed at which they buckle, and are soft at once afterwards: a peak
 between two rows, of which the curve shows only the flanks. It lies above the greatest row F by no
 more than the force still rose in the step before it; and, as the force falls the faster the nearer
-it is to the peak, by about twice what it falls in the step after it. The lesser of both is an
-estimate. It is next to nothing where walls are elastic, which go on at the force at which they
-buckle, or snap after a slow rise. In a step that is too long, walls that relax also buckle too
-early, with a smooth peak; that shows in the energies a^2 of the rows that rise to it, by the third
-error of `kernels.solve.load_step_error` / step, a force.
+it is to the peak, by about twice what it falls in the step after it. The estimate is the lesser of
+the two. It is next to nothing where walls are elastic, which go on at the force at which they
+buckle, or snap after a slow rise.
+
+In a step that is too long, walls that relax also buckle too early, with a smooth peak. That shows
+in the rows that rise to it, by |(a1' - a0') a1'| d, a force: the third part of the error of the
+march / d, with energies a^2. It is not weighted here, as no step is chosen by it.
 """
 
 from collections.abc import Mapping, Sequence
@@ -48,8 +52,8 @@ def load_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
         return nan
     slope = np.diff(force) / step
     friction = np.diff(loading["dissipated_friction_J"][moved]) / step
-    bend = 2.0 * np.diff(slope) / (step[1:] + step[:-1])
-    curved = np.abs(bend) * step[1:] ** 3 / 12.0
+    second_derivative = 2.0 * np.diff(slope) / (step[1:] + step[:-1])
+    curved = np.abs(second_derivative) * step[1:] ** 3 / 12.0
     lagged = np.diff(friction) * step[1:] / 2.0
     return float(curved.sum() + np.sqrt(np.sum(lagged**2))) / work
 

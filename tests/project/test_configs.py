@@ -78,7 +78,7 @@ PINNED = [
         "reuse",
         SQUARE,
         absorbed_energy_in_cycle_2_J=0.025775,
-        second_cycle_share=0.7154,
+        second_cycle_share=0.7131,
         mass_g=near(1.4, 1e-12),
     ),
     pin(

@@ -6,21 +6,21 @@ import numpy as np
 import pytest
 
 from kernels.solve.history import at_rest
-from kernels.solve.load_step_error import measure_growth, of_relaxation
+from kernels.solve.load_step_error import measure_amplitude_rates, of_relaxation
 from kernels.solve.workspace import make_workspace
 
 
 def errors(amplitude, places):
     """Error of each step but the first, J, for amplitudes at ``places`` (m) of one energy."""
-    state, workspace, found = at_rest(np.zeros(1), 1), make_workspace(1, 1), []
-    evaluation, growing = workspace.evaluation, workspace.growing
+    state, workspace, steps = at_rest(np.zeros(1), 1), make_workspace(1, 1), []
+    evaluation, rate = workspace.evaluation, workspace.amplitude_rate
     state.stored[0] = amplitude(places[0]) ** 2
     for start, end in pairwise(places):
         evaluation.stored[0] = amplitude(end) ** 2
-        found.append(of_relaxation(state, evaluation, end - start, growing))
-        measure_growth(state, evaluation, end - start, growing)
+        steps.append(of_relaxation(state, evaluation, end - start, rate))
+        measure_amplitude_rates(state, evaluation, end - start, rate)
         state.stored[0] = evaluation.stored[0]
-    return np.array(found[1:])
+    return np.array(steps[1:])
 
 
 def test_amplitudes_that_grow_evenly_have_no_error():

@@ -16,6 +16,11 @@ MOST = "at most 1,000,000 steps"
         ('[loading]\nspeed = "1 mm/s"\n[solver]\ntime_step = "1e-29 s"', MOST),
         ("[loading]\nstrain = 0.5\nload_steps = 500001", MOST),
         (
+            "[loading]\nstrain = 0.5\n[material]\nloss = 0.3\n"
+            "[solver]\naccuracy = 0.001\nload_steps = 15626",
+            "at most 31,250 steps in all, 31,252 here",
+        ),
+        (
             '[loading]\nstrain = 0.5\n[solver]\nstep_error = "1 um"',
             "no effect, as the crush is",
         ),
