@@ -5,6 +5,7 @@ import shutil
 import time
 from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 from distributed import KilledWorker
@@ -175,7 +176,7 @@ class Recorded:
 
     def submit(self, _, __, function, *arguments, workers, pure):
         """Note a call, and give it a future that ends when the test says so."""
-        future = SimpleNamespace(add_done_callback=lambda _: None)
+        future = Mock()
         self.calls.append((workers[0], function, arguments, future))
         return future
 
