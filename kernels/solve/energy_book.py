@@ -151,6 +151,7 @@ def enter_step(problem, step, state, evaluation, work):
         state.stored[k] = evaluation.stored[k]
     book.integrator += loss
     totals.reaction, totals.factor = reaction, step.factor
+    totals.largest_reaction = max(totals.largest_reaction, abs(reaction))
     book.residual = book.work + book.injected - book.kinetic - total
     book.residual -= book.material + book.friction + book.integrator
 

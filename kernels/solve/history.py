@@ -27,6 +27,7 @@ TOTALS = np.dtype(
             ("time", np.float64),  # s
             ("last", np.float64),  # duration of the last step, s; 0: no previous step
             ("reaction", np.float64),  # at the driven coordinate after the last step, N
+            ("largest_reaction", np.float64),  # of any step, without sign, N
             ("factor", np.float64),  # load factor after the last step
             ("force", np.float64),  # largest force of any step, N (`resolution`)
         ],

@@ -27,6 +27,7 @@ import math
 from kernels.compile.jit import jit_exact
 
 WEIGHT = 4.0  # of the error of walls that relax
+LEAST = 0.1  # reaction / the largest one so far, below which work is too little to compare with
 
 
 @jit_exact
@@ -75,6 +76,9 @@ def _driven(problem, evaluation, work):
 def relative_error(problem, stage, state, evaluation, work, progress, amplitude_rate):
     """Return the error of the work in a step as a share of that work, 0 where nothing is driven.
 
+    The reaction counts as no less than `LEAST` of the largest one so far. Else the error would be
+    compared with next to no work where a platen is lifted from walls that recover slowly.
+
     evaluation: at the end of the step, before `Problem.commit`. progress, amplitude_rate: see
     `keep`.
     """
@@ -88,7 +92,8 @@ def relative_error(problem, stage, state, evaluation, work, progress, amplitude_
         error += abs(second_derivative * move**3) / 12.0
         if stage.relaxes:
             error += WEIGHT * of_relaxation(state, evaluation, move, amplitude_rate)
-    step_work = 0.5 * abs((before + after) * move)
+    least = LEAST * state.totals[0].largest_reaction
+    step_work = max(0.5 * abs(before + after), least) * abs(move)
     if step_work > 0.0:
         return error / step_work
     return math.inf if error > 0.0 else 0.0

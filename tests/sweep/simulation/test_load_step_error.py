@@ -155,3 +155,20 @@ def test_walls_that_relax_buckle_at_the_right_force_by_default():
         right = crushed(lattice, load_steps=8 * 27, accuracy=5e-4)  # 27: of 400 to 60 %
         assert crushed(lattice) == pytest.approx(right, rel=3e-3)
         assert crushed(lattice, load_steps=27) < 0.95 * right
+
+
+def test_steps_are_long_where_a_platen_has_left_walls_that_recover():
+    """Without a reaction there is no work that could err: a step is not as short as it may be."""
+    size = dict(width=20e-3, height=20e-3, cells_x=2, cells_y=2, nodes_per_wall=3)
+    case = Case.of(
+        lattice=dict(kind="hex", wall_thickness=0.6e-3, **size),
+        material=dict(name="ninjaflex", loss=0.3),
+        loading=dict(mode="displacement", strain=0.2, platen="contact"),
+    )
+    history = converged(case).history
+    travel, force = np.abs(history["top_displacement_m"]), history["reaction_top_N"]
+    left = np.flatnonzero(force[:-1] < 1e-6 * force.max())
+    left = left[left > travel.argmax()]
+    shortest = case.loading.stroke / case.solver.load_steps / 32
+    assert len(left) > 5
+    assert np.median(-np.diff(travel)[left]) > 8.0 * shortest
