@@ -19,6 +19,7 @@ from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 LONGEST = 4  # load steps that an accuracy-controlled step may span
+UNLOADING = 3.0  # times the accuracy, where walls that relax are unloaded: shapes die away
 ROUND_OFF = 4e-15
 LOADED = 100.0  # a residual in shares of the largest force / in shares of a wall's bending force
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage
@@ -84,13 +85,14 @@ def _controlled(phase: Phase, case: Case) -> march.Stage:
         case InTime(step_error=float(error)):
             return stage._replace(error=error)
         case Static(accuracy=float(share)) if phase.role != "hold":
-            rows = rows_in_load_step(case.solver, case.material)
+            rows, relaxes = rows_in_load_step(case.solver, case.material), case.material.relaxes
+            eased = UNLOADING if relaxes and phase.role == "unloading" else 1.0
             return stage._replace(
                 steps=rows * stage.steps,
                 duration=stage.duration / rows,
-                accuracy=share,
+                accuracy=eased * share,
                 longest=LONGEST * rows,
-                relaxes=case.material.relaxes,
+                relaxes=relaxes,
             )
     return stage
 
