@@ -251,8 +251,9 @@ def _lightest(rows: DataFrame, mass: str) -> DataFrame:
 
 def _whole(outcome: Outcome, summary: DataFrame) -> Outcome:
     """An outcome whose rows have all columns of the summary."""
-    rows = {name: widened(getattr(outcome, name), summary) for name in ("nearest", "lightest")}
-    return replace(outcome, **rows)
+    nearest, lightest = widened(outcome.nearest, summary), widened(outcome.lightest, summary)
+    close = {name: widened(rows, summary) for name, rows in outcome.close.items()}
+    return replace(outcome, nearest=nearest, lightest=lightest, close=close)
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from pandas import DataFrame, Series
 
-from sweep.columns import error_column
+from sweep.columns import end_columns, error_column
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
@@ -44,8 +44,8 @@ class Outcome:
     mode: of loading. budget_g: NaN without a budget.
     designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
         of designs that fulfil them and are marked as beyond the model or as crossed. coarse: number
-        of others that fulfil them, with steps that are too long. close: number of designs that
-        meet or miss each requirement by less than the error of their value.
+        of others that fulfil them, with steps that are too long. close: the rows of designs
+        that meet or miss each requirement by less than the error of their value, nearest first.
     failed: number of designs that fail each requirement. unknown: number of these designs that
         have no value for it. open: number of designs that fail only `min_absorbed` and may fulfil
         it in a longer crush, as they were crushed too little for all energy to be counted.
@@ -66,7 +66,7 @@ class Outcome:
     fulfil: int
     doubtful: int
     coarse: int
-    close: Mapping[str, int]
+    close: Mapping[str, DataFrame]
     failed: Mapping[str, int]
     unknown: Mapping[str, int]
     open: int
@@ -194,7 +194,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         fulfil=int(part.fulfil.sum()),
         doubtful=int(part.fulfil.sum()) - soundly,
         coarse=coarse,
-        close={name: int(part.close[name].sum()) for name in part.limits},
+        close={name: _nearest_to(part, name) for name in part.limits},
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.limits},
         unknown={name: int(part.measures[name].isna().sum()) for name in part.limits},
         open=_open(part, energy, force),
@@ -235,19 +235,28 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
 
 
 def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
-    """The error of the value of each row for each requirement, relative to that value: the greater
-    of the estimate of its load steps and of its error bar. 0 where neither is known.
+    """The error of the value of each row for each requirement, relative to that value: the greatest
+    of the estimate of its load steps, of its error bar, and of its range where two strains of
+    densification are as good. 0 where none is known.
     """
     crushed = has(rows, "driven")
-    bars = {
-        "max_force": _bar(rows, "passed_on_N").where(crushed, _bar(rows, "peak_force_N")),
-        "max_deceleration": _bar(rows, "peak_deceleration_filtered_m_per_s2"),
-        "min_absorbed": _bar(rows, names.energy),
-    }
+    low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
+    of_energy = np.fmax(rows[names.energy] - low, high - rows[names.energy]) / rows[names.energy]
+    of_force = (rows["peak_force_N"] / rows["passed_on_N"] - 1.0).where(
+        crushed & (high > low * (1.0 + ROUND_OFF))
+    )
+    whole = _bar(rows, "peak_force_N")
     none = Series(0.0, index=rows.index)
+    errors = {
+        "max_force": [_bar(rows, "passed_on_N").where(crushed, whole), of_force],
+        "max_deceleration": [_bar(rows, "peak_deceleration_filtered_m_per_s2")],
+        "max_target_acceleration": [whole],  # force / mass
+        "min_absorbed": [_bar(rows, names.energy), of_energy],
+        "max_stroke": [_bar(rows, "packing_strain").where(crushed, _bar(rows, "peak_strain"))],
+    }
+    of_steps = {name: rows.get(one.step_error, none) for name, one in MEASURES.items()}
     return {
-        name: np.fmax(bars.get(name, none), rows.get(measure.step_error, none).fillna(0.0))
-        for name, measure in MEASURES.items()
+        name: DataFrame([none, of_steps[name], *errors.get(name, [])]).max() for name in MEASURES
     }
 
 
@@ -294,6 +303,15 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
     trusted = values[sound].dropna()
     candidates = values if trusted.empty else trusted
     return Best(float(candidates.max() if least else candidates.min()), trusted.empty)
+
+
+def _nearest_to(part: Judged, name: str) -> DataFrame:
+    """The rows whose values are nearer to a limit than their errors, the nearest first; their
+    columns value (SI) and meets are added.
+    """
+    away = abs(MEASURES[name].share_missed(part.measures[name], part.limits[name]))
+    rows = part.rows.assign(value=part.measures[name], meets=part.shares[name] == 0.0)
+    return rows.loc[away[part.close[name]].sort_values(kind="stable").index]
 
 
 def _open(part: Judged, energy: float, force: float) -> int:

@@ -195,10 +195,14 @@ function requiredText() {
   const required = `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}.`;
   if (!designs) return required;
   const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
-  const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: shorter steps may change that.` : "";
+  const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: with shorter steps ${coarse === 1 ? "it" : "they"} may fail.` : "";
   const near = now.rows.filter((row) => row.mass <= greatestMass(data, asked));
-  const close = near.map((row) => closeOf(data, row, asked)).filter((names) => names.length).length;
-  const border = close ? ` ${close} meet${close === 1 ? "s" : ""} or miss${close === 1 ? "es" : ""} a limit by less than the error of the value.` : "";
+  const close = near.flatMap((row) => closeOf(data, row, asked));
+  const border = limits
+    .map(([name]) => [name, close.filter((other) => other === name).length])
+    .filter(([, n]) => n)
+    .map(([name, n]) => ` ${n} ${n === 1 ? "meets or misses" : "meet or miss"} the limit of ${data.measures[name].noun} by less than the uncertainty of the value.`)
+    .join("");
   return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
     `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.${unsure}${border}`;
 }

@@ -53,6 +53,7 @@ FELT = {
 }
 """Columns on the load of the base, each with its requirement and its column of results."""
 WIDTH = 100  # most letters in a line
+LESS = "less than "
 DISTRUST = "marked {}: do not trust it"
 
 
@@ -123,13 +124,12 @@ def _of_budgets(
     for name, count in widest.unknown.items():
         if count:
             yield f"{count} without a value for {name}: {MEASURES[name].unknown}."
-    for name, count in widest.close.items():
-        if count:
-            which = "design meets or misses" if count == 1 else "designs meet or miss"
-            yield f"{count} {which} {name} by less than the error of the value."
+    for name, rows in widest.close.items():
+        if len(rows):
+            yield fill(_close(name, rows, named), WIDTH)
     if widest.open:
-        which = f"{widest.open} of them may fulfil min_absorbed in a longer crush"
-        yield f"{which}: this one ended before {_end(ranking)}."
+        which = f"{widest.open} of those that fail may fulfil min_absorbed in a longer crush"
+        yield f"{which}: theirs ended before {_end(ranking)}."
     for _, alike in groupby(counted, lambda outcome: list(outcome.nearest["case_id"])):
         yield from _nearest(list(alike), ranking.required, named)
     if any(outcome.fulfil > outcome.doubtful for outcome in counted):
@@ -171,9 +171,20 @@ def _uncertain(outcome: Outcome) -> str:
     count = outcome.coarse
     if not count:
         return ""
-    some = f"{count} of these {'is' if count == 1 else 'are'}"
+    some = f"{count} of those that do {'is' if count == 1 else 'are'}"
     which = some if count < outcome.fulfil else "It is" if count == 1 else "All of these are"
-    return f"\n{which} marked i: shorter steps may change that."
+    return f"\n{which} marked i: with shorter steps {'it' if count == 1 else 'they'} may fail."
+
+
+def _close(name: str, rows: DataFrame, named: Callable[[DataFrame], str]) -> str:
+    """The designs that meet or miss a requirement by less than the uncertainty of their value."""
+    first, count = rows[:1], len(rows)
+    does = "meets" if first["meets"].item() else "misses"
+    which = f"{named(first)}: {MEASURES[name].noun} {quantity(name, first['value'].item())}"
+    if count == 1:
+        return f"1 design {does} {name} by less than the uncertainty of its value: {which}."
+    every = f"{count} designs meet or miss {name} by less than the uncertainty of their values"
+    return f"{every}. The nearest {does} it: {which}."
 
 
 def _nearest(
@@ -205,13 +216,13 @@ def _miss(name: str, outcome: Outcome, early: bool) -> str:
     measure, share = MEASURES[name], percentage(outcome.misses[name])
     value = quantity(name, outcome.missed[name])
     if early and name == "min_absorbed":
-        return f"{measure.noun} at least {value}, at most {share} {measure.far}"
+        return f"{measure.noun} at least {value}, at most {share.removeprefix(LESS)} {measure.far}"
     return f"{measure.noun} {value}, {share} {measure.far}"
 
 
 def percentage(share: float) -> str:
     """A share above zero in percent."""
-    return f"{tenths(share)} %" if share >= SMALLEST_SHOWN else "less than 0.1 %"
+    return f"{tenths(share)} %" if share >= SMALLEST_SHOWN else f"{LESS}0.1 %"
 
 
 def _mark(row: DataFrame) -> str:

@@ -98,7 +98,7 @@ def _of_requirements(outcome):
         "nearest": next(iter(ids["nearest"]), None),
         "lightest": next(iter(ids["lightest"]), None),
         "misses": dict(outcome.misses),
-        "close": dict(outcome.close),
+        "close": {name: len(rows) for name, rows in outcome.close.items()},
         "needed": {name: getattr(outcome, name) for name in NEEDED} if known else None,
     }
 
@@ -195,12 +195,18 @@ let now = { rows: [], placed: [], missing: [] };
     ("placed", "said"),
     [
         ("design(false)", ""),
-        ("design(true), design(false)", " Of these, 1 is marked i: shorter steps may change that."),
-        ("design(true), design(true)", " Of these, 2 are marked i: shorter steps may change that."),
+        (
+            "design(true), design(false)",
+            " Of these, 1 is marked i: with shorter steps it may fail.",
+        ),
+        (
+            "design(true), design(true)",
+            " Of these, 2 are marked i: with shorter steps they may fail.",
+        ),
         ("design(true, true)", ""),
         (
-            "{ ...design(false), close: ['max_force', 'max_mass'] }",
-            " 1 meets or misses a limit by less than the error of the value.",
+            "{ ...design(false), close: ['max_force'] }",
+            " 1 meets or misses the limit of force by less than the uncertainty of the value.",
         ),
     ],
 )
