@@ -15,10 +15,11 @@ step (`laws.relaxation`). Where walls begin to buckle they do not, and in a step
 they buckle too early, against the stiffness of a wall that has relaxed meanwhile. A stored energy
 U = a^2 belongs to a shape of amplitude a. With a' the change of a in a step / d:
 
-    error of the amplitude    e = (a1' - a0') d / 2, as in backward Euler
-    work of its force         dU / da = 2 a: in a step, 2 a1' d for each e, |(a1' - a0') a1'| d^2
+    error of the amplitude        e = |a1' - a0'| d / 2, as in backward Euler
+    change of its force 2 a       f = 2 |a1'| d
+    error of the energy           e f = |(a1' - a0') a1'| d^2
 
-Errors grow with the shape. So they count fourfold (`WEIGHT`); with less, some re-entrant cells and
+It grows with the shape, and so counts fourfold (`WEIGHT`): with less, some re-entrant cells and
 diamonds take other folds (docs/accuracy.md).
 """
 
