@@ -44,8 +44,9 @@ class Outcome:
     mode: of loading. budget_g: NaN without a budget.
     designs, fulfil: number of designs, and of those that fulfil all requirements. doubtful: number
         of designs that fulfil them and are marked as beyond the model or as crossed. coarse: number
-        of others that fulfil them, with steps that are too long. close: the rows of designs
-        that meet or miss each requirement by less than the error of their value, nearest first.
+        of others that fulfil them, with steps that are too long. close: the rows of trusted
+        designs that meet or miss each requirement by less than the error of their value, nearest
+        first, and that miss no other one by more.
     failed: number of designs that fail each requirement. unknown: number of these designs that
         have no value for it. open: number of designs that fail only `min_absorbed` and may fulfil
         it in a longer crush, as they were crushed too little for all energy to be counted.
@@ -126,8 +127,8 @@ class Judged(NamedTuple):
 
     mass: name of the column that budgets limit. limits: the limits (SI) of the requirements that
     apply to this kind of loading; left_out: the other requirements. measures (rows, limits):
-    measured values. shares (rows, limits): from `misses`. close (rows, limits): whether a value is
-    nearer to its limit than its error. fulfil (rows,).
+    measured values. shares (rows, limits): from `misses`. close (rows, limits): from `_distances`.
+    fulfil (rows,).
     """
 
     rows: DataFrame
@@ -169,12 +170,10 @@ def judge(
     shares = misses(rows, measures, mode_limits)
     fulfil = rows["mass_g"].notna() & (shares == 0.0).all(axis=1)
     left_out = tuple(name for name in required if name not in mode_limits)
-    errors = relative_errors(rows, names)
-    near = {k: _close(k, values[k], mode_limits[k], errors[k]) for k in mode_limits}
-    close = DataFrame(near, index=rows.index)
-    judged = Judged(rows, names.mass, mode_limits, left_out, values, shares, close, fulfil)
     if not required or rows.empty:
         return fulfil, ()
+    close = _distances(values, shares, relative_errors(rows, names), mode_limits)
+    judged = Judged(rows, names.mass, mode_limits, left_out, values, shares, close, fulfil)
     rectangle = _rectangle(rows, required, per, allowed)
     return fulfil, tuple(_outcome(judged, mode, g, *rectangle) for g in budgets_g)
 
@@ -194,7 +193,7 @@ def _outcome(judged: Judged, mode: str, budget_g: float, energy: float, force: f
         fulfil=int(part.fulfil.sum()),
         doubtful=int(part.fulfil.sum()) - soundly,
         coarse=coarse,
-        close={name: _nearest_to(part, name) for name in part.limits},
+        close={name: _close(part, name, sound) for name in part.limits},
         failed={name: int((part.shares[name] != 0.0).sum()) for name in part.limits},
         unknown={name: int(part.measures[name].isna().sum()) for name in part.limits},
         open=_open(part, energy, force),
@@ -237,7 +236,7 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
 def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     """The error of the value of each row for each requirement, relative to that value: the greatest
     of the estimate of its load steps, of its error bar, and of its range where two strains of
-    densification are as good. 0 where none is known.
+    densification are as good (of a force up to that of the whole crush). 0 where none is known.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
@@ -266,9 +265,22 @@ def _bar(rows: DataFrame, name: str) -> Series:
     return (error / rows[name]).fillna(0.0)
 
 
-def _close(name: str, values: Series, limit: float, error: Series) -> Series:
-    """Whether a value is nearer to its limit than its error, by which its limit may be missed."""
-    return abs(MEASURES[name].share_missed(values, limit)) < error * values / limit
+def _distances(
+    values: DataFrame,
+    shares: DataFrame,
+    errors: Mapping[str, Series],
+    required: Mapping[str, float],
+) -> DataFrame:
+    """By what share of its limit each value lies beside it, (rows, required): NaN unless that is
+    less than its error, and in a row that misses another limit by more than its error.
+
+    values, shares (rows, required): from `measured`, `misses`. errors: from `relative_errors`.
+    """
+    near = values.copy()
+    for name, limit in required.items():
+        apart = abs(MEASURES[name].share_missed(values[name], limit))
+        near[name] = apart.where(apart < errors[name] * values[name] / limit)
+    return near[(near.notna() | (shares == 0.0)).all(axis=1)].reindex(near.index)
 
 
 def misses(
@@ -305,13 +317,12 @@ def _best(values: Series, sound: Series, least: bool) -> Best:
     return Best(float(candidates.max() if least else candidates.min()), trusted.empty)
 
 
-def _nearest_to(part: Judged, name: str) -> DataFrame:
-    """The rows whose values are nearer to a limit than their errors, the nearest first; their
-    columns value (SI) and meets are added.
+def _close(part: Judged, name: str, sound: Series) -> DataFrame:
+    """The trusted rows that are nearer to a limit than their errors, the nearest first, with their
+    values (SI) and whether they meet it in columns: value, meets.
     """
-    away = abs(MEASURES[name].share_missed(part.measures[name], part.limits[name]))
     rows = part.rows.assign(value=part.measures[name], meets=part.shares[name] == 0.0)
-    return rows.loc[away[part.close[name]].sort_values(kind="stable").index]
+    return rows.loc[part.close[name][sound].dropna().sort_values(kind="stable").index]
 
 
 def _open(part: Judged, energy: float, force: float) -> int:

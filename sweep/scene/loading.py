@@ -19,7 +19,7 @@ from sweep.scene.scene import Scene, time_step
 
 IMPACT_STEPS = 64  # steps of a stage of an impact; after each stage the run may end
 LONGEST = 4  # load steps that an accuracy-controlled step may span
-UNLOADING = 3.0  # times the accuracy, where walls that relax are unloaded: shapes die away
+UNLOADING = 3.0  # times the accuracy, while walls that relax are unloaded (docs/accuracy.md)
 ROUND_OFF = 4e-15
 LOADED = 100.0  # a residual in shares of the largest force / in shares of a wall's bending force
 WHOLE = 1e-6  # share of a step: tolerance in the number of steps of a stage

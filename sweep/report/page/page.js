@@ -196,7 +196,7 @@ function requiredText() {
   if (!designs) return required;
   const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
   const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: with shorter steps ${coarse === 1 ? "it" : "they"} may fail.` : "";
-  const near = now.rows.filter((row) => row.mass <= greatestMass(data, asked));
+  const near = now.rows.filter((row) => row.mass <= greatestMass(data, asked) && !doubtful(row));
   const close = near.flatMap((row) => closeOf(data, row, asked));
   const border = limits
     .map(([name]) => [name, close.filter((other) => other === name).length])

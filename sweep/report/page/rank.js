@@ -95,14 +95,17 @@ function missesOf(data, row, question) {
   return Object.fromEntries(shares);
 }
 
-// The requirements whose limits a row is nearer to than the error of its value.
+// The requirements whose limits a row is nearer to than the error of its value, if it misses no other
+// one by more.
 function closeOf(data, row, question) {
   const values = required(data, row, question);
   const within = ([name, limit]) => {
     const error = (row.design.errors[name] ?? 0) * (values[name] ?? 0);
     return Math.abs(values[name] - limit) < error;
   };
-  return Object.entries(askedOf(data, question)).filter(within).map(([name]) => name);
+  const close = Object.entries(askedOf(data, question)).filter(within).map(([name]) => name);
+  const others = Object.keys(row.misses).filter((name) => !close.includes(name));
+  return others.every((name) => row.misses[name] === 0) ? close : [];
 }
 
 // The energy (J) that must be absorbed, of a striker or as required, the force (N) that is allowed

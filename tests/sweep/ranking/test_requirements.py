@@ -309,3 +309,13 @@ def test_errors_of_strokes_and_accelerations_are_known():
     )
     (rows,) = the_outcome(hit, require={"max_target_acceleration": 299.0}).close.values()
     assert (ids(rows), list(rows["meets"])) == ([0], [False])
+
+
+def test_a_limit_is_close_only_of_designs_that_it_decides():
+    """The one of 30 N misses another limit by far, or is beyond the model."""
+    table = CRUSHED.assign(peak_step_error=0.01)
+    near = {"max_force": "30.1 N"}
+    assert len(the_outcome(table, require=near).close["max_force"]) == 1
+    both = the_outcome(table, require=near | {"min_absorbed": "0.3 J"})
+    crossed = the_outcome(table.assign(max_crossings=1), require=near)
+    assert all(rows.empty for rows in (*both.close.values(), *crossed.close.values()))

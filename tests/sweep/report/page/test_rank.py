@@ -26,7 +26,7 @@ DIGITS = 1e-3  # relative error of values that the page reads from curves of fou
 NEEDED = ("energy", "force", "stroke")
 ASK = """
 function closeCounts(data, rows, asked) {
-  const within = rows.filter((row) => row.mass <= greatestMass(data, asked));
+  const within = rows.filter((row) => row.mass <= greatestMass(data, asked) && !doubtful(row));
   const names = within.flatMap((row) => closeOf(data, row, asked));
   const count = (name) => names.filter((other) => other === name).length;
   return Object.fromEntries(Object.keys(askedOf(data, asked)).map((name) => [name, count(name)]));
