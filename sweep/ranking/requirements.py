@@ -236,7 +236,7 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
 def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     """The error of the value of each row for each requirement, relative to that value: the greatest
     of the estimate of its load steps, of its error bar, and of its range where two strains of
-    densification are as good (of a force up to that of the whole crush). 0 where none is known.
+    densification are as good, for a force up to the greatest of the crush. 0 where none is known.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
