@@ -36,7 +36,7 @@ Curve = Annotated[tuple[float, ...], Field(strict=False)]
 Range = Annotated[tuple[str, float, float], Field(strict=False)]
 Durations = Annotated[tuple[Duration, ...], Field(strict=False)]
 Shares = Annotated[tuple[Strain, ...], Field(strict=False)]
-Loss = Annotated[float, Field(gt=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
+Loss = Annotated[float, Field(ge=0, le=0.8, json_schema_extra={"unit": "1", "bare": True})]
 # Without a unit at most 1: a greater number is likely a percentage.
 Stretched = Annotated[
     float, Field(gt=0, json_schema_extra={"unit": "1", "bare": True, "bare_most": 1})
@@ -155,7 +155,7 @@ def material(values: Inputs | Pairs, where: str = "") -> Material:
 
 def relaxes(inputs: Inputs) -> bool:
     """Whether these values of a material make its stress depend on time."""
-    return inputs.get("loss") is not None or bool(inputs.get("relaxation_times"))
+    return bool(inputs.get("loss") or inputs.get("relaxation_times"))
 
 
 def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
@@ -171,6 +171,7 @@ def _completed(own: Inputs) -> dict[str, Any]:
     by_numbers = "modulus" in own and "name" not in own
     record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
     inputs = _with_memory(dict(own), record)
+    inputs["loss"] = inputs.get("loss") or None
     if record is not None:
         inputs = dict(record.plasticity) | inputs
     if not relaxes(inputs):

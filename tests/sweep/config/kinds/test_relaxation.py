@@ -28,7 +28,7 @@ RATE = 'strain_rate = "1 1/s"'
         ("relaxation = []", [BRANCH]),
         ("relaxation = 0.3", [BRANCH]),
         ('relaxation_times = ["1 ms"]', ["for each share"]),
-        ("loss = 0.9", ["out of range", "above 0, at most 0.8"]),
+        ("loss = 0.9", ["out of range", "at least 0, at most 0.8"]),
         ('reference_time = "1 s"', ["no effect", STEADY]),
         (f'[loading]\nmode = "displacement"\n{RATE}', ["no effect", STEADY]),
         (f'{PRESSED}speed = "1 mm/s"\n{RATE}', ["one of speed and strain_rate"]),
@@ -57,6 +57,13 @@ def test_branches_are_a_list_of_tables(load):
         'share = 0.1\n[[material.relaxation]]\ntime = "2 s"\nshare = 0.2\n'
     ))  # fmt: skip
     assert tables.case_id == case.case_id
+
+
+def test_a_loss_of_zero_is_none(load):
+    elastic, relaxing = expand(load("[grid]\nmaterial.loss = [0, 0.3]"))
+    assert elastic.case_id == expand(load("name = 'a'"))[0].case_id != relaxing.case_id
+    assert not elastic.material.relaxes
+    assert material_with(modulus=1e7, density=1e3, loss=0).loss is None
 
 
 def test_a_curve_that_falls_does_not_relax(own_record):
