@@ -56,17 +56,23 @@ def _mode_of(inputs: Inputs, shells: bool) -> str:
 
 
 def _implied(inputs: Inputs) -> dict[str, str]:
-    """The modes that keys imply, each with the first of its keys; a subclass implies its own."""
-    implied: dict[str, str] = {}
+    """The modes that keys imply, each with the first of its keys; a subclass implies its own, in
+    place of the mode of its base.
+    """
+    implied: dict[type[Loading], str] = {}
     for kind in BY_MODE:
         kinds = [other for other in BY_MODE if not issubclass(other, kind)]
         others = {key for other in kinds for key in other.model_fields}
         own = [key for key in kind.model_fields if key not in others and key in inputs]
         if own:
-            implied[kind.words[0]] = own[0]
-    if "duration" in inputs and "impact" not in implied:
-        implied.setdefault("force", "duration")
-    return implied
+            implied[kind] = own[0]
+    if "duration" in inputs and not any("duration" in kind.model_fields for kind in implied):
+        implied[DeadLoad] = "duration"
+    return {
+        kind.words[0]: key
+        for kind, key in implied.items()
+        if not any(issubclass(other, kind) for other in implied.keys() - {kind})
+    }
 
 
 def _check(inputs: Inputs, mode: str, body: Body, integrator: str | None) -> None:
