@@ -1,7 +1,7 @@
 """Simulates a case: builds the arrays, marches through the stages, measures. No files."""
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,16 +11,15 @@ from kernels.geometry.specimen_height import height
 from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
 from kernels.terms.profile import free_path
-from sweep.config.case import Case, complete
+from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import Arcs
-from sweep.config.kinds.table import Inputs
 from sweep.config.load import case_of
-from sweep.config.structures.structure import Load, Structure, Support
+from sweep.config.structures.structure import Structure
 from sweep.numbers import to_si
 from sweep.result import Result, Status, failed_result
 from sweep.scene.arc_length import arc_of, path_columns
@@ -214,55 +213,6 @@ def _scene(case: Case) -> Scene | PlateScene:
         case Cells(tied_sides=True):
             return build_tied(case)
     return build_scene(case)
-
-
-def kernels_of(case: Case) -> str:
-    """Which kernels a case runs on, a key of `SMALLEST`."""
-    if case.shells:
-        return "plates"
-    return "arcs" if isinstance(case.solver, Arcs) else "marches"
-
-
-CELL = {"cells_x": 1, "cells_y": 1}
-WALL = Structure(
-    nodes_mm=((0, 0), (10, 0)),
-    walls=((0, 1),),
-    supports=(Support(node=0, fix=("x", "y", "rotation")),),
-    loads=(Load(node=1, force_N=(0.0, -1e-3)),),
-)
-PRESSED: Inputs = {
-    "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
-    "solver": {"load_steps": 1},
-}
-SMALLEST: Mapping[str, Sequence[Inputs]] = {
-    "marches": [
-        {
-            "lattice": CELL,
-            "loading": {"release_time": 1e-4, "duration": 2e-4},
-            "solver": {"time_step": 1e-4},
-        }
-    ],
-    "arcs": [
-        {
-            "lattice": {"kind": "custom", "structure": WALL},
-            "solver": {"integrator": "arc_length", "load_steps": 1},
-        }
-    ],
-    "plates": [
-        {**PRESSED, "lattice": CELL | {"nodes_per_wall": 1, "layers": 2}},
-        {**PRESSED, "lattice": {"kind": "gyroid", "nodes_per_wall": 1}},
-    ],
-}
-"""Cases of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are flat
-at rest and others.
-"""
-
-
-def warm_up(kernels: Iterable[str] = ("marches",)) -> None:
-    """Load or compile kernels, by their keys in `SMALLEST`, so that no case spends time on it."""
-    for name in kernels:
-        for tables in SMALLEST[name]:
-            simulate(complete(tables).sound())
 
 
 class _Run:
