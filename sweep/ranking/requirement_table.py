@@ -1,7 +1,7 @@
 """The requirements on a part, one in each row: the quantity, the loadings, and the words for it.
 
 Rankings, sentences, options of the command line and the page take them from here; `Require` in
-`config/tables.py` has the keys of a config. No heavy imports, as every command reads this.
+`config/question.py` has the keys of a config. No heavy imports, as every command reads this.
 """
 
 from typing import Any, NamedTuple

@@ -248,7 +248,7 @@ def widest(height: float, step: float) -> float:
 
 def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
     """The least wanted period (m) for which `draft` makes a sheet without `misfit`, infinite if
-    there is none, and the misfit of smaller ones. made: a sheet with a misfit; step: in periods.
+    there is none, and the misfit of smaller ones. lattice: a sheet with a misfit; step: in periods.
     """
     good, bad = 0, round(lattice.pressed_height / (step * lattice.period))  # steps
     why = lattice.misfit
