@@ -38,16 +38,16 @@ if TYPE_CHECKING:
 SHARPNESS = 110  # dots per inch in a notebook
 
 
-class AsAsked(Enum):
+class FromConfig(Enum):
     """The default of an argument: the value in the config."""
 
-    AS_ASKED = "as the config asks"
+    FROM_CONFIG = "as in the config"
 
     def __repr__(self) -> str:
         return self.value
 
 
-AS_ASKED = AsAsked.AS_ASKED
+FROM_CONFIG = FromConfig.FROM_CONFIG
 
 
 class Picture:
@@ -112,13 +112,13 @@ class Results:
     @explained
     def rank(  # noqa: PLR0913  every argument is a part of one question
         self,
-        budget: Quantity | Sequence[Quantity] | AsAsked | None = AS_ASKED,
-        panel: Sequence[Quantity] | AsAsked | None = AS_ASKED,
-        by: str | AsAsked | None = AS_ASKED,
-        top: int | AsAsked | None = AS_ASKED,
-        allowed_force: Quantity | AsAsked | None = AS_ASKED,
-        require: Mapping[str, Quantity | None] | AsAsked | None = AS_ASKED,
-        per: str | AsAsked = AS_ASKED,
+        budget: Quantity | Sequence[Quantity] | FromConfig | None = FROM_CONFIG,
+        panel: Sequence[Quantity] | FromConfig | None = FROM_CONFIG,
+        by: str | FromConfig | None = FROM_CONFIG,
+        top: int | FromConfig | None = FROM_CONFIG,
+        allowed_force: Quantity | FromConfig | None = FROM_CONFIG,
+        require: Mapping[str, Quantity | None] | FromConfig | None = FROM_CONFIG,
+        per: str | FromConfig = FROM_CONFIG,
     ) -> DataFrame:
         """The best designs, by the question of the config as changed by the arguments.
 
@@ -126,10 +126,10 @@ class Results:
         Numbers need their units, such as budget="25 g".
         """
         every = Question(budget, panel, by, top, allowed_force, require, per)  # type: ignore[arg-type]
-        given = {name: v for name, v in every._asdict().items() if v is not AS_ASKED}
-        quantities = {name: given.get(name) for name in ("budget", "panel", "allowed_force")}
-        check_units(quantities | dict(given.get("require") or {}))
-        question = self.question._replace(**given)
+        changes = {name: v for name, v in every._asdict().items() if v is not FROM_CONFIG}
+        quantities = {name: changes.get(name) for name in ("budget", "panel", "allowed_force")}
+        check_units(quantities | dict(changes.get("require") or {}))
+        question = self.question._replace(**changes)
         return answer(with_allowed(self.path, self.table, question), question).table
 
     @explained

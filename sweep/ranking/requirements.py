@@ -104,10 +104,10 @@ def check_modes(required: Mapping[str, float], modes: Iterable[str]) -> None:
     """Refuse a requirement (SI) that applies to none of these kinds of loading."""
     kinds = set(modes)
     for name, limit in required.items():
-        asked_of = MEASURES[name].asked_of
-        if kinds and not kinds.intersection(asked_of):
+        fitting = MEASURES[name].modes
+        if kinds and not kinds.intersection(fitting):
             loadings = " or ".join(sorted(MODES[mode].noun for mode in kinds))
-            needed = " or ".join(MODES[mode].noun for mode in asked_of)
+            needed = " or ".join(MODES[mode].noun for mode in fitting)
             raise unknown_of(name, limit, loadings, needed)
 
 
@@ -164,7 +164,7 @@ def judge(
     energy of a crush is counted; NaN without one.
     """
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
-    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
+    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].modes}
     measures = measured(rows, names, per)
     values = DataFrame({name: measures[name] for name in mode_limits}, index=rows.index)
     shares = misses(rows, measures, mode_limits)
@@ -294,7 +294,7 @@ def misses(
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
         share = MEASURES[name].share_missed(measures[name].astype(float), limit)
-        in_mode = rows["loading_mode"].isin(MEASURES[name].asked_of)
+        in_mode = rows["loading_mode"].isin(MEASURES[name].modes)
         shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(in_mode, 0.0)
     return shares
 
