@@ -35,6 +35,7 @@ from sweep.design.slicer.patterns import (
     PATTERNS,
     PROGRAMS,
     SLICERS,
+    InfillLines,
     Pattern,
     bare,
     distance_of,
@@ -43,7 +44,6 @@ from sweep.design.slicer.patterns import (
     share_of,
     spread_lines,
 )
-from sweep.design.slicer.patterns import Sliced as Lay
 from sweep.numbers import at_least, at_most, in_unit
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
@@ -212,7 +212,7 @@ class Sliced(WallLattice):
         sides, caps = self.outline
         overlaps = OVERLAP * self.line, 0.0 if self.lateral else OVERLAP * self.line
         inset = 0.5 * sides - overlaps[0], 0.5 * caps - overlaps[1]
-        lay = Lay(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
+        lines = InfillLines(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
         return Geometry(
             "square",
             None,
@@ -220,7 +220,7 @@ class Sliced(WallLattice):
             (self.width, self.height),
             self.wall_thickness,
             outline=self.outline,
-            sliced=lay,
+            sliced=lines,
         )
 
     @property
