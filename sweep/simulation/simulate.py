@@ -14,9 +14,9 @@ from kernels.terms.profile import free_path
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import Arcs
 from sweep.config.load import case_of
 from sweep.config.structures.structure import Structure
@@ -223,7 +223,7 @@ class _Run:
 
     def __init__(self, scene: Scene | PlateScene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
-        self.blind = isinstance(case.loading, OfFile)
+        self.blind = isinstance(case.loading, CustomLoading)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
         self.state = scene.at_rest()

@@ -5,10 +5,10 @@ import numpy as np
 from sweep.columns import absorbed_energy_column
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import given_or
@@ -264,7 +264,7 @@ def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float
     time steps are too long for it. most: from `peaks_of`.
     """
     loading = case.loading
-    if isinstance(loading, OfFile):
+    if isinstance(loading, CustomLoading):
         return np.nan  # reactions are those of its probes
     force = transmitted(case, history)
     if isinstance(loading, Impact):

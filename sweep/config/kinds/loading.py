@@ -6,18 +6,18 @@ from pydantic import Field
 
 from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import PLATENS, Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.striker import struck
 from sweep.config.kinds.table import Inputs, Pairs, RefusedError
 
-Loading: TypeAlias = DeadLoad | Crush | Impact | OfFile
+Loading: TypeAlias = DeadLoad | Crush | Impact | CustomLoading
 KINDS: tuple[type[Loading], ...] = get_args(Loading)
 BY_MODE = tuple(
-    kind for kind in KINDS if kind is not OfFile
+    kind for kind in KINDS if kind is not CustomLoading
 )  # chosen by `loading.mode`, or by keys that only one has
 AnyLoading = Annotated[Loading, Field(discriminator="mode")]
 MODES = '"displacement" or "impact"'
@@ -28,7 +28,7 @@ def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
     inputs = dict(values)
     if body.structure is not None and not body.along:
-        return OfFile.of(inputs, body, integrator, relaxes)
+        return CustomLoading.of(inputs, body, integrator, relaxes)
     mode = _mode_of(inputs, body.shells)
     _check(inputs, mode, body, integrator)
     inputs = struck(inputs, body.width, body.unending)

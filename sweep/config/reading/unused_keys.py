@@ -9,9 +9,9 @@ from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.damping import NoDamping
 from sweep.config.kinds.direction import ACROSS, ALONG
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import Table
@@ -65,7 +65,7 @@ def _needed(key: str, why: str, case: Case) -> str:
         kinds, table = [Crush], "loading"
     own = getattr(case, table)
     shells = case.shells and table != "lattice" and why == _why_shells(case)
-    if isinstance(own, (*kinds, OfFile)) or shells or (case.lattice.sheet and name in SIDES):
+    if isinstance(own, (*kinds, CustomLoading)) or shells or (case.lattice.sheet and name in SIDES):
         return ""
     kinds = [kind for kind in kinds if name not in kind.derived]
     words = [word for kind in kinds for word in _words(table, kind)]
