@@ -85,13 +85,15 @@ class Outcome:
 
 def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
     """The limits (SI) of the requirements that are given, by name."""
-    given = {name: value for name, value in (require or {}).items() if value is not None}
-    for name in given:
+    required = {name: value for name, value in (require or {}).items() if value is not None}
+    for name in required:
         if name not in MEASURES:
             nearest = difflib.get_close_matches(name, MEASURES, n=1, cutoff=0.0)[0]
-            text = f'{name} = "{given[name]}"'
+            text = f'{name} = "{required[name]}"'
             raise RankError(f"{text}: unknown requirement; the nearest is {nearest}")
-    return {name: in_si(given[name], MEASURES[name].unit) for name in MEASURES if name in given}
+    return {
+        name: in_si(required[name], MEASURES[name].unit) for name in MEASURES if name in required
+    }
 
 
 def unknown_of(name: str, limit: float, cases: str, needed: str) -> RankError:

@@ -375,9 +375,9 @@ class _Run:
             self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
         tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
-        given = self.scene.terms, tolerance, stage, self.state, out, self.control
+        arguments = self.scene.terms, tolerance, stage, self.state, out, self.control
         outcome, passed = (
-            march.march(*given) if self.arc is None else arc_length.follow(*given, self.arc)
+            march.march(*arguments) if self.arc is None else arc_length.follow(*arguments, self.arc)
         )
         there = np.flatnonzero(~np.isnan(out.rows["time"][:passed]))
         self.done = self.reached = start + len(there)

@@ -168,8 +168,8 @@ class _Translation:
     @property
     def automatic(self) -> bool:
         """Whether the profile leaves the width of lines to the slicer."""
-        said = [self._said(name) for name in self.names.widths]
-        return any(said) and all(text in ("", "0") for text in said)
+        texts = [self._said(name) for name in self.names.widths]
+        return any(texts) and all(text in ("", "0") for text in texts)
 
     def left_out(self) -> Iterator[str]:
         """Settings that change walls, and that no lattice here has, with their values."""

@@ -173,14 +173,14 @@ def _sections(text: str) -> dict[tuple[str, str], dict[str, str]]:
     sections: dict[tuple[str, str], dict[str, str]] = {}
     now = ("", "")
     for line in text.splitlines():
-        said = line.strip()
-        if said.startswith("[") and said.endswith("]"):
-            kind, _, name = said[1:-1].partition(":")
+        text_line = line.strip()
+        if text_line.startswith("[") and text_line.endswith("]"):
+            kind, _, name = text_line[1:-1].partition(":")
             now = (kind.strip(), name.strip())
             sections.setdefault(now, {})
             continue
-        key, equals, value = said.removeprefix(";").partition("=")
-        if equals and not said.startswith("#") and key.strip().isidentifier():
+        key, equals, value = text_line.removeprefix(";").partition("=")
+        if equals and not text_line.startswith("#") and key.strip().isidentifier():
             sections.setdefault(now, {})[key.strip()] = value.strip().strip('"')
     return sections
 
