@@ -75,7 +75,7 @@ class Picture:
 class Results:
     """The finished cases of a sweep in the results file `path`, in the order of the sweep.
 
-    ids : of the cases; None: all cases of the file. question : keyword arguments of `ranked` with
+    ids: of the cases; None: all cases of the file. question: keyword arguments of `ranked` with
     which `plot` compares designs.
     """
 
@@ -136,13 +136,13 @@ class Results:
     def case(self, case: int | str) -> Case:
         """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.
 
-        case : row of the table, or its id.
+        case: row of the table, or its id.
         """
         return read_case(self.path, self._row(case)["case_id"])
 
     @explained
     def curve(self, case: int | str) -> DataFrame:
-        """The history of a case: a row per stored step. case : row of the table, or its id."""
+        """The history of a case: a row per stored step. case: row of the table, or its id."""
         return read_history(self.path, self._row(case)["case_id"])
 
     @explained
@@ -182,7 +182,7 @@ class Results:
     def report(self, out: str | Path | None = None) -> Path:
         """Write the results as one HTML page with sliders, as `crumple report` does; return it.
 
-        out : the page, by default NAME.html beside the results. It has all cases of the file, and
+        out: the page, by default NAME.html beside the results. It has all cases of the file, and
         begins with the question of the config.
         """
         from sweep.export.page import export_page
@@ -194,7 +194,7 @@ class Results:
     def to_xarray(self, curves: Sequence[str] | str | bool = ()) -> Dataset:
         """The table as an `xarray.Dataset` along `case_id`; needs xarray (`crumple[xarray]`).
 
-        curves : columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
+        curves: columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
         case; True: all of them. One that the table has too is called `history_...`. Keys of the
         grid are coordinates, so that `dataset.set_index(case_id=[...]).unstack()` makes them axes.
         Variables have their `units` and a `long_name`.

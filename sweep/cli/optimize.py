@@ -86,7 +86,7 @@ def _question(config: Config, arguments: Namespace) -> Question:
 
 def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Case]) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
-    requirement. start : designs of the search, all of one loading; empty if none exists.
+    requirement. start: designs of the search, all of one loading; empty if none exists.
     """
     mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):

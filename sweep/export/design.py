@@ -14,7 +14,7 @@ from sweep.numbers import in_unit
 
 @dataclass(frozen=True)
 class Design:
-    """The printed part. network : the drawing; grams : mass of one specimen; along : whether it is
+    """The printed part. network: the drawing; grams: mass of one specimen; along: whether it is
     pressed along its cells.
     """
 

@@ -51,12 +51,12 @@ class Reference(NamedTuple):
 class Study(NamedTuple):
     """One scene.
 
-    settings : a row per case, in the order of the sweep: the row of the summary, `method`, the
+    settings: a row per case, in the order of the sweep: the row of the summary, `method`, the
         relative errors `energy`, `peak` and `path`, the greatest of the resolved ones, `worst`, and
         `front`: True if no setting as cheap has a smaller `worst`.
-    finest : row of the setting from which the references are extrapolated.
-    orders : method -> measure -> key -> observed order.
-    resolved : measures whose reference is certain enough for the coarsest target.
+    finest: row of the setting from which the references are extrapolated.
+    orders: method -> measure -> key -> observed order.
+    resolved: measures whose reference is certain enough for the coarsest target.
     """
 
     settings: DataFrame
@@ -73,7 +73,7 @@ class AccuracyError(ValueError):
 def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
     """One study for each scene of a sweep with a converged case.
 
-    summary : the rows of the cases of the sweep, of any status.
+    summary: the rows of the cases of the sweep, of any status.
     """
     status = summary["status"].where(summary["retry"] == "", Status.STOPPED)
     summary = summary.assign(status=status)  # a retry has other settings than its row

@@ -162,7 +162,7 @@ def judge(
 ) -> tuple[Series, tuple[Outcome, ...]]:
     """Which rows of one scene fulfil all requirements, and the outcome within each budget.
 
-    budgets_g : masses in grams; infinite without a budget. allowed : force (N) up to which the
+    budgets_g: masses in grams; infinite without a budget. allowed: force (N) up to which the
     energy of a crush is counted; NaN without one.
     """
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
@@ -291,7 +291,7 @@ def misses(
     """By what share of its limit each row misses each requirement, (rows, required).
 
     0 if the requirement is met, up to round-off, or does not apply to this loading; NaN if the
-    value is unknown. measures : from `measured`.
+    value is unknown. measures: from `measured`.
     """
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
@@ -305,7 +305,7 @@ def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
     """The greatest miss of each row by its index, starting with the nearest design.
 
     Trusted designs come before others; the lightest comes first among equal misses. Infinite if a
-    value is unknown. mass : name of the column that budgets limit. shares : from `misses`.
+    value is unknown. mass: name of the column that budgets limit. shares: from `misses`.
     """
     worst = shares.assign(none=0.0).max(axis=1, skipna=False).fillna(np.inf)
     order = rows.assign(worst=worst, doubtful=doubtful(rows))

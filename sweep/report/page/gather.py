@@ -106,8 +106,8 @@ def page_data(
 ) -> dict[str, Any]:
     """All data of a page, for JSON; numbers that rank designs keep all their digits.
 
-    question : the question with which the page starts; budget (kg) and panel (m) are lists or None.
-    ranking : its `first_ranking`, if it exists already. files_of : the page holds the files to
+    question: the question with which the page starts; budget (kg) and panel (m) are lists or None.
+    ranking: its `first_ranking`, if it exists already. files_of: the page holds the files to
     print of the first designs.
     """
     heads = list(design_text(loaded(summary), summary))

@@ -125,7 +125,7 @@ def _path(points: Sequence[Sequence[int]]) -> str:
 def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, Any]:
     """Some frames of a case: trails of nodes, and the data of `_moving`.
 
-    frames : from `read_frames`. forces : of every frame (N), None if unknown.
+    frames: from `read_frames`. forces: of every frame (N), None if unknown.
     """
     used, edges = np.unique(frames["edges"], return_inverse=True)
     position = np.asarray(frames["position_m"], float)[:, used]
