@@ -86,7 +86,7 @@ class Results:
         question: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(path, str | PathLike):
-            raise StoreError(f"{path!r} is no path; needed: that of a results file")
+            raise StoreError(f"{path!r} is no path; needed: the path of a results file")
         self.path = Path(path)
         self._ids = ids
         self.question = Question(**(question or {}))

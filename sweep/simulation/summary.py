@@ -265,7 +265,7 @@ def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float
     """
     loading = case.loading
     if isinstance(loading, CustomLoading):
-        return np.nan  # reactions are those of its probes
+        return np.nan  # its reactions are at its probes
     force = transmitted(case, history)
     if isinstance(loading, Impact):
         return float(force.max())

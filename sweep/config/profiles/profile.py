@@ -268,7 +268,7 @@ def _notes(name: str, values: Mapping[str, Any], translation: _Translation) -> I
     taken = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in values.items())
     yield f"{name}, of {TITLES[program]}: {taken}"
     if translation.settings.project:
-        yield f"{name}: settings of single objects are not read, only those of the project"
+        yield f"{name}: settings of single objects are not read, only settings of the project"
     if missing:
         yield f'{name} inherits from "{missing}", which is not beside it: what that says is unknown'
     keys = ("pattern", "infill", "perimeters", "line_width", "layer_height", "nozzle")
