@@ -29,9 +29,7 @@ WHOLE = ("absorbed_energy_J", "specific_absorption_J_per_g")  # columns of the w
 WIDE = 10_000  # width where no terminal limits it
 
 
-def print_ranking(
-    file: str, summary: DataFrame, question: Question, brief: bool = False
-) -> Ranking:
+def print_ranking(file: str, summary: DataFrame, question: Question, brief: bool) -> Ranking:
     """Print the tables of a ranking, and the warnings; return it.
 
     Legend and further commands are left out if ``brief``.
