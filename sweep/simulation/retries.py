@@ -32,7 +32,7 @@ TIMES = 4  # retries of an impact, each with a quarter of the previous time step
 FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
 ENDED = Status.CONVERGED, Status.SLIPPED
-STEADY = "backward_euler"  # creates no energy, whatever its steps
+ROBUST = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
 
@@ -76,7 +76,7 @@ def _is_coarse(case: Case) -> bool:
     match case.loading:
         case Impact():
             usual = resolving_step(case)
-        case DeadLoad() if case.solver.integrator != STEADY:
+        case DeadLoad() if case.solver.integrator != ROBUST:
             usual = TIME_STEP
         case _:
             return False
@@ -143,8 +143,8 @@ def _values(result: Result) -> Iterator[tuple[str, str, str, float | str]]:
     if not (moves and result.status is Status.TIMED_OUT):
         for key, unit, value in _shorter(case):
             yield "solver", key, with_unit(value, unit), value
-    if moves and case.solver.integrator != STEADY:
-        yield "solver", "integrator", f'"{STEADY}"', STEADY
+    if moves and case.solver.integrator != ROBUST:
+        yield "solver", "integrator", f'"{ROBUST}"', ROBUST
     if bowed and result.status is Status.STOPPED:
         bow = BOWED * case.lattice.imperfection or BOW
         yield "lattice", "imperfection", with_unit(bow, ""), bow

@@ -55,7 +55,13 @@ from sweep.simulation.failures import (
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.striker import closing_speed, rests, second_stop
-from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, peaks_of, summarise
+from sweep.simulation.summary import (
+    BOOK_COLUMNS,
+    OF_THE_WHOLE_RUN,
+    history_columns,
+    peaks_of,
+    summarise,
+)
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     MOST_LOST,
@@ -303,7 +309,7 @@ class _Run:
         greatest entry; round-off is no excuse.
         """
         rows = self.rows[:count]
-        size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
+        size = max(np.abs(rows[name]).max() for name in BOOK_COLUMNS.values() if name != "residual")
         return self._left(count) <= GAP * size
 
     def _left(self, count: int) -> float:
@@ -416,7 +422,7 @@ class _Run:
         """
         rows = self.rows[: self.done].copy()
         if isinstance(self.scene, PlateScene):
-            for name in (*BOOK.values(), "reaction_top", "reaction_bottom", "most_force"):
+            for name in (*BOOK_COLUMNS.values(), "reaction_top", "reaction_bottom", "most_force"):
                 rows[name] *= self.scene.mesh.copies
         if not self.scene.standing.size:
             rows["patch_force"] = rows["patch_at"] = np.nan

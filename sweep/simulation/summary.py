@@ -53,7 +53,7 @@ from sweep.simulation.striker import (
 from sweep.simulation.time_resolution import integrator_share, known_peak, path_error
 from sweep.simulation.up_to_force import absorbed_until
 
-BOOK = {
+BOOK_COLUMNS = {
     "work_in_J": "work",
     "kinetic_J": "kinetic",
     "stretch_J": "stretch",
@@ -65,6 +65,7 @@ BOOK = {
     "injected_by_projection_J": "injected",
     "energy_residual_J": "residual",
 }
+"""Columns of the energy book, with their names in `kernels.shared.rows.ROW`."""
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 PEAKS = ("peak_force_at_densification_N", "peak_force_until_packed_N")
 TOUCHING = ("contact_J", "injected_by_projection_J")
@@ -112,7 +113,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         "top_displacement_m": travel,
         "reaction_top_N": rows["reaction_top"].copy(),
         "reaction_bottom_N": rows[below].copy(),
-        **{column: rows[name].copy() for column, name in BOOK.items()},
+        **{column: rows[name].copy() for column, name in BOOK_COLUMNS.items()},
         "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
         "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
         "base_pressure_Pa": rows["patch_force"] / (patch_width(case) * case.lattice.depth),

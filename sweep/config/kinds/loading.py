@@ -11,7 +11,7 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.specimen import TIED
-from sweep.config.kinds.striker import struck
+from sweep.config.kinds.striker import with_striker
 from sweep.config.kinds.table import Inputs, Pairs, RefusedError
 
 Loading: TypeAlias = DeadLoad | Crush | Impact | CustomLoading
@@ -31,7 +31,7 @@ def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes:
         return CustomLoading.of(inputs, body, integrator, relaxes)
     mode = _mode_of(inputs, body.shells)
     _check(inputs, mode, body, integrator)
-    inputs = struck(inputs, body.width, body.unending)
+    inputs = with_striker(inputs, body.width, body.unending)
     kind = next(kind for kind in BY_MODE if mode in kind.words)
     return kind.of(inputs, body, integrator, relaxes)
 
