@@ -69,7 +69,7 @@ class Cases(Sequence[Case]):
 
     def of(self, case_id: str) -> Case:
         """The case with an id."""
-        return _made(case_id, self._rows[self._numbers[case_id]])
+        return _case_of(case_id, self._rows[self._numbers[case_id]])
 
     def only(self, ids: Iterable[str]) -> "Cases":
         """The cases with these ids, in their order."""
@@ -93,10 +93,10 @@ class Cases(Sequence[Case]):
     def __getitem__(self, place: int | slice) -> "Case | Cases":
         if isinstance(place, slice):
             return self.only(self._ids[place])
-        return _made(self._ids[place], self._rows[place])
+        return _case_of(self._ids[place], self._rows[place])
 
     def __iter__(self) -> Iterator[Case]:
-        return map(_made, self._ids, self._rows)
+        return map(_case_of, self._ids, self._rows)
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -134,7 +134,7 @@ def _labels(row: tuple[Any, ...]) -> dict[str, Any]:
     return dict(zip(names, row[len(row) - len(names) :], strict=True))
 
 
-def _made(case_id: str, row: tuple[Any, ...]) -> Case:
+def _case_of(case_id: str, row: tuple[Any, ...]) -> Case:
     """The case of a row, with its id, which takes longer to compute than the rest."""
     kind, own_keys, others, _ = row[0]
     values = dict(zip(kind.model_fields, row[1:], strict=False))

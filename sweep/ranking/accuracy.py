@@ -118,7 +118,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     by_method = {
         method: _references(group, values, refined) for method, group in done.groupby("method")
     }
-    finest, references = _chosen(by_method, refined)
+    finest, references = _best_references(by_method, refined)
     errors = DataFrame(
         {
             name: {i: rms(values[name][i] - ref.value) / ref.scale for i in done.index}
@@ -138,7 +138,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     )
 
 
-def _chosen(
+def _best_references(
     by_method: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
     """The references of the best method, with more doubt if equivalent methods have other

@@ -17,15 +17,15 @@ def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> d
         return {"second_cycle_share": nan}
     columns = dict[str, float]()
     for number, (start, loaded, _, end) in enumerate(cycles, 1):
-        absorbed = _gained(work, start, loaded)
+        absorbed = _work_between(work, start, loaded)
         peak = force[start : end + 1].max() if end < len(force) else nan
-        lost = min(_gained(work, start, end), absorbed)  # pulling back is no loss
+        lost = min(_work_between(work, start, end), absorbed)  # pulling back is no loss
         values = absorbed, lost, float(peak)
         columns |= zip(cycle_columns(number), values, strict=True)
     first, second = (columns[cycle_columns(number)[0]] for number in (1, 2))
     return columns | {"second_cycle_share": second / first}
 
 
-def _gained(work: Floats, start: int, end: int) -> float:
+def _work_between(work: Floats, start: int, end: int) -> float:
     """Work (J) done between two rows; NaN if the second one is missing."""
     return float(work[end] - work[start]) if end < len(work) else nan

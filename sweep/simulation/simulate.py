@@ -279,7 +279,7 @@ class _Run:
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
         if not self._balances(self.done):
-            if self._left(self.done) <= self.done * self.noise:
+            if self._residual(self.done) <= self.done * self.noise:
                 return self._failed(outcomes.UNRESOLVED, phase.name)
             self.curable = True
             return unbalanced(self.where())
@@ -310,9 +310,9 @@ class _Run:
         """
         rows = self.rows[:count]
         size = max(np.abs(rows[name]).max() for name in BOOK_COLUMNS.values() if name != "residual")
-        return self._left(count) <= GAP * size
+        return self._residual(count) <= GAP * size
 
-    def _left(self, count: int) -> float:
+    def _residual(self, count: int) -> float:
         """Greatest residual of the energy book in ``count`` rows, J."""
         return float(np.abs(self.rows["residual"][:count]).max())
 

@@ -157,7 +157,7 @@ def _of_ini(text: str, preset: str) -> Settings:
             raise MisfitError(f'no bundle, and so without "{preset}"; allowed: no #')
         return Settings(program, sections.get(("", ""), {}))
     chosen = sections.get(("presets", ""), {})
-    name = _chosen(preset or chosen.get("print", ""), prints)
+    name = _profile_name(preset or chosen.get("print", ""), prints)
     printers = {name: own for (kind, name), own in sections.items() if kind == "printer"}
     printer = chosen.get("printer", "")
     if printer not in printers and len(visible := _visible(printers)) == 1:
@@ -191,7 +191,7 @@ def _is_superslicer(text: str, sections: Mapping[Any, Mapping[str, str]]) -> boo
     return own or "superslicer" in text[:300].lower()
 
 
-def _chosen(name: str, prints: Mapping[str, Any]) -> str:
+def _profile_name(name: str, prints: Mapping[str, Any]) -> str:
     """The name of the requested print profile."""
     if name in prints:
         return name
