@@ -40,7 +40,7 @@ def published(arguments: Namespace) -> int:
     tables = [OURS, *others]
     rows = [(table, row) for table in tables for row in read_table(table)]
     words = arguments.rows
-    requested = [(table, row) for table, row in rows if not words or any(map(row.is_meant, words))]
+    requested = [(table, row) for table, row in rows if not words or any(map(row.matches, words))]
     if not requested:
         names = ", ".join(row.name for _, row in rows)
         raise ArgumentError(f"no row of {' '.join(arguments.rows)}; allowed: words of {names}")
