@@ -97,7 +97,7 @@ and again after an update of Crumple or of its packages. The code is kept in CRU
 in the cache folder of the user, ~/.cache/crumple on Linux: one call serves all machines of a
 cluster that share this folder and have the same processor."""
 RANK = """List the designs that absorb the most energy, one table for each loading scene.
-Budgets, panel and requirements are those of [rank] and [require] in the config, unless they are
+Budgets, panel and requirements are taken from [rank] and [require] in the config, unless they are
 given here ("none" drops a requirement); --by alone ranks single specimens of any mass. Designs that
 fail a requirement are not ranked; notes say how many within the budget fail which. If all
 of them fail, the nearest one is named: the one whose worst miss, in percent of the limit, is the
@@ -167,7 +167,7 @@ your own .csv files: all that their files state, with sources. With the word plo
 stress over strain, in materials.png. With the word fit: the material of your own test of a printed
 strip or puck, loaded, unloaded and loaded again, as a .csv file for material.name, with a picture.
 The file is the export of a testing machine as it is: time, strain or displacement (with --gauge),
-stress or force (with --area). What it does not say is asked for, with the option that says it.
+stress or force (with --area). Whatever is missing in it is requested, with the option to give it.
 configs/materials/README.md says how to test."""
 MATERIALS_EXAMPLES = """examples:
   crumple materials                                         all of them, as a table
@@ -187,8 +187,8 @@ writes the nine elastic constants, the density and the axes as text that Calculi
 PUBLISHED = """Print predictions of published crushes, and of your own, beside the measured values:
 what is open, the predicted range over it, the measured value with its scatter, inside or not. The
 predictions are stored; --run simulates them again, into results/published/, and says which do not
-come out (exit status 1; also if a case has not converged). ROW: words of rows that are meant, such
-as a name of a source; then also the config and the measure of each row are printed.
+come out (exit status 1; also if a case has not converged). ROW: words of the rows to print, such as
+the name of a source; then also the config and the measure of each row are printed.
 With --add: put your own crush into a table of your own, published.csv. CONFIG varies in its [grid]
 what you do not know, such as friction. Its prediction is stored first; the measured value, with a
 unit, may be given now or by the same command later. Of a curve, a csv file with the columns
@@ -203,8 +203,8 @@ PUBLISHED_EXAMPLES = """examples:
   crumple published --add mine.toml --measure plateau_stress_iso_Pa --measured curve.csv
 """
 
-MERGE = """Bring the rows of results files into one, such as those of the parts of a sweep that ran
-as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
+MERGE = """Bring the rows of results files into one, such as the files of the parts of a sweep that
+ran as a job array (run --part K/N). Of two rows of a case, the one in the later file stays."""
 
 WIDTH = 100  # most letters in a line of help
 BRIEF = "tables and warnings alone"
@@ -457,7 +457,7 @@ def _add_rank(verbs: Any) -> None:
         nargs="+",
         action="extend",
         metavar="LENGTH",
-        help='with --out: cushion curves of drops from "0.5 m", else those of [rank]',
+        help='with --out: cushion curves of drops from "0.5 m" (default: as in [rank])',
     )
 
 
@@ -554,9 +554,7 @@ def _add_published(verbs: Any) -> None:
         description=PUBLISHED,
         epilog=PUBLISHED_EXAMPLES,
     )
-    published.add_argument(
-        "rows", metavar="ROW", nargs="*", help="words of the rows that are meant"
-    )
+    published.add_argument("rows", metavar="ROW", nargs="*", help="words of the rows to print")
     published.add_argument("--run", action="store_true", help="simulate the predictions again")
     add = published.add_argument("--add", type=_path, metavar="CONFIG", help="your own crush")
     offer(add, configs)

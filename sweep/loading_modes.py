@@ -271,6 +271,6 @@ def exceeds(rows: DataFrame, measure: Coarse) -> Series:
     return values.isna() if isnan(measure.most) else values > measure.most
 
 
-def asked_of(requirement: str) -> tuple[str, ...]:
+def applies_to(requirement: str) -> tuple[str, ...]:
     """The modes to which a requirement applies."""
     return tuple(name for name, mode in MODES.items() if requirement in mode.requires)

@@ -93,7 +93,7 @@ def _are_round(masses: Iterable[float]) -> bool:
     return all(abs(round(100 * mass) - 100 * mass) < 1e-6 for mass in masses)
 
 
-def significant(value: float, digits: int = 4) -> str:
+def significant(value: float, digits: int) -> str:
     """A number with so many significant digits; a large one has all of its digits, no exponent."""
     text = f"{value:.{digits}g}"
     return f"{value:.0f}" if "e+" in text and abs(value) < LARGE else text

@@ -38,16 +38,16 @@ if TYPE_CHECKING:
 SHARPNESS = 110  # dots per inch in a notebook
 
 
-class AsAsked(Enum):
+class FromConfig(Enum):
     """The default of an argument: the value in the config."""
 
-    AS_ASKED = "as the config asks"
+    FROM_CONFIG = "as in the config"
 
     def __repr__(self) -> str:
         return self.value
 
 
-AS_ASKED = AsAsked.AS_ASKED
+FROM_CONFIG = FromConfig.FROM_CONFIG
 
 
 class Picture:
@@ -75,7 +75,7 @@ class Picture:
 class Results:
     """The finished cases of a sweep in the results file `path`, in the order of the sweep.
 
-    ids : of the cases; None: all cases of the file. question : keyword arguments of `ranked` with
+    ids: of the cases; None: all cases of the file. question: keyword arguments of `ranked` with
     which `plot` compares designs.
     """
 
@@ -86,7 +86,7 @@ class Results:
         question: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(path, str | PathLike):
-            raise StoreError(f"{path!r} is no path; needed: that of a results file")
+            raise StoreError(f"{path!r} is no path; needed: the path of a results file")
         self.path = Path(path)
         self._ids = ids
         self.question = Question(**(question or {}))
@@ -112,13 +112,13 @@ class Results:
     @explained
     def rank(  # noqa: PLR0913  every argument is a part of one question
         self,
-        budget: Quantity | Sequence[Quantity] | AsAsked | None = AS_ASKED,
-        panel: Sequence[Quantity] | AsAsked | None = AS_ASKED,
-        by: str | AsAsked | None = AS_ASKED,
-        top: int | AsAsked | None = AS_ASKED,
-        allowed_force: Quantity | AsAsked | None = AS_ASKED,
-        require: Mapping[str, Quantity | None] | AsAsked | None = AS_ASKED,
-        per: str | AsAsked = AS_ASKED,
+        budget: Quantity | Sequence[Quantity] | FromConfig | None = FROM_CONFIG,
+        panel: Sequence[Quantity] | FromConfig | None = FROM_CONFIG,
+        by: str | FromConfig | None = FROM_CONFIG,
+        top: int | FromConfig | None = FROM_CONFIG,
+        allowed_force: Quantity | FromConfig | None = FROM_CONFIG,
+        require: Mapping[str, Quantity | None] | FromConfig | None = FROM_CONFIG,
+        per: str | FromConfig = FROM_CONFIG,
     ) -> DataFrame:
         """The best designs, by the question of the config as changed by the arguments.
 
@@ -126,23 +126,23 @@ class Results:
         Numbers need their units, such as budget="25 g".
         """
         every = Question(budget, panel, by, top, allowed_force, require, per)  # type: ignore[arg-type]
-        given = {name: v for name, v in every._asdict().items() if v is not AS_ASKED}
-        quantities = {name: given.get(name) for name in ("budget", "panel", "allowed_force")}
-        check_units(quantities | dict(given.get("require") or {}))
-        question = self.question._replace(**given)
+        changes = {name: v for name, v in every._asdict().items() if v is not FROM_CONFIG}
+        quantities = {name: changes.get(name) for name in ("budget", "panel", "allowed_force")}
+        check_units(quantities | dict(changes.get("require") or {}))
+        question = self.question._replace(**changes)
         return answer(with_allowed(self.path, self.table, question), question).table
 
     @explained
     def case(self, case: int | str) -> Case:
         """A case with all of its parameters, as it was computed; `crumple.simulate` runs it again.
 
-        case : row of the table, or its id.
+        case: row of the table, or its id.
         """
         return read_case(self.path, self._row(case)["case_id"])
 
     @explained
     def curve(self, case: int | str) -> DataFrame:
-        """The history of a case: a row per stored step. case : row of the table, or its id."""
+        """The history of a case: a row per stored step. case: row of the table, or its id."""
         return read_history(self.path, self._row(case)["case_id"])
 
     @explained
@@ -182,7 +182,7 @@ class Results:
     def report(self, out: str | Path | None = None) -> Path:
         """Write the results as one HTML page with sliders, as `crumple report` does; return it.
 
-        out : the page, by default NAME.html beside the results. It has all cases of the file, and
+        out: the page, by default NAME.html beside the results. It has all cases of the file, and
         begins with the question of the config.
         """
         from sweep.export.page import export_page
@@ -194,7 +194,7 @@ class Results:
     def to_xarray(self, curves: Sequence[str] | str | bool = ()) -> Dataset:
         """The table as an `xarray.Dataset` along `case_id`; needs xarray (`crumple[xarray]`).
 
-        curves : columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
+        curves: columns of `curve` to add, along `case_id` and `row`, NaN after the last row of a
         case; True: all of them. One that the table has too is called `history_...`. Keys of the
         grid are coordinates, so that `dataset.set_index(case_id=[...]).unstack()` makes them axes.
         Variables have their `units` and a `long_name`.

@@ -66,12 +66,6 @@ def respond(law, strain):
 
 
 @jit
-def respond_fibre(law, strain):
-    """Return W, sigma and its tangent of a fibre, without the barrier."""
-    return curve(law, strain)
-
-
-@jit
 def least(law):
     """Return the strain at which the barrier makes the stress tend to minus infinity."""
     return -1.0
@@ -109,7 +103,7 @@ class FibreCurve(NamedTuple):
     modulus: float
 
     piece = piece
-    respond = respond_fibre
+    respond = curve
     least = least_of_fibre
 
 

@@ -38,7 +38,7 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit
-from kernels.laws.elastic import least_of_fibre, respond_fibre
+from kernels.laws.elastic import curve, least_of_fibre
 
 TERMS = 60
 OCTAVE = 16  # knots between y and 2 y
@@ -73,7 +73,7 @@ class OctaveCurve(NamedTuple):
     modulus: float
 
     piece = piece
-    respond = respond_fibre
+    respond = curve
     least = least_of_fibre
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from kernels.arrays import pair
 from kernels.compile.jit import jit_exact
 from kernels.geometry.distance import closest, normal
+from kernels.terms.contact import Contact
 
 SWEEPS = 100  # greatest number
 TOLERANCE = 1e-6  # share of the contact distance by which a pair may be too close
@@ -26,7 +27,7 @@ class Projection(NamedTuple):
     tied to a platen.
     """
 
-    contact: object
+    contact: Contact
     inverse_mass: np.ndarray
 
 

@@ -8,14 +8,22 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory, in_python
+from kernels.laws.law import Law, Memory, in_python
+from kernels.linear.condensed.analysis import Layout
 from kernels.planar import base_pressure, constraints, factoring, neighbour_lists, potential, steps
 from kernels.planar.neighbour_lists import Neighbours
+from kernels.planar.position_based import Projection
 from kernels.shared import lagging, moves, rows
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
-from kernels.terms.damping import Before
-from kernels.terms.elements import Resultants, Shape, Stiffness
+from kernels.terms.bend import Bend
+from kernels.terms.contact import Contact
+from kernels.terms.damping import Before, Damp
+from kernels.terms.elements import Resultants, Shape, Stiffness, Walls
+from kernels.terms.fold import Fold
+from kernels.terms.friction import Friction
+from kernels.terms.spring import Spring
+from kernels.terms.stretch import Stretch
 
 
 class Buffers(NamedTuple):
@@ -35,9 +43,9 @@ class Buffers(NamedTuple):
 
 
 class Planar(NamedTuple):
-    """The problem. scene: `PlanarScene`. neighbours: pair lists, matrix and lagged friction."""
+    """The problem. neighbours: pair lists, matrix and lagged friction."""
 
-    scene: object
+    scene: "PlanarScene"
     neighbours: Neighbours
     buffers: Buffers
 
@@ -118,17 +126,17 @@ class PlanarScene(NamedTuple):
     """One scene: the data of every term. A term that is absent has empty arrays."""
 
     coordinates: Coordinates
-    law: object
-    walls: object
-    stretch: object
-    bend: object
-    fold: object
-    spring: object
-    contact: object
-    friction: object
-    damp: object
-    layout: object
-    project: object
+    law: Law
+    walls: Walls
+    stretch: Stretch
+    bend: Bend
+    fold: Fold
+    spring: Spring
+    contact: Contact
+    friction: Friction
+    damp: Damp
+    layout: Layout
+    project: Projection
 
     find_neighbours = neighbour_lists.find_neighbours
     renew_neighbours = neighbour_lists.renew_neighbours

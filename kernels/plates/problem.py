@@ -8,14 +8,18 @@ from typing import NamedTuple
 import numpy as np
 
 from kernels.compile.jit import jit_exact, jit_owning
-from kernels.laws.law import Memory, in_python
+from kernels.laws.law import Law, Memory, in_python
 from kernels.plates import factoring, neighbour_lists, potential, steps
 from kernels.plates.contacts import thickness
+from kernels.plates.contacts.contact import Contact
+from kernels.plates.contacts.mirror import Mirror
 from kernels.plates.element import relaxing_shear, shell
+from kernels.plates.layout import Layout
 from kernels.plates.neighbour_lists import Neighbours
 from kernels.shared import followers, lagging, moves, rows
 from kernels.solve import history
 from kernels.solve.problem import Coordinates
+from kernels.terms.friction import Friction
 
 
 class Buffers(NamedTuple):
@@ -30,7 +34,7 @@ class Buffers(NamedTuple):
 
     committed: np.ndarray
     memory: Memory
-    shell: object
+    shell: shell.Scratch
     second: np.ndarray
     part: np.ndarray
     parts: np.ndarray
@@ -41,9 +45,9 @@ class Buffers(NamedTuple):
 
 
 class Plates(NamedTuple):
-    """The problem. scene: `PlateScene`. neighbours: pair lists, matrix and lagged friction."""
+    """The problem. neighbours: pair lists, matrix and lagged friction."""
 
-    scene: object
+    scene: "PlateScene"
     neighbours: Neighbours
     buffers: Buffers
 
@@ -123,12 +127,12 @@ class PlateScene(NamedTuple):
     """One scene: the data of every term. A term that is absent has empty arrays."""
 
     coordinates: Coordinates
-    law: object
-    shell: object
-    contact: object
-    mirror: object
-    friction: object
-    layout: object
+    law: Law
+    shell: shell.Shell
+    contact: Contact
+    mirror: Mirror
+    friction: Friction
+    layout: Layout
 
     find_neighbours = neighbour_lists.find_neighbours
     renew_neighbours = neighbour_lists.renew_neighbours

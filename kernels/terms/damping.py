@@ -29,9 +29,9 @@ class Before(NamedTuple):
     """
 
     frame: np.ndarray
-    shape: object
+    shape: elements.Shape
     strain: np.ndarray
-    stiffness: object
+    stiffness: elements.Stiffness
 
 
 @jit

@@ -37,7 +37,7 @@ def by_number(
 ) -> tuple[Series, str]:
     """The row with a number in the ranking of one scene, within the first budget; and a sentence.
 
-    scene : see `_scene`.
+    scene: see `_scene`.
     """
     ranking = answer(summary, question._replace(top=number))
     table = ranking.table

@@ -47,9 +47,9 @@ def materials(arguments: Namespace) -> None:
 
 
 def _refuse_options_of_a_fit(arguments: Namespace) -> None:
-    given = [name for name in OF_A_FIT if getattr(arguments, name)]
-    if given:
-        raise MaterialsError(f"--{given[0]} belongs to fit")
+    options = [name for name in OF_A_FIT if getattr(arguments, name)]
+    if options:
+        raise MaterialsError(f"--{options[0]} belongs to fit")
 
 
 def _record(name: str) -> Record:

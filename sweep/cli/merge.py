@@ -20,7 +20,7 @@ def merge(out: str, files: list[str]) -> None:
         raise ArgumentError(f"{out} is to be written, and cannot be one of the files that are read")
     about = read_attributes(files[0])
     if others := {read_attributes(file).get("config") for file in files} - {about.get("config")}:
-        hint([f"the files are of {len(others) + 1} configs; {out} keeps that of {files[0]}"])
+        hint([f"the files are of {len(others) + 1} configs; {out} keeps the config of {files[0]}"])
     merged = [*files, out] if exists(out) else files
     parts, count = _parts(str(read_attributes(file).get("part", "")) for file in merged)
     about = {name: value for name, value in about.items() if name != "part"}

@@ -70,15 +70,15 @@ def _question(config: Config, arguments: Namespace) -> Question:
     if arguments.pareto:
         check_column(arguments.pareto)
     options = {name: getattr(arguments, name) for name in MEASURES}
-    given = {name: value for name, value in options.items() if value}
-    if given.get("max_force") != "none":
-        given.pop("max_force", None)
+    requirements = {name: value for name, value in options.items() if value}
+    if requirements.get("max_force") != "none":
+        requirements.pop("max_force", None)
     question = question_of(
         config,
         budget=arguments.budget,
         panel=arguments.panel,
         by=arguments.by,
-        require=given,
+        require=requirements,
         per=arguments.per,
     )
     return question._replace(allowed_force=arguments.allowed_force)
@@ -86,7 +86,7 @@ def _question(config: Config, arguments: Namespace) -> Question:
 
 def _with_max_force(question: Question, arguments: Namespace, start: Sequence[Case]) -> Question:
     """The question with --max-force: the force up to which the energy of a crush counts, else a
-    requirement. start : designs of the search, all of one loading; empty if none exists.
+    requirement. start: designs of the search, all of one loading; empty if none exists.
     """
     mode = start[0].loading.mode if start else ""
     if arguments.max_force in (None, "none"):

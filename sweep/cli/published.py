@@ -34,19 +34,19 @@ def published(arguments: Namespace) -> int:
     mine = Path(arguments.table)
     if arguments.add:
         _add(arguments, mine)
-    elif given := [name for name in OF_ADD if getattr(arguments, name)]:
-        raise ArgumentError(f"--{given[0]} belongs to --add")
+    elif options := [name for name in OF_ADD if getattr(arguments, name)]:
+        raise ArgumentError(f"--{options[0]} belongs to --add")
     others = [mine] if mine.exists() and mine.resolve() != OURS else []
     tables = [OURS, *others]
     rows = [(table, row) for table in tables for row in read_table(table)]
     words = arguments.rows
-    meant = [(table, row) for table, row in rows if not words or any(map(row.is_meant, words))]
-    if not meant:
+    requested = [(table, row) for table, row in rows if not words or any(map(row.matches, words))]
+    if not requested:
         names = ", ".join(row.name for _, row in rows)
         raise ArgumentError(f"no row of {' '.join(arguments.rows)}; allowed: words of {names}")
-    shown, wrong = [row for _, row in meant], 0
+    shown, wrong = [row for _, row in requested], 0
     if arguments.run:
-        shown, wrong = _repeat(meant, arguments.workers)
+        shown, wrong = _repeat(requested, arguments.workers)
     _print(shown, details=bool(arguments.rows))
     if arguments.out:
         _write(shown, Path(arguments.out))

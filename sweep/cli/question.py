@@ -55,8 +55,8 @@ def _required(arguments: Namespace) -> dict[str, Any]:
     """The requirements of the config, each replaced or dropped by its option."""
     from sweep.ranking.requirement_table import MEASURES
 
-    given = {name: getattr(arguments, name) for name in MEASURES}
-    requirements = stored_table(arguments.file, "require") | {k: v for k, v in given.items() if v}
+    options = {name: getattr(arguments, name) for name in MEASURES}
+    requirements = stored_table(arguments.file, "require") | {k: v for k, v in options.items() if v}
     return {name: value for name, value in requirements.items() if value not in (None, "none")}
 
 

@@ -8,16 +8,13 @@ from pathlib import Path
 
 HOME = __name__.removesuffix(".cli.refusals")
 REFUSALS = {
-    f"{HOME}.config.grid": "ConfigError",
-    f"{HOME}.config.materials.material_file": "RecordError",
-    f"{HOME}.coupon.record": "CouponError",
+    f"{HOME}.config.faults": "MisfitError",
     f"{HOME}.cli.materials": "MaterialsError",
     f"{HOME}.running.searching.optimize": "OptimizeError",
     f"{HOME}.cli.card": "CardError",
     f"{HOME}.cli.find_case": "CaseError",
     f"{HOME}.cli.new": "NewError",
-    f"{HOME}.published.table": "PublishedError",
-    f"{HOME}.store.read": "StoreError",
+    f"{HOME}.store.errors": "StoreError",
     f"{HOME}.export.errors": "ExportError",
     f"{HOME}.running.cluster": "ClusterError",
     f"{HOME}.ranking.question": "RankError",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> dict[str, Any]:
     """The output of `crumple status`, as a dict of plain values.
 
-    about : the attributes of the file. `failures` has each message with its status and its cases.
+    about: the attributes of the file. `failures` has each message with its status and its cases.
     """
     from sweep.columns import ERROR
     from sweep.ranking.rank import model_versions

@@ -29,9 +29,7 @@ WHOLE = ("absorbed_energy_J", "specific_absorption_J_per_g")  # columns of the w
 WIDE = 10_000  # width where no terminal limits it
 
 
-def print_ranking(
-    file: str, summary: DataFrame, question: Question, brief: bool = False
-) -> Ranking:
+def print_ranking(file: str, summary: DataFrame, question: Question, brief: bool) -> Ranking:
     """Print the tables of a ranking, and the warnings; return it.
 
     Legend and further commands are left out if ``brief``.
@@ -147,14 +145,14 @@ def _heading(question: Question, ranking: Ranking) -> str:
         text = budget if isinstance(budget, str) else budget_text(in_unit(budget, "g"))
         lines.insert(0, f"At most {text}.")
     if panel := question.panel:
-        sides = " x ".join(_written(side, "mm") for side in panel)
+        sides = " x ".join(_quantity_text(side, "mm") for side in panel)
         whole = len(ranking.table) and is_period(ranking.table).all()
         how = "in one piece" if whole else "tiled with separate specimens"
         lines.insert(0, f"Panel of {sides}, {how}.")
     return " ".join(lines)
 
 
-def _written(value: float | str, unit: str) -> str:
+def _quantity_text(value: float | str, unit: str) -> str:
     """A quantity as the user writes it, or an SI number in a unit."""
     return value if isinstance(value, str) else text_in(value, unit)
 

@@ -281,7 +281,7 @@ VERBS = {verb.__name__: verb for verb in ALL}
 
 def _config(name: str) -> Config:
     """The config of a file or of an example; for an example, print the path of its file."""
-    from sweep.cli.cell_size import cell_sentences
+    from sweep.cli.lattice_notes import lattice_notes
     from sweep.config.faults import ConfigError
     from sweep.config.load import load_config
     from sweep.config.reading.examples import FOLDER as EXAMPLES
@@ -297,7 +297,7 @@ def _config(name: str) -> Config:
     if config.left_out.impossible:
         hint(["left out, as they are impossible:", *config.left_out.reasons])
     infill = config.recipe.base.get("lattice.infill")
-    hint(cell_sentences(config.cases, infill.value if infill else None))
+    hint(lattice_notes(config.cases, infill.value if infill else None))
     return config
 
 

@@ -40,14 +40,14 @@ def verify(file: str, again: int) -> bool:
     if wrong:
         say("`crumple run CONFIG --renew` computes these again, and keeps the others")
         return False
-    chosen = _drawn(summary["case_id"].drop(failed_cases(summary).index), again)
+    chosen = _sample(summary["case_id"].drop(failed_cases(summary).index), again)
     different = list(_different(file, summary.set_index("case_id").loc[chosen]))
     say_all(different)
     say(f"{len(chosen) - len(different)} of {counted(len(chosen), 'case')} simulated again: same")
     return not different
 
 
-def _drawn(ids: Sequence[str], count: int) -> list[str]:
+def _sample(ids: Sequence[str], count: int) -> list[str]:
     rng = np.random.default_rng(SEED)
     return sorted(rng.choice(ids, min(count, len(ids)), replace=False).tolist())
 

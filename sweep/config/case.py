@@ -146,8 +146,8 @@ class Case(BaseModel):
     ) -> "Case":
         changes = {name: dict(change) for name, change in _checked(tables).items()}
         values = merged({name: getattr(self, name) for name in TABLES}, changes)
-        given = {name: _values(table) for name, table in values.items()}
-        case = complete(given, cache).sound(labels)
+        inputs = {name: _values(table) for name, table in values.items()}
+        case = complete(inputs, cache).sound(labels)
         for name, change in changes.items():
             _check_keys(getattr(case, name), name, _values(change))
         return case
@@ -213,13 +213,13 @@ class Draft:
         return Case.model_construct(keys_of(Case), **values)
 
 
-def complete(given: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) -> Draft:
+def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) -> Draft:
     """The case of the values of each table, in SI. cache: the tables of a sweep so far: `Draft`.
 
     The loading is checked even if the material and the lattice are refused.
     """
     draft = Draft({} if cache is None else cache)
-    pairs = {name: _frozen(given.get(name, {})) for name in TABLES}
+    pairs = {name: _frozen(inputs.get(name, {})) for name in TABLES}
     press = dict(pairs["loading"])
     along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
     pressed = _pressed(None, dict(pairs["lattice"]), along)
@@ -247,8 +247,8 @@ def _numerics(
     """Complete the tables of numerical settings; the first refusal ends it."""
     model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
     by_position = model == "position_based"
-    given = pairs["solver"], material, loading, pressed, by_position
-    solver = draft.add("solver", steps.solver, *given)
+    inputs = pairs["solver"], material, loading, pressed, by_position
+    solver = draft.add("solver", steps.solver, *inputs)
     if solver is None:
         return
     contact = (pairs["contact"], loading, pressed, solver.integrator)
@@ -257,14 +257,14 @@ def _numerics(
         draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
 
 
-def _pressed(lattice: Lattice | None, given: Inputs, along: bool) -> Body:
+def _pressed(lattice: Lattice | None, inputs: Inputs, along: bool) -> Body:
     """The body that is pressed; for a refused lattice, from its given values."""
     if lattice is not None:
         return _pressed_of(lattice, along)
     key = "depth" if along else "height"
-    height = given.get(key, Specimen.model_fields[key].default)
-    sheet = kind_of(given).sheet_clause(given)
-    return Body(height, along, width=given.get("width", inf), sheet=sheet)
+    height = inputs.get(key, Specimen.model_fields[key].default)
+    sheet = kind_of(inputs).sheet_clause(inputs)
+    return Body(height, along, width=inputs.get("width", inf), sheet=sheet)
 
 
 def _pressed_of(lattice: Lattice, along: bool) -> Body:
@@ -297,15 +297,15 @@ def _values(table: Inputs | Table) -> dict[str, Any]:
 
 def _checked(tables: Mapping[str, Any]) -> dict[str, Inputs | Table]:
     """The given tables; refuses tables that no case has, and values that are no table."""
-    given = {name: values for name, values in tables.items() if values is not None}
-    for name, values in given.items():
+    present = {name: values for name, values in tables.items() if values is not None}
+    for name, values in present.items():
         if name not in TABLES:
             raise RefusedError(name, values, f"the tables {', '.join(TABLES)}")
         if isinstance(values, Mapping):
             _check_types(name, values)
         elif not isinstance(values, Table):
             raise RefusedError(name, values, "values by key")
-    return given
+    return present
 
 
 def _check_types(table: str, values: Inputs) -> None:

@@ -11,12 +11,12 @@ OTHERS = tuple(name for name in TABLES if name != "lattice")
 
 
 class _Shared(NamedTuple):
-    """Data that many cases share: the kind of their lattices, the given keys of these (None: all),
-    the other tables, the names of the labels.
+    """Data that many cases share: the kind of their lattices, the keys that these set (None:
+    all), the other tables, the names of the labels.
     """
 
     kind: type[Lattice]
-    given: frozenset[str] | None
+    keys: frozenset[str] | None
     tables: tuple[Table, ...]
     labels: tuple[str, ...]
 
@@ -49,14 +49,14 @@ class Cases(Sequence[Case]):
     def add(self, case: Case) -> None:
         """Add a case, or replace the one with its id."""
         lattice, kind = case.lattice, type(case.lattice)
-        given = lattice.model_fields_set
+        own_keys = lattice.model_fields_set
         shared = _Shared(
             kind,
-            None if given == keys_of(kind) else frozenset(given),
+            None if own_keys == keys_of(kind) else frozenset(own_keys),
             tuple(getattr(case, name) for name in OTHERS),
             tuple(case.axes),
         )
-        key = (kind, shared.given, shared.labels, *map(id, shared.tables))
+        key = (kind, shared.keys, shared.labels, *map(id, shared.tables))
         shared = self._shared.setdefault(key, shared)
         values = (getattr(lattice, name) for name in kind.model_fields)
         row = (shared, *values, *case.axes.values())
@@ -69,7 +69,7 @@ class Cases(Sequence[Case]):
 
     def of(self, case_id: str) -> Case:
         """The case with an id."""
-        return _made(case_id, self._rows[self._numbers[case_id]])
+        return _case_of(case_id, self._rows[self._numbers[case_id]])
 
     def only(self, ids: Iterable[str]) -> "Cases":
         """The cases with these ids, in their order."""
@@ -93,10 +93,10 @@ class Cases(Sequence[Case]):
     def __getitem__(self, place: int | slice) -> "Case | Cases":
         if isinstance(place, slice):
             return self.only(self._ids[place])
-        return _made(self._ids[place], self._rows[place])
+        return _case_of(self._ids[place], self._rows[place])
 
     def __iter__(self) -> Iterator[Case]:
-        return map(_made, self._ids, self._rows)
+        return map(_case_of, self._ids, self._rows)
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -134,11 +134,11 @@ def _labels(row: tuple[Any, ...]) -> dict[str, Any]:
     return dict(zip(names, row[len(row) - len(names) :], strict=True))
 
 
-def _made(case_id: str, row: tuple[Any, ...]) -> Case:
+def _case_of(case_id: str, row: tuple[Any, ...]) -> Case:
     """The case of a row, with its id, which takes longer to compute than the rest."""
-    kind, given, others, _ = row[0]
+    kind, own_keys, others, _ = row[0]
     values = dict(zip(kind.model_fields, row[1:], strict=False))
-    lattice = kind.model_construct(keys_of(kind) if given is None else {*given}, **values)
+    lattice = kind.model_construct(keys_of(kind) if own_keys is None else {*own_keys}, **values)
     tables = dict(zip(OTHERS, others, strict=True))
     case = Case.model_construct(keys_of(Case), lattice=lattice, **tables, axes=_labels(row))
     case.__dict__["case_id"] = case_id

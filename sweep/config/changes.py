@@ -23,10 +23,10 @@ def merged(tables: Mapping[str, Table], changes: Mapping[str, Inputs]) -> dict[s
         values[name] |= change
     if _resized(changes):
         for name in ("lattice", "loading"):
-            given, new = values[name], changes.get(name, {})
+            own, new = values[name], changes.get(name, {})
             for cause, keys in tables[name].sets.items():
-                if given.get(cause):
-                    _drop(given, (key for key in keys if key not in new))
+                if own.get(cause):
+                    _drop(own, (key for key in keys if key not in new))
     return values
 
 

@@ -47,7 +47,7 @@ def drop_of(preset: str) -> Drop:
     value, rows = float(number), limits(name)
     if unit == "m":
         if value not in [height for _, height in rows]:
-            raise MisfitError(f"no height of {name}, which has {_listed(rows)}")
+            raise MisfitError(f"no height of {name}, which has {_heights(rows)}")
         return Drop(None, value)
     heights = [height for below, height in rows if 0.0 < value < below]
     if not heights:
@@ -84,5 +84,5 @@ def in_words() -> str:
     )
 
 
-def _listed(rows: list[tuple[float, float]]) -> str:
+def _heights(rows: list[tuple[float, float]]) -> str:
     return ", ".join(f"{height:g} m" for _, height in rows)

@@ -162,7 +162,7 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
         case = draft.labelled()
         if case.case_id not in cases.ids:
             cases.add(case)
-        unused = still_unused(unused, draft.given, case) if unused else unused
+        unused = still_unused(unused, draft.values, case) if unused else unused
     refused = [draft for draft in impossible if draft.is_mistaken(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
         raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))
@@ -186,7 +186,7 @@ class _Combination:
     """One combination: its values along the axes, all given values, its draft and its faults."""
 
     chosen: Values
-    given: dict[str, Any]
+    values: dict[str, Any]
     draft: Draft
     faults: list[Fault]
 
@@ -204,8 +204,8 @@ class _Combination:
         unusable = {key for axis, text in self.texts - usable for key in _keys(axis)}
         if not unusable or [fault.key for fault in self.faults] == [PRINTABLE]:
             return False
-        given = self.given.keys() - unusable
-        return unusable.isdisjoint(FAMILY) or any(f.key not in given for f in self.faults)
+        usable_keys = self.values.keys() - unusable
+        return unusable.isdisjoint(FAMILY) or any(f.key not in usable_keys for f in self.faults)
 
     def value(self, key: str) -> Any:
         """The value of the case; for an alias, the value that all its targets share."""
@@ -217,9 +217,9 @@ class _Combination:
         table, name = target.split(".")
         if part := self.draft.tables.get(table):
             words = getattr(part, "words", ()) if name == "mode" else ()
-            return self.given[target] if self.given.get(target) in words else part.value(name)
+            return self.values[target] if self.values.get(target) in words else part.value(name)
         kinds = [kind.model_fields[name] for kind in KINDS[table] if name in kind.model_fields]
-        return self.given.get(target, kinds[0].get_default() if kinds else None)
+        return self.values.get(target, kinds[0].get_default() if kinds else None)
 
     def matches(self, table: dict[str, tuple[object, ...]]) -> bool:
         """True if the case has, for every key of an [[exclude]] table, one of its values."""
@@ -236,9 +236,9 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
     cache: dict[Any, Any] = {}
     for chosen in _combinations(recipe):
         written = recipe.base | _targets(chosen)
-        given = {key: value.value for key, value in written.items()}
+        values = {key: value.value for key, value in written.items()}
         tables: dict[str, dict[str, Any]] = {name: {} for name in TABLES}
-        for key, value in given.items():
+        for key, value in values.items():
             table, name = key.split(".")
             tables[table][name] = value
         try:
@@ -247,7 +247,7 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
             raise ConfigError([Fault("material.name", f"material.name: {error}")]) from None
         in_order = sorted(draft.refused, key=lambda refused: TABLES.index(refused.table))
         faults = [_fault(refused, written) for refused in in_order]
-        yield _Combination(chosen, given, draft, faults)
+        yield _Combination(chosen, values, draft, faults)
 
 
 def _keys_to_use(recipe: Recipe) -> list[str]:
@@ -265,8 +265,8 @@ def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:
     for where, name, values in _axes(recipe):
         texts = ", ".join(written.text for written in values)
         lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    said = {f"{line}: {unused[key]}": key for key, line in lines.items() if unused.get(key)}
-    return [Fault(key, line) for line, key in said.items()]
+    faults = {f"{line}: {unused[key]}": key for key, line in lines.items() if unused.get(key)}
+    return [Fault(key, line) for line, key in faults.items()]
 
 
 def _dropping_none(recipe: Recipe, number: int) -> Fault:
@@ -311,11 +311,11 @@ def _keys(name: str) -> tuple[str, ...]:
     return ALIASES.get(name, (name,))
 
 
-def _fault(refused: RefusedError, given: Values) -> Fault:
+def _fault(refused: RefusedError, written_values: Values) -> Fault:
     """The fault of one case, in the words of the file if the file sets the key."""
     key, value, allowed = refused.key, refused.value, refused.allowed
-    if key in given:
-        written, allowed = given[key], _in_unit_of(given[key], key, allowed)
+    if key in written_values:
+        written, allowed = written_values[key], _in_unit_of(written_values[key], key, allowed)
         line = f"{written.name or key} = {written.text}: does not fit; allowed: {allowed}"
         return Fault(key, line)
     allowed = _in_mm(allowed)
@@ -324,8 +324,8 @@ def _fault(refused: RefusedError, given: Values) -> Fault:
     text = f"{value:g}" if isinstance(value, float) else json.dumps(value)
     unit = case_keys()[key].unit
     text = text if unit in (None, "1") else _in_mm(f"{text} {unit}")
-    of_a_file = "material.name" in given and key in OF_A_FILE
-    why = f" in the file of {given['material.name'].text}" if of_a_file else " by default"
+    of_a_file = "material.name" in written_values and key in OF_A_FILE
+    why = f" in the file of {written_values['material.name'].text}" if of_a_file else " by default"
     why = f", as {refused.since} is given" if refused.since else why
     return Fault(key, f"{key} = {text}{why}: does not fit; allowed: {allowed}")
 

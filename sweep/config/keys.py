@@ -128,8 +128,8 @@ def table_keys(table: str) -> dict[str, Key]:
 def nearest(name: str, candidates: Iterable[str]) -> str:
     """The known name most similar to this one; names that begin with it come first."""
     names = list(candidates)
-    begun = [other for other in names if other.startswith(name)]
-    return difflib.get_close_matches(name, begun or names, n=1, cutoff=0.0)[0]
+    longer = [other for other in names if other.startswith(name)]
+    return difflib.get_close_matches(name, longer or names, n=1, cutoff=0.0)[0]
 
 
 def _key(name: str, kind: Any, schema: dict[str, Any] | None = None) -> Key:

@@ -114,9 +114,9 @@ def _ask_for_units(columns: Columns) -> None:
         columns.undecided.update(unknown)
 
 
-def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | None) -> None:
+def _add(columns: Columns, table: Table, quantity: str, k: int, stated_unit: str | None) -> None:
     """Add a column in SI, or only its words if its unit is not known."""
-    head, unit = table.heads[k], given or table.units[k]
+    head, unit = table.heads[k], stated_unit or table.units[k]
     if head == quantity == "strain" and not unit:
         unit = "1"
     size = size_in_si(unit, quantity) if unit else None
@@ -126,13 +126,13 @@ def _add(columns: Columns, table: Table, quantity: str, k: int, given: str | Non
         columns.values[quantity] = size * table.values[:, k]
 
 
-def _candidates(table: Table, quantity: str, given: str | None) -> list[int]:
+def _candidates(table: Table, quantity: str, stated_unit: str | None) -> list[int]:
     """The columns that may be a quantity, by their words and units; constant ones are left out.
 
     If no unit fits, columns whose words fit and whose unit is not the unit of any quantity.
     """
     moving = [k for k in range(len(table.heads)) if _moves(table, k)]
-    units = {k: given or table.units[k] for k in moving}
+    units = {k: stated_unit or table.units[k] for k in moving}
     columns = [k for k in moving if _may_be(table.heads[k], units[k], quantity)]
     if not columns:
         strange = [k for k in moving if all(size_in_si(units[k], name) is None for name in SI)]

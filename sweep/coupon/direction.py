@@ -25,8 +25,10 @@ UP_TO = 0.3  # strain: beyond it pulled rubber becomes stiffer again
 def stated_test(texts: Iterable[str]) -> str | None:
     """The test that a file states, "pulled" or "pressed"; None if it states neither, or both."""
     words = "\n".join(texts)
-    said = [word for word, sign in (("pulled", PULLED), ("pressed", PRESSED)) if sign.search(words)]
-    return said[0] if len(said) == 1 else None
+    tests = [
+        word for word, sign in (("pulled", PULLED), ("pressed", PRESSED)) if sign.search(words)
+    ]
+    return tests[0] if len(tests) == 1 else None
 
 
 def directed(strain: Floats, stress: Floats, test: str) -> tuple[Floats, Floats]:
@@ -43,21 +45,21 @@ def sides_of(strain: Floats, stress: Floats) -> tuple[float, float]:
     return side, other
 
 
-def doubt(strain: Floats, stress: Floats, said: str | None, to_scale: bool) -> str | None:
+def doubt(strain: Floats, stress: Floats, stated: str | None, to_scale: bool) -> str | None:
     """Why it cannot be decided how a specimen was tested; None if it can.
 
-    said: the test that the file states, see `stated_test`. to_scale: false if the strains are known
-    only up to a factor.
+    stated: the test that the file states, see `stated_test`. to_scale: false if the strains are
+    known only up to a factor.
     """
     sides = sides_of(strain, stress)
-    if said == "pressed" or (said and sides[0] != sides[1]):
+    if stated == "pressed" or (stated and sides[0] != sides[1]):
         return None
     if sides[0] != sides[1]:
         return "force and travel, or stress and strain, have opposite signs"
     if sides == SIGNS["pressed"]:
-        return "the file has words of pulling, and negative numbers" if said else None
+        return "the file has words of pulling, and negative numbers" if stated else None
     growth = _growth(np.abs(strain - strain[0]), np.abs(stress - stress[0]), to_scale)
-    if said or growth <= GROWTH:
+    if stated or growth <= GROWTH:
         return None
     return (
         f"the numbers are positive, but the stiffness grows by {text_in(growth, '%', 2)} in the "

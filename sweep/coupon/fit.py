@@ -92,7 +92,7 @@ def fit(coupon: Coupon) -> Fit:
         model=model,
         misfit=float(np.sqrt(np.mean(apart**2))),
         worst=(float(abs(apart[worst])), worst),
-        shares=(_lost(coupon, rows, 0), _lost(coupon, rows, 2)),
+        shares=(_lost_share(coupon, rows, 0), _lost_share(coupon, rows, 2)),
     )
 
 
@@ -187,7 +187,7 @@ def _apart(coupon: Coupon, model: Floats) -> Floats:
     return np.where(taut, model - coupon.stress, 0.0) / most
 
 
-def _lost(coupon: Coupon, rows: list[int], first: int) -> float | None:
+def _lost_share(coupon: Coupon, rows: list[int], first: int) -> float | None:
     """Lost share of the work of the cycle that begins with a leg, if it ends unloaded."""
     if len(rows) < first + 3:
         return None

@@ -61,7 +61,7 @@ def fit_material(  # noqa: PLR0913  each answers one question that a record may 
 ) -> Path:
     """Fit a material to the test of a printed coupon and write it as a file for `material.name`.
 
-    file : as the testing machine exports it. out : by default FILE_material.csv beside it. gauge,
+    file: as the testing machine exports it. out: by default FILE_material.csv beside it. gauge,
     area, density, speed: text with a unit. test: "pulled" or "pressed". zero: where the record
     begins. units, columns: by quantity, such as {"force": "kN"}. All are the options of `crumple
     materials fit`, which `CouponError` refers to if the file leaves something open.

@@ -42,8 +42,8 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
     columns.
     """
     for name in (*SIZES, "speed"):
-        if (given := getattr(answers, name)) is not None and not given > 0.0:
-            raise MisfitError(f"--{name}: {given:g} in SI; allowed: above 0")
+        if (answer := getattr(answers, name)) is not None and not answer > 0.0:
+            raise MisfitError(f"--{name}: {answer:g} in SI; allowed: above 0")
     _add_travel(columns, answers)
     sizes = {size: _over(size, table, columns, answers) for size in SIZES}
     strain, stress = (None if pair is None else pair[0] for pair in sizes.values())
@@ -69,9 +69,9 @@ def _over(
     values.
     """
     ready, raw = SIZES[size]
-    given: float | None = getattr(answers, size)
-    if ready in columns.values and (given is None or raw not in columns.values):
-        if given is not None and (size == "area" or answers.speed is None):
+    divisor: float | None = getattr(answers, size)
+    if ready in columns.values and (divisor is None or raw not in columns.values):
+        if divisor is not None and (size == "area" or answers.speed is None):
             raise MisfitError(f"--{size} has no effect, as there is a column of {ready}")
         columns.words.pop(raw, None)
         return columns.values[ready], True
@@ -82,16 +82,16 @@ def _over(
         columns.questions.append(f"{words}; {heads_of(table)}")
         return None
     columns.words.pop(ready, None)
-    if given is None and (stated := stated_size(table, size)):
-        given, label = stated
-        value = with_unit(given, UNITS[size])
+    if divisor is None and (stated := stated_size(table, size)):
+        divisor, label = stated
+        value = with_unit(divisor, UNITS[size])
         columns.notes.append(f"{size} {value}, from the line {shown(label)}")
-    if given is None and ready not in columns.undecided:
+    if divisor is None and ready not in columns.undecided:
         head = columns.words.get(raw, raw)
         columns.questions.append(f"--{size} {NEEDED[size]} {head}")
     if raw not in columns.values:
         return None
-    return columns.values[raw] / (given or 1.0), given is not None
+    return columns.values[raw] / (divisor or 1.0), divisor is not None
 
 
 def _time(table: Table, columns: Columns, answers: Answers, strain: Floats | None) -> Floats | None:

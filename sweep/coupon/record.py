@@ -62,7 +62,7 @@ def _coupon(path: Path, answers: Answers) -> Coupon:
     columns = columns_of(table, answers.columns, answers.units)
     raw = measured(table, columns, answers)
     if raw is None:
-        raise MisfitError(_needed(columns.questions))
+        raise MisfitError(_question_text(columns.questions))
     for quantity, values in (("strain", raw.strain), ("stress", raw.stress)):
         if not np.ptp(values):
             raise MisfitError(f"the same {quantity} in all rows; needed: a column that changes")
@@ -71,13 +71,13 @@ def _coupon(path: Path, answers: Answers) -> Coupon:
     if raw.to_scale:
         columns.questions += doubts(strain, stress, columns.words)
     if columns.questions:
-        raise MisfitError(_needed(columns.questions))
+        raise MisfitError(_question_text(columns.questions))
     heads = (f"{quantity} from {head}" for quantity, head in columns.words.items())
     notes = (columns.notes[0], ", ".join(heads), *columns.notes[1:])
     return Coupon(path.stem, time - time[0], strain, stress, notes)
 
 
-def _needed(questions: list[str]) -> str:
+def _question_text(questions: list[str]) -> str:
     """All open questions, in one message."""
     if len(questions) == 1:
         return f"needed: {questions[0]}"

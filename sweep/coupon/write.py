@@ -164,7 +164,7 @@ def _memory_lines(fit: Fit) -> Iterator[str]:
         yield "loss            not known, as the record has no unloading: the curve alone is fitted"
         return
     if "loss" in memory:
-        yield f"loss            {_shown(fit, 'loss')}, without softening"
+        yield f"loss            {_memory_text(fit, 'loss')}, without softening"
     else:
         yield "loss            none: the law follows the record as well without"
     if len(fit.rows) < 4:
@@ -173,9 +173,9 @@ def _memory_lines(fit: Fit) -> Iterator[str]:
         yield "softening       none: the law follows the record as well without"
     else:
         m = _plus_minus(memory["softening_m"], fit.errors["softening_m"], "MPa", 3)
-        numbers = f"r {_shown(fit, 'softening_r')}, m {m}"
+        numbers = f"r {_memory_text(fit, 'softening_r')}, m {m}"
         doubt = "" if fit.knows_beta else ", which is assumed: the cycles are of one size"
-        yield f"softening       {numbers}, beta {_shown(fit, 'softening_beta')}{doubt}"
+        yield f"softening       {numbers}, beta {_memory_text(fit, 'softening_beta')}{doubt}"
 
 
 def _first_loading(fit: Fit) -> str:
@@ -187,7 +187,7 @@ def _first_loading(fit: Fit) -> str:
     return f"{to}: the curve, of {loadings} loadings; loss and softening are of all of them"
 
 
-def _shown(fit: Fit, key: str) -> str:
+def _memory_text(fit: Fit, key: str) -> str:
     """A number of a memory with its standard error, if it is fitted."""
     return _plus_minus(fit.memory[key], fit.errors.get(key, 0.0), "", 3)
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from sweep.design.slicer.patterns import Sliced
+from sweep.design.slicer.patterns import InfillLines
 
 THIN = 1e-6  # least thickness of walls, as a share of the greatest
 
@@ -38,5 +38,5 @@ class Geometry(NamedTuple):
     grading: float = 1.0
     outline: tuple[float, float] = (0.0, 0.0)
     periodic: tuple[bool, bool] = (False, False)
-    sliced: Sliced | None = None
+    sliced: InfillLines | None = None
     drawing: Drawing | None = None

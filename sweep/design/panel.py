@@ -44,7 +44,7 @@ class Panel(NamedTuple):
 def panel_of(sides: tuple[float, float], width: Any, depth: Any, gap: Any = 0.0) -> Panel:
     """The panel nearest to `sides` (m), of specimens of outer `width` x `depth` (m).
 
-    gap : of `BEHIND`, m; NaN for periods of a panel in one piece, whose parts count, too.
+    gap: of `BEHIND`, m; NaN for periods of a panel in one piece, whose parts count, too.
     """
     piece = np.isnan(gap)
     across = np.where(piece, sides[0] / width, _nearest((sides[0] + BESIDE) / (width + BESIDE)))

@@ -16,7 +16,7 @@ DIGITS = "%.8g"  # single precision is stored
 
 
 def write_curves(path: Path, history: DataFrame, row: Mapping[str, Any]) -> None:
-    """Write the history of a case, with its nominal stress. row : of the case in the summary."""
+    """Write the history of a case, with its nominal stress. row: of the case in the summary."""
     with_stress(history, row).to_csv(path, index=False, float_format=DIGITS, lineterminator="\n")
 
 

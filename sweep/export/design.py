@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from sweep.columns import ALONG
 from sweep.config.case import Case
 from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
@@ -14,26 +13,21 @@ from sweep.numbers import in_unit
 
 @dataclass(frozen=True)
 class Design:
-    """The printed part. network : the drawing; grams : mass of one specimen; along : whether it is
-    pressed along its cells.
+    """The printed part. network: the drawing; grams: mass of one specimen; footprint: sides of the
+    pressed area, m; along: whether it is pressed along its cells.
     """
 
     name: str
     lattice: Lattice
     network: Network
     grams: float
-    along: bool = False
+    footprint: tuple[float, float]
+    along: bool
 
     @property
     def depth(self) -> float:
         """Depth of the walls, m."""
         return self.lattice.depth
-
-    @property
-    def footprint(self) -> tuple[float, float]:
-        """The sides of the pressed area, m."""
-        width, height = self.lattice.outer_size
-        return (width, height) if self.along else (width, self.depth)
 
     @property
     def extruded_grams(self) -> float | None:
@@ -69,5 +63,5 @@ def design_of(case: Case) -> Design:
         )
     network = case.lattice.network
     kilograms = mass(network, case.lattice.depth, case.material.density)
-    along = case.loading.direction == ALONG
-    return Design(case.case_id, case.lattice, network, in_unit(kilograms, "g"), along)
+    grams = in_unit(kilograms, "g")
+    return Design(case.case_id, case.lattice, network, grams, case.footprint, case.along)

@@ -158,9 +158,7 @@ def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[b
                 yield path.read_bytes()
 
 
-def check_export(
-    path: Path, panel: Sequence[float | str] | None = None, kind: Kind | None = None
-) -> Wish:
+def check_export(path: Path, panel: Sequence[float | str] | None, kind: Kind | None) -> Wish:
     """Refuse arguments of `export_case` that contradict each other; nothing is read or written."""
     writer = _writer(path)
     if (panel or kind) and writer not in PRINTS.values():

@@ -21,7 +21,7 @@ VERSION = (2, 3)  # version of the format, with field data in steps
 
 
 def write_shapes(path: Path, frames: Mapping[str, Any]) -> None:
-    """Write all stored shapes; frames : `read_frames`."""
+    """Write all stored shapes; frames: `read_frames`."""
     position = TO_MM * np.stack([_deep(points) for points in frames["position_m"]])
     of_plates = "quads" in frames
     cells = np.asarray(frames["quads" if of_plates else "edges"], np.int64)

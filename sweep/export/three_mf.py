@@ -25,7 +25,7 @@ TYPES = {
 def write_3mf(path: Path, body: Body, name: str, beside: Mapping[str, bytes]) -> None:
     """Write a body as one object; equal bodies give equal bytes, as no time is stored.
 
-    beside : name in the zip -> content, for further files.
+    beside: name in the zip -> content, for further files.
     """
     files = {
         "[Content_Types].xml": _content_types(),

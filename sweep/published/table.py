@@ -60,7 +60,7 @@ class Row:
         measured = measured_range(self) if self.measured else None
         return Comparison(self.source, self.quantity, self.open, predicted, measured)
 
-    def is_meant(self, word: str) -> bool:
+    def matches(self, word: str) -> bool:
         """Whether a word is part of its name, its source, its quantity or its config."""
         return word.lower() in f"{self.name} {self.source} {self.quantity} {self.config}".lower()
 

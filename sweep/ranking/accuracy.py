@@ -51,12 +51,12 @@ class Reference(NamedTuple):
 class Study(NamedTuple):
     """One scene.
 
-    settings : a row per case, in the order of the sweep: the row of the summary, `method`, the
+    settings: a row per case, in the order of the sweep: the row of the summary, `method`, the
         relative errors `energy`, `peak` and `path`, the greatest of the resolved ones, `worst`, and
         `front`: True if no setting as cheap has a smaller `worst`.
-    finest : row of the setting from which the references are extrapolated.
-    orders : method -> measure -> key -> observed order.
-    resolved : measures whose reference is certain enough for the coarsest target.
+    finest: row of the setting from which the references are extrapolated.
+    orders: method -> measure -> key -> observed order.
+    resolved: measures whose reference is certain enough for the coarsest target.
     """
 
     settings: DataFrame
@@ -73,7 +73,7 @@ class AccuracyError(ValueError):
 def studies(file: str | PathLike[str], summary: DataFrame) -> list[Study]:
     """One study for each scene of a sweep with a converged case.
 
-    summary : the rows of the cases of the sweep, of any status.
+    summary: the rows of the cases of the sweep, of any status.
     """
     status = summary["status"].where(summary["retry"] == "", Status.STOPPED)
     summary = summary.assign(status=status)  # a retry has other settings than its row
@@ -118,7 +118,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     by_method = {
         method: _references(group, values, refined) for method, group in done.groupby("method")
     }
-    finest, references = _chosen(by_method, refined)
+    finest, references = _best_references(by_method, refined)
     errors = DataFrame(
         {
             name: {i: rms(values[name][i] - ref.value) / ref.scale for i in done.index}
@@ -138,7 +138,7 @@ def _study(file: str | PathLike[str], rows: DataFrame, refined: list[str]) -> St
     )
 
 
-def _chosen(
+def _best_references(
     by_method: dict[str, tuple[Series, dict[str, Reference]]], refined: list[str]
 ) -> tuple[Series, dict[str, Reference]]:
     """The references of the best method, with more doubt if equivalent methods have other

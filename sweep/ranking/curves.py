@@ -33,8 +33,8 @@ def with_allowed(
 ) -> DataFrame:
     """The summary with energy and stroke up to the allowed force, where the question needs them.
 
-    question : of the ranking. The columns are needed if it has an allowed force; NaN in rows that
-    are no crush or have no curve. For a crush that stopped, they are the values so far. cache :
+    question: of the ranking. The columns are needed if it has an allowed force; NaN in rows that
+    are no crush or have no curve. For a crush that stopped, they are the values so far. cache:
     values of earlier calls, which are not read again; new values are added.
     """
     from sweep.store.read import read_curves
@@ -65,7 +65,7 @@ def with_allowed(
 def reached(curve: Mapping[str, Any], force: float) -> tuple[float, float]:
     """Energy (J) and stroke (m) of a crush until a platen bears ``force`` (N).
 
-    curve : the history of the crush, with at least its columns `READ`. With several cycles, the
+    curve: the history of the crush, with at least its columns `READ`. With several cycles, the
     first one counts, and with a speed the forces behind the filter. NaN without rows.
     """
     travel, work = (np.asarray(curve[name], float) for name in ("top_displacement_m", "work_in_J"))

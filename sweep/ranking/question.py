@@ -49,11 +49,11 @@ def in_si(value: Any, unit: str) -> float:
     return float(number)
 
 
-def check_units(given: Mapping[str, Any]) -> None:
+def check_units(arguments: Mapping[str, Any]) -> None:
     """Refuse arguments with a number that has no unit."""
     examples = {"budget": "25 g", "panel": "100 mm", "allowed_force": "50 N"}
     examples |= {name: measure.example for name, measure in MEASURES.items()}
-    for name, value in given.items():
+    for name, value in arguments.items():
         for item in [value] if isinstance(value, str) or not isinstance(value, Iterable) else value:
             if not isinstance(item, str | None):
                 allowed = f'text with a unit, such as "{examples.get(name, "50 N")}"'

@@ -15,29 +15,29 @@ from sweep.ranking.unfinished import PLACES
 class Ranking:
     """The best designs of each loading scene.
 
-    table : a row for each design that has a place, best first; `rank` describes its columns.
-    unfinished : a row for each case that stopped and could have had a place in the table, for each
+    table: a row for each design that has a place, best first; `rank` describes its columns.
+    unfinished: a row for each case that stopped and could have had a place in the table, for each
         scene and budget; it has the columns of the table except those that describe a place, and
         `PLACES` of `sweep.ranking.unfinished`.
-    mass, energy, per_gram : names of the compared columns: mass (g) and energy (J) of the panel, or
+    mass, energy, per_gram: names of the compared columns: mass (g) and energy (J) of the panel, or
         of the specimen if there is no panel, and energy per gram (J/g).
-    until : up to which point energy is counted, in words.
-    limited : True if energy is counted up to an allowed force.
-    by : name of the column that sorts crushed designs; without crushes, designs of the first scene.
-    cases, failed : number of cases, and of cases that stopped before the end of their loading.
-    unloaded : number of cases that stopped after their loading.
-    unranked : number of loaded cases without a value in the sorting column of their scene.
-    without_bar : number of cases with that value but without its error bar, if others have one.
-    pointed : number of loaded cases with solid joints in which some walls end in points.
-    versions : number of loaded cases of each version of the model, the oldest first.
-    budgets_g : the budgets (g), each once.
-    lightest_g : the least mass (g) of each scene. lightest : the row of that design.
-    lost : number of cases of each scene in which no case completed its loading.
-    narrow : patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
-    panel : the two lengths (m) of the panel in the question; none without one.
-    per : to which the allowed force and the requirements apply, "specimen" or "panel".
-    required : the limit (SI) of each requirement.
-    outcomes : how the designs of each scene meet them, within each budget; empty if none are given.
+    until: up to which point energy is counted, in words.
+    limited: True if energy is counted up to an allowed force.
+    by: name of the column that sorts crushed designs; without crushes, designs of the first scene.
+    cases, failed: number of cases, and of cases that stopped before the end of their loading.
+    unloaded: number of cases that stopped after their loading.
+    unranked: number of loaded cases without a value in the sorting column of their scene.
+    without_bar: number of cases with that value but without its error bar, if others have one.
+    pointed: number of loaded cases with solid joints in which some walls end in points.
+    versions: number of loaded cases of each version of the model, the oldest first.
+    budgets_g: the budgets (g), each once.
+    lightest_g: the least mass (g) of each scene. lightest: the row of that design.
+    lost: number of cases of each scene in which no case completed its loading.
+    narrow: patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
+    panel: the two lengths (m) of the panel in the question; none without one.
+    per: to which the allowed force and the requirements apply, "specimen" or "panel".
+    required: the limit (SI) of each requirement.
+    outcomes: how the designs of each scene meet them, within each budget; empty if none are given.
     """
 
     table: DataFrame

@@ -85,13 +85,15 @@ class Outcome:
 
 def limits(require: Mapping[str, Quantity | None] | None) -> dict[str, float]:
     """The limits (SI) of the requirements that are given, by name."""
-    given = {name: value for name, value in (require or {}).items() if value is not None}
-    for name in given:
+    required = {name: value for name, value in (require or {}).items() if value is not None}
+    for name in required:
         if name not in MEASURES:
             nearest = difflib.get_close_matches(name, MEASURES, n=1, cutoff=0.0)[0]
-            text = f'{name} = "{given[name]}"'
+            text = f'{name} = "{required[name]}"'
             raise RankError(f"{text}: unknown requirement; the nearest is {nearest}")
-    return {name: in_si(given[name], MEASURES[name].unit) for name in MEASURES if name in given}
+    return {
+        name: in_si(required[name], MEASURES[name].unit) for name in MEASURES if name in required
+    }
 
 
 def unknown_of(name: str, limit: float, cases: str, needed: str) -> RankError:
@@ -104,10 +106,10 @@ def check_modes(required: Mapping[str, float], modes: Iterable[str]) -> None:
     """Refuse a requirement (SI) that applies to none of these kinds of loading."""
     kinds = set(modes)
     for name, limit in required.items():
-        asked_of = MEASURES[name].asked_of
-        if kinds and not kinds.intersection(asked_of):
+        fitting = MEASURES[name].modes
+        if kinds and not kinds.intersection(fitting):
             loadings = " or ".join(sorted(MODES[mode].noun for mode in kinds))
-            needed = " or ".join(MODES[mode].noun for mode in asked_of)
+            needed = " or ".join(MODES[mode].noun for mode in fitting)
             raise unknown_of(name, limit, loadings, needed)
 
 
@@ -160,11 +162,11 @@ def judge(
 ) -> tuple[Series, tuple[Outcome, ...]]:
     """Which rows of one scene fulfil all requirements, and the outcome within each budget.
 
-    budgets_g : masses in grams; infinite without a budget. allowed : force (N) up to which the
+    budgets_g: masses in grams; infinite without a budget. allowed: force (N) up to which the
     energy of a crush is counted; NaN without one.
     """
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
-    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].asked_of}
+    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].modes}
     measures = measured(rows, names, per)
     values = DataFrame({name: measures[name] for name in mode_limits}, index=rows.index)
     shares = misses(rows, measures, mode_limits)
@@ -289,12 +291,12 @@ def misses(
     """By what share of its limit each row misses each requirement, (rows, required).
 
     0 if the requirement is met, up to round-off, or does not apply to this loading; NaN if the
-    value is unknown. measures : from `measured`.
+    value is unknown. measures: from `measured`.
     """
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
         share = MEASURES[name].share_missed(measures[name].astype(float), limit)
-        in_mode = rows["loading_mode"].isin(MEASURES[name].asked_of)
+        in_mode = rows["loading_mode"].isin(MEASURES[name].modes)
         shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(in_mode, 0.0)
     return shares
 
@@ -303,7 +305,7 @@ def nearest_first(rows: DataFrame, mass: str, shares: DataFrame) -> Series:
     """The greatest miss of each row by its index, starting with the nearest design.
 
     Trusted designs come before others; the lightest comes first among equal misses. Infinite if a
-    value is unknown. mass : name of the column that budgets limit. shares : from `misses`.
+    value is unknown. mass: name of the column that budgets limit. shares: from `misses`.
     """
     worst = shares.assign(none=0.0).max(axis=1, skipna=False).fillna(np.inf)
     order = rows.assign(worst=worst, doubtful=doubtful(rows))

@@ -177,7 +177,7 @@ def _judged(
     if rows.empty:
         return missed, missed
     mode = rows["loading_mode"].iloc[0]
-    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].asked_of}
+    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].modes}
     shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
     energy = ends(rows, names.energy, names, question)
     settled = energy.low == energy.high

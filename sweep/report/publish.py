@@ -56,7 +56,7 @@ def publish_ranking(
 ) -> list[Path]:
     """Write a ranking as `ranking.md`, all designs as `ranking.csv`, and the figures.
 
-    drop_heights : m, of the cushion curves.
+    drop_heights: m, of the cushion curves.
     """
     shown, ranking = _shown_and_all(summary, question)
     if drop_heights and not has(ranking.table, "driven").any():
@@ -166,7 +166,7 @@ def _cushion_figures(
 ) -> Named:
     """The energy-absorption diagram of the best crushed designs, and cushion curves (heights: m).
 
-    every : the designs of all loadings, impacts too.
+    every: the designs of all loadings, impacts too.
     """
     best = crushed.groupby("scene", sort=False).head(MAX_DRAWN)
     rows = {row["case_id"]: row for _, row in best.iterrows()}

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from sweep.config.case import Case
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.ranking.question import Quantity
 from sweep.ranking.requirements import check_modes, limits, unknown_of
 
@@ -20,7 +20,7 @@ def check_required(require: Mapping[str, Quantity | None] | None, cases: Sequenc
 def _has_patch(case: Case) -> bool:
     """Whether the pressure on a patch of the base is measured."""
     loading, lattice = case.loading, case.lattice
-    flat = isinstance(loading, Struck) and loading.base == "flat"
+    flat = isinstance(loading, WithStriker) and loading.base == "flat"
     return flat and not (case.along or lattice.endless or lattice.tied_sides)
 
 

@@ -193,14 +193,14 @@ def _timed(simulate: Simulate, seconds: dict[str, float]) -> Simulate:
             timer.cancel()
         taken = float(result.summary["cpu_s"])
         if result.status is Status.TIMED_OUT:
-            taken *= _left(case, middle[-1], int(control[1]))
+            taken *= _duration_ratio(case, middle[-1], int(control[1]))
         seconds[case.case_id] = min(taken, case.solver.time_limit)
         return result
 
     return run
 
 
-def _left(case: Case, middle: int, done: int) -> float:
+def _duration_ratio(case: Case, middle: int, done: int) -> float:
     """How many times as long a whole case takes as its first `done` steps did, `middle` of them in
     half of that time.
     """

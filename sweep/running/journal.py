@@ -74,10 +74,10 @@ class Journal:
 
 def _running(text: str) -> list[str]:
     """The ids of cases that a journal has begun but not ended."""
-    begun: dict[str, None] = {}
+    running: dict[str, None] = {}
     for line in text.splitlines():
         if line.startswith(BEGUN):
-            begun[line[1:]] = None
+            running[line[1:]] = None
         elif line.startswith(ENDED):
-            begun.pop(line[1:], None)
-    return [case_id for case_id in begun if ID.fullmatch(case_id)]
+            running.pop(line[1:], None)
+    return [case_id for case_id in running if ID.fullmatch(case_id)]

@@ -101,7 +101,7 @@ class Progress:
         self._cpu = defaultdict[Kind, float](float)  # and their processor time, s
         self._recent: deque[tuple[float, int, float]] = deque()  # time, cases done, processor time
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
-        self._told: tuple[int, int] | None = None  # cases done and failed in that line
+        self._counts: tuple[int, int] | None = None  # cases done and failed in that line
         self._sentences: set[str] = set()
         self._notebook = NotebookLine() if self.console.is_jupyter else None
         self._period = NOTEBOOK_PERIOD if self._notebook else PERIOD
@@ -122,7 +122,7 @@ class Progress:
 
     def __exit__(self, *_: object) -> None:
         self._bar.stop()
-        if not (self.console.is_terminal or self.part) and self._told != (self.done, self.failed):
+        if not (self.console.is_terminal or self.part) and self._counts != (self.done, self.failed):
             self._update(self._line())
 
     def advance(self, results: Sequence[Result]) -> None:
@@ -153,7 +153,7 @@ class Progress:
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
         if not self.console.is_terminal and now - self._printed > self._period:
-            self._printed, self._told = now, (self.done, self.failed)
+            self._printed, self._counts = now, (self.done, self.failed)
             self._update(self._line())
 
     def _line(self) -> str:
@@ -170,10 +170,10 @@ class Progress:
         pace = f"{(done - done_then) / (now - begin):.3g} a second"
         if self.done == self.total or now - begin < FIRM or cpu <= cpu_then:
             return [pace]
-        seconds = self._needed() * (now - begin) / (cpu - cpu_then) - (time.monotonic() - now)
+        seconds = self._time_waiting() * (now - begin) / (cpu - cpu_then) - (time.monotonic() - now)
         return [pace, f"{timedelta(seconds=round(seconds))} left"] if seconds >= SOON else [pace]
 
-    def _needed(self) -> float:
+    def _time_waiting(self) -> float:
         """Processor time (s) of the waiting cases; a kind none of which ended has the mean pace."""
         of_all = sum(self._cpu.values()) / sum(self._ended.values())
         pace = {k: self._cpu[k] / ended for k, ended in self._ended.items()}

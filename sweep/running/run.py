@@ -39,7 +39,7 @@ def run(
 ) -> Results:
     """Run the cases of a config that its results file does not hold; return the results of all.
 
-    config : a dict of tables, the path of a TOML file, the name of an example, or a `Config`. out :
+    config: a dict of tables, the path of a TOML file, the name of an example, or a `Config`. out:
     the results file, by default results/NAME.h5. workers: threads. scheduler: in place of threads,
     "processes" of this machine, as many as workers; or a `distributed.Client` or one of Dask's
     clusters, the address or the file of a scheduler, or "slurm". By default the scheduler of
@@ -76,7 +76,7 @@ def spread(
 ) -> DataFrame:
     """Run the best designs again with each uncertain number at both ends of its range.
 
-    results : from `run` or `optimize`, with their question, or a results file. top : number of
+    results: from `run` or `optimize`, with their question, or a results file. top: number of
     designs of each ranking. The cases are kept beside the results, in NAME.spread.h5. Returns the
     table of `sweep.ranking.spread.spread_table`, a row per design.
     """

@@ -2,7 +2,7 @@
 
 import os
 import signal
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from functools import partial
@@ -10,11 +10,11 @@ from pathlib import Path
 from threading import current_thread, main_thread
 
 from sweep.config.case import Case
-from sweep.config.cases import compact
+from sweep.config.cases import Cases, compact
 from sweep.config.grid import Config, cases_of, sweep_of
 from sweep.numbers import counted
 from sweep.result import HOW_TO_RENEW, Result, Status
-from sweep.running.batches import Plan, cost, kind
+from sweep.running.batches import Kind, Plan, cost, kind
 from sweep.running.case_notes import sentences_on_lossless, sentences_on_periods
 from sweep.running.child_process import DIED, NO_MEMORY, Simulate, run_alone
 from sweep.running.cluster import Cluster, Scheduler
@@ -77,53 +77,72 @@ def run_sweep(  # noqa: PLR0913  what, where, how
                 raise
             announce(f"{error} All {len(cases)} cases are in it already.")
             return len(cases) - _converged(out, cases.ids)
-        done = cases.ids & finished_ids(out, rerun)
-        changed = changed_cases(out, done, cases.of)
-        done -= changed
-        if lost := changed.union(damaged_ids(out)):
-            announce(f"damaged rows in {out}: {len(lost)}; cases of this sweep run again")
-        if old := done & older_ids(out):
-            announce(
-                f"{len(old)} of {len(done)} finished cases are of an older model; {HOW_TO_RENEW}"
-            )
+        done = _intact(out, cases, rerun)
         to_run = cases.without(done)
         for line in (*sentences_on_lossless(to_run), *sentences_on_periods(to_run)):
             announce(line)
         work = _work(simulate, to_run, place) if to_run else None
         with interruptible(stop):
-            if not work:
+            if work:
+                show = partial(Progress, len(to_run), done=len(done), part=part)
+                _run_missing(to_run, work, workers, place, writer, show, stop)
+            else:
                 with writer_thread() as thread:
                     thread.submit(writer.fold).result()
-            else:
-                journal = stack.enter_context(Journal(writer.path))
-                suspects = [to_run.of(i) for i in journal.suspects if i in to_run.ids]
-                for case_id in {*journal.suspects} - to_run.ids:
-                    journal.end(case_id)
-                if suspects:
-                    announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
-                plan = Plan(to_run.without(journal.suspects), workers)
-                for case in suspects:
-                    plan.work[kind(case)] += cost(case)
-                with (
-                    Progress(len(to_run), plan.work, len(done), part=part) as progress,
-                    result_sink(writer, plan, progress) as sink,
-                ):
-                    keep = _ending(suspects, journal, sink)
-                    if isinstance(place, Cluster):
-                        run_on_cluster(plan, work, keep, stop, place, progress.say, suspects)
-                    else:
-                        _run_alone(work.simulate, suspects, keep, stop)
-                        again: list[Case] = []
-                        first = partial(_sort_out, again, sink)
-                        in_place = place.runs(work.simulate) if place else work.simulate
-                        with nullcontext() if place else limited_memory():
-                            run_on_threads(plan, journal.watched(in_place), first, stop)
-                        _run_alone(work.simulate, again, sink, stop)
     kept = len(cases.ids & finished_ids(out, rerun))
     if stop.flag and kept < len(cases):
         line = f"interrupted; {out} keeps {kept} of {len(cases)} cases"
         raise Interrupted(f"{line}, and the same command runs the rest")
     return len(cases) - _converged(out, cases.ids)
+
+
+def _intact(out: str | os.PathLike[str], cases: Cases, rerun: Rerun) -> set[str]:
+    """The ids of the cases that need not run again; reports damaged rows and rows of an older
+    model.
+    """
+    finished = cases.ids & finished_ids(out, rerun)
+    changed = changed_cases(out, finished, cases.of)
+    finished -= changed
+    if lost := changed.union(damaged_ids(out)):
+        announce(f"damaged rows in {out}: {len(lost)}; cases of this sweep run again")
+    if old := finished & older_ids(out):
+        announce(
+            f"{len(old)} of {len(finished)} finished cases are of an older model; {HOW_TO_RENEW}"
+        )
+    return finished
+
+
+def _run_missing(  # noqa: PLR0913  what, where, how
+    cases: Cases,
+    work: Work,
+    workers: int,
+    place: Place,
+    writer: Writer,
+    show: Callable[[Mapping[Kind, float]], Progress],
+    stop: Stop,
+) -> None:
+    """Run cases, the suspects of a run that died first, and pass their results to the writer."""
+    with Journal(writer.path) as journal:
+        suspects = [cases.of(i) for i in journal.suspects if i in cases.ids]
+        for case_id in {*journal.suspects} - cases.ids:
+            journal.end(case_id)
+        if suspects:
+            announce(f"{counted(len(suspects), 'case')} {SUSPECTED}")
+        plan = Plan(cases.without(journal.suspects), workers)
+        for case in suspects:
+            plan.work[kind(case)] += cost(case)
+        with show(plan.work) as progress, result_sink(writer, plan, progress) as sink:
+            keep = _ending(suspects, journal, sink)
+            if isinstance(place, Cluster):
+                run_on_cluster(plan, work, keep, stop, place, progress.say, suspects)
+                return
+            _run_alone(work.simulate, suspects, keep, stop)
+            again: list[Case] = []
+            first = partial(_sort_out, again, sink)
+            in_place = place.runs(work.simulate) if place else work.simulate
+            with nullcontext() if place else limited_memory():
+                run_on_threads(plan, journal.watched(in_place), first, stop)
+            _run_alone(work.simulate, again, sink, stop)
 
 
 def _work(simulate: Simulate | None, cases: Sequence[Case], place: Place) -> Work:

@@ -35,7 +35,7 @@ def real_simulate(cases: Iterable[Case]) -> Simulate:
 def simulate_unloaded(cases: Iterable[Case]) -> tuple[Simulate, list[str]]:
     """The function `simulate_again`, and the names of the kernels that these cases need."""
     from sweep.simulation.retries import simulate_again
-    from sweep.simulation.simulate import kernels_of
+    from sweep.simulation.warm_up import kernels_of
 
     return simulate_again, sorted({kernels_of(case) for case in cases})
 
@@ -57,7 +57,7 @@ def cold_kernels(kernels: Iterable[str]) -> list[str]:
 def load(kernels: Iterable[str]) -> None:
     """Load or compile the named kernels, and record that they are cached."""
     from kernels.compile.cache import warmed_up
-    from sweep.simulation.simulate import warm_up
+    from sweep.simulation.warm_up import warm_up
 
     for name in kernels:
         warm_up([name])

@@ -161,7 +161,7 @@ def parts_of(
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
-        contact=_seen(touch, numbering),
+        contact=_contact_of_period(touch, numbering),
         project=projection_of(whole, numbering, layout, masses, case),
         mass=masses,
         load=np.zeros(numbering.size),
@@ -183,7 +183,7 @@ def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
     return masses
 
 
-def _seen(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
+def _contact_of_period(touch: contact.Contact, numbering: Repeated) -> contact.Contact:
     """Contact of the nodes of the period: images have contact length 0, so that each pair counts
     once.
     """

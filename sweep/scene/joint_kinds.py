@@ -69,7 +69,7 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
         for openings, matrix in on_glued_rows().items():
             if any(_off(turned, openings) < NEAR for turned, _ in _turned(opened)):
                 shape = len(opened), 1, 1
-                return _kept(np.tile(matrix, shape), np.full(len(opened), LENGTHS[0]))
+                return _read_only(np.tile(matrix, shape), np.full(len(opened), LENGTHS[0]))
     fits = [
         (_off(turned, drawn(turned[0])), kind, turned[0], tuple(arms))
         for turned, arms in _turned(opened)
@@ -87,10 +87,10 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
         if values is None:
             return None
         compliance[arm], length[arm] = values
-    return _kept(compliance, length)
+    return _read_only(compliance, length)
 
 
-def _kept(compliance: Floats, length: Floats) -> Joint:
+def _read_only(compliance: Floats, length: Floats) -> Joint:
     """A joint that several callers share: its arrays are read-only."""
     compliance.flags.writeable = length.flags.writeable = False
     return Joint(compliance, length)

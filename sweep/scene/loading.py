@@ -9,9 +9,9 @@ from kernels.solve import integrators, march
 from kernels.solve.residual import Tolerance
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.directed import Ramp, Role
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import InTime, Static
 from sweep.config.kinds.steps import rows_in_load_step
 from sweep.scene.plates.scene import Scene as PlateScene
@@ -114,7 +114,7 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
 def _course(case: Case, scene: Scene | PlateScene) -> tuple[float, float]:
     """Start and travel of the driven coordinate, m."""
     match case.loading:
-        case OfFile():
+        case CustomLoading():
             return 0.0, scene.travel
         case Crush(stroke=stroke):
             return float(scene.x_rest[-1]), -stroke

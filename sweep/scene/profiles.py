@@ -6,7 +6,7 @@ from kernels.geometry.profile import Profiles
 from kernels.terms import contact, contact_near_joints, profile
 from sweep.config.case import Case
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.design.network import Network
 from sweep.design.profile import Profile
 from sweep.scene.coordinates import BASE, Numbering
@@ -31,7 +31,7 @@ def anchor(mesh: Mesh, numbering: Numbering, case: Case) -> Ints:
     A striker that is not flat pushes sideways from the first step on, friction lags by one step,
     and without inertia the lattice would slide away under it.
     """
-    struck = isinstance(case.loading, Struck) and case.loading.striker != "flat"
+    struck = isinstance(case.loading, WithStriker) and case.loading.striker != "flat"
     if not (struck and case.loading.quasi_static and case.loading.platen == "contact"):
         return np.empty(0, np.int64)
     x = mesh.points[numbering.bottom, 0]
@@ -43,7 +43,7 @@ def with_profiles(
     touch: contact.Contact, mesh: Mesh, network: Network, numbering: Numbering, case: Case
 ) -> contact.Contact:
     """Contact with the profiles of the case in place of platens."""
-    if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
+    if not (isinstance(case.loading, WithStriker) and case.loading.is_shaped):
         return touch
     above, below = (_shapes(case.loading, network, key) for key in ("striker", "base"))
     carrier = np.repeat([numbering.high, numbering.low], [len(above), len(below)])
@@ -54,7 +54,7 @@ def with_profiles(
     )
 
 
-def _shapes(loading: Struck, network: Network, key: str) -> tuple[Profile, ...]:
+def _shapes(loading: WithStriker, network: Network, key: str) -> tuple[Profile, ...]:
     """The profiles of the "striker" or the "base" (``key``), if it is not flat."""
     (left, bottom), (right, top) = network.points.min(axis=0), network.points.max(axis=0)
     return loading.profiles(key, float(left), float(right - left), float(top - bottom))
@@ -64,7 +64,7 @@ def outlines(case: Case, network: Network) -> dict[str, Floats]:
     """Outlines of strikers and bases that are not flat, as in `Result.frames`; two ribs are put end
     to end.
     """
-    if not (isinstance(case.loading, Struck) and case.loading.is_shaped):
+    if not (isinstance(case.loading, WithStriker) and case.loading.is_shaped):
         return {}
     drawn = {key: _shapes(case.loading, network, key) for key in ("striker", "base")}
     return {

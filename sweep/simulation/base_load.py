@@ -8,8 +8,8 @@ from math import nan
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
 from sweep.simulation.filter_class import filtered_force
 from sweep.simulation.striker import rebound
@@ -23,7 +23,7 @@ def patch_width(case: Case) -> float:
     lattice.
     """
     loading = case.loading
-    return nan if isinstance(loading, OfFile) else min(loading.base_patch, case.footprint[0])
+    return nan if isinstance(loading, CustomLoading) else min(loading.base_patch, case.footprint[0])
 
 
 def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:

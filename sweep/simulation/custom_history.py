@@ -4,8 +4,8 @@ import numpy as np
 
 from kernels.solve.problem import FREE
 from sweep.config.case import Case
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.custom_structure import CustomStructure
-from sweep.config.kinds.of_file import OfFile
 from sweep.scene.mesh import Floats
 from sweep.scene.scene import Scene
 
@@ -23,7 +23,7 @@ def structure_columns(
     structure; they are zero where it is free.
     """
     assert isinstance(case.lattice, CustomStructure)
-    assert isinstance(case.loading, OfFile)
+    assert isinstance(case.loading, CustomLoading)
     structure = case.lattice.structure
     blank = np.full(len(probed), np.nan)
     history = history | dict.fromkeys(WITHOUT_PLATENS, blank)

@@ -16,16 +16,16 @@ def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> d
     if len(cycles) == 1:
         return {"second_cycle_share": nan}
     columns = dict[str, float]()
-    for number, (begun, loaded, _, ended) in enumerate(cycles, 1):
-        absorbed = _gained(work, begun, loaded)
-        peak = force[begun : ended + 1].max() if ended < len(force) else nan
-        lost = min(_gained(work, begun, ended), absorbed)  # pulling back is no loss
+    for number, (start, loaded, _, end) in enumerate(cycles, 1):
+        absorbed = _work_between(work, start, loaded)
+        peak = force[start : end + 1].max() if end < len(force) else nan
+        lost = min(_work_between(work, start, end), absorbed)  # pulling back is no loss
         values = absorbed, lost, float(peak)
         columns |= zip(cycle_columns(number), values, strict=True)
     first, second = (columns[cycle_columns(number)[0]] for number in (1, 2))
     return columns | {"second_cycle_share": second / first}
 
 
-def _gained(work: Floats, begun: int, ended: int) -> float:
+def _work_between(work: Floats, start: int, end: int) -> float:
     """Work (J) done between two rows; NaN if the second one is missing."""
-    return float(work[ended] - work[begun]) if ended < len(work) else nan
+    return float(work[end] - work[start]) if end < len(work) else nan

@@ -34,38 +34,38 @@ def efficiency(stress: Floats, work_density: Floats) -> Floats:
     return np.where(largest > 0, work_density / safe, 0.0)
 
 
-def packed_row(gained: Floats) -> int | None:
+def packed_row(eta: Floats) -> int | None:
     """The row of greatest efficiency (rows,); None if it is the first or the last one.
 
     In the last row the efficiency may still rise.
     """
-    best = int(np.argmax(gained))
-    return best if 0 < best < len(gained) - 1 else None
+    best = int(np.argmax(eta))
+    return best if 0 < best < len(eta) - 1 else None
 
 
-def near_maxima(gained: Floats) -> list[int]:
+def near_maxima(eta: Floats) -> list[int]:
     """Rows of the maxima of nearly the greatest efficiency (rows,), except the first and the last
     row; of equal neighbours the last one counts.
     """
-    inner, before, after = gained[1:-1], gained[:-2], gained[2:]
-    near = inner >= (1.0 - ALIKE) * gained.max()
+    inner, before, after = eta[1:-1], eta[:-2], eta[2:]
+    near = inner >= (1.0 - ALIKE) * eta.max()
     return [int(row) + 1 for row in np.flatnonzero(near & (inner >= before) & (inner > after))]
 
 
-def weights(strain: Floats, gained: Floats) -> Floats:
+def weights(strain: Floats, eta: Floats) -> Floats:
     """Weights of the rows in a mean over strains of nearly the greatest efficiency; their sum is 1.
 
-    strain, gained (efficiency): (rows,). All weight is on the last row if no energy was absorbed.
+    strain, eta (efficiency): (rows,). All weight is on the last row if no energy was absorbed.
     """
-    above = np.clip(gained - (1.0 - BAND) * gained.max(), 0.0, None)
+    above = np.clip(eta - (1.0 - BAND) * eta.max(), 0.0, None)
     steps = np.diff(strain, prepend=strain[0]) + np.diff(strain, append=strain[-1])
     weight = above * steps  # trapezoidal rule
     return weight / weight.sum() if weight.sum() > 0.0 else last_row(len(strain))
 
 
-def span(strain: Floats, gained: Floats) -> float:
+def span(strain: Floats, eta: Floats) -> float:
     """Strain from the first to the last row of nearly the greatest efficiency."""
-    near = strain[gained >= (1.0 - ALIKE) * gained.max()]
+    near = strain[eta >= (1.0 - ALIKE) * eta.max()]
     return float(near[-1] - near[0])
 
 

@@ -43,7 +43,7 @@ def load_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     """
     if not _is_static(case):
         return nan
-    travel, moved = _moved(loading)
+    travel, moved = _advance(loading)
     force = loading["reaction_top_N"][moved]
     step, work = np.diff(travel), abs(float(np.trapezoid(force, travel)))
     if len(step) < STEPS:
@@ -64,7 +64,7 @@ def peak_step_error(case: Case, loading: Mapping[str, Floats]) -> float:
     """
     if not _is_static(case):
         return nan
-    travel, moved = _moved(loading)
+    travel, moved = _advance(loading)
     force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"])[moved]
     if len(force) < STEPS:
         return 0.0
@@ -103,7 +103,7 @@ def _is_static(case: Case) -> bool:
     return isinstance(case.loading, Crush) and case.loading.quasi_static
 
 
-def _moved(loading: Mapping[str, Floats]) -> tuple[Floats, NDArray[np.bool_]]:
+def _advance(loading: Mapping[str, Floats]) -> tuple[Floats, NDArray[np.bool_]]:
     """Travel at the rows that are farther than all before, and which these are."""
     travel = np.abs(loading["top_displacement_m"])
     moved = np.r_[True, travel[1:] > np.maximum.accumulate(travel)[:-1]]

@@ -32,7 +32,7 @@ TIMES = 4  # retries of an impact, each with a quarter of the previous time step
 FIRST = 0.25  # share of the time limit for a motion in steps much longer than usual
 ALMOST = 1.0 - 1e-9
 ENDED = Status.CONVERGED, Status.SLIPPED
-STEADY = "backward_euler"  # creates no energy, whatever its steps
+ROBUST = "backward_euler"  # creates no energy, whatever its steps
 BOWED, BOW = 1.5, 0.01  # factor of the imperfection; if there is none, wall thicknesses
 
 
@@ -47,17 +47,17 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
     if coarse and best.status is Status.TIMED_OUT:
         best = replace(best, curable=True)
         stop[0] *= stop[0] != EXPIRED
-    spent, tried = float(best.summary["cpu_s"]), list[str]()
+    spent, attempts = float(best.summary["cpu_s"]), list[str]()
     for words, changed in _changes(best) if best.curable and case.solver.retry else ():
         left = due - time.monotonic()
         if stop[0] or left <= 0.0 or _is_final(best):
             break
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
-        tried.append(words)
+        attempts.append(words)
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
-    return _final_result(case, best, tried, spent)
+    return _final_result(case, best, attempts, spent)
 
 
 def _is_final(best: Result) -> bool:
@@ -76,7 +76,7 @@ def _is_coarse(case: Case) -> bool:
     match case.loading:
         case Impact():
             usual = resolving_step(case)
-        case DeadLoad() if case.solver.integrator != STEADY:
+        case DeadLoad() if case.solver.integrator != ROBUST:
             usual = TIME_STEP
         case _:
             return False
@@ -97,17 +97,17 @@ def _reach(result: Result) -> tuple[bool, bool, bool]:
     return converged, result.summary["loaded"] == 1, slipped
 
 
-def _final_result(case: Case, best: Result, tried: list[str], spent: float) -> Result:
+def _final_result(case: Case, best: Result, attempts: list[str], spent: float) -> Result:
     """The best result under the id of ``case``, with the processor time of all attempts (s).
 
     Its message says what was tried without success, instead of advising it.
     """
     message = best.message
-    tried = [words for words in tried if words != best.summary["retry"]]
-    if tried and best.status is not Status.CONVERGED:
+    attempts = [words for words in attempts if words != best.summary["retry"]]
+    if attempts and best.status is not Status.CONVERGED:
         what, _, advice = message.partition("; try ")
-        repeats = any(words.split(" = ")[0] in advice for words in tried)
-        message = f"{what if repeats else message} (tried without success: {'; '.join(tried)})"
+        repeats = any(words.split(" = ")[0] in advice for words in attempts)
+        message = f"{what if repeats else message} (tried without success: {'; '.join(attempts)})"
     if best.status is not Status.CONVERGED:
         message += faster_than_sound(case)
     own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
@@ -130,10 +130,10 @@ def _changes(result: Result) -> Iterator[tuple[str, Case]]:
             changed = case.changed(**{table: change}, **others)
         except RefusedError:
             continue
-        said = f"{table}.{key} = {words}"
+        setting = f"{table}.{key} = {words}"
         if key != "integrator" and changed.solver.integrator != case.solver.integrator:
-            said += f', solver.integrator = "{changed.solver.integrator}"'
-        yield said, changed
+            setting += f', solver.integrator = "{changed.solver.integrator}"'
+        yield setting, changed
 
 
 def _values(result: Result) -> Iterator[tuple[str, str, str, float | str]]:
@@ -143,8 +143,8 @@ def _values(result: Result) -> Iterator[tuple[str, str, str, float | str]]:
     if not (moves and result.status is Status.TIMED_OUT):
         for key, unit, value in _shorter(case):
             yield "solver", key, with_unit(value, unit), value
-    if moves and case.solver.integrator != STEADY:
-        yield "solver", "integrator", f'"{STEADY}"', STEADY
+    if moves and case.solver.integrator != ROBUST:
+        yield "solver", "integrator", f'"{ROBUST}"', ROBUST
     if bowed and result.status is Status.STOPPED:
         bow = BOWED * case.lattice.imperfection or BOW
         yield "lattice", "imperfection", with_unit(bow, ""), bow

@@ -135,9 +135,9 @@ def crossings(frames: Frames) -> int:
     """
     position, edges = frames["position_m"], frames["edges"]
     low, high = position.min(axis=0)[edges].min(axis=1), position.max(axis=0)[edges].max(axis=1)
-    given = np.ascontiguousarray(position.T), low, high, np.argsort(low[:, 0]), edges
+    arrays = np.ascontiguousarray(position.T), low, high, np.argsort(low[:, 0]), edges
     crossed, unsure = np.empty(len(position), np.int64), np.empty((0, 3), np.int64)
-    while (count := crossing.count(*given, crossed, unsure)) > len(unsure):
+    while (count := crossing.count(*arrays, crossed, unsure)) > len(unsure):
         unsure = np.empty((count, 3), np.int64)
     for begin in range(0, len(unsure), CHUNK):
         *pair, shape = unsure[begin : begin + CHUNK].T

@@ -1,7 +1,7 @@
 """Simulates a case: builds the arrays, marches through the stages, measures. No files."""
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,16 +11,15 @@ from kernels.geometry.specimen_height import height
 from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
 from kernels.terms.profile import free_path
-from sweep.config.case import Case, complete
+from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import Arcs
-from sweep.config.kinds.table import Inputs
 from sweep.config.load import case_of
-from sweep.config.structures.structure import Load, Structure, Support
+from sweep.config.structures.structure import Structure
 from sweep.numbers import to_si
 from sweep.result import Result, Status, failed_result
 from sweep.scene.arc_length import arc_of, path_columns
@@ -56,7 +55,13 @@ from sweep.simulation.failures import (
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
 from sweep.simulation.striker import closing_speed, rests, second_stop
-from sweep.simulation.summary import BOOK, OF_THE_WHOLE_RUN, history_columns, peaks_of, summarise
+from sweep.simulation.summary import (
+    BOOK_COLUMNS,
+    OF_THE_WHOLE_RUN,
+    history_columns,
+    peaks_of,
+    summarise,
+)
 from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     MOST_LOST,
@@ -216,55 +221,6 @@ def _scene(case: Case) -> Scene | PlateScene:
     return build_scene(case)
 
 
-def kernels_of(case: Case) -> str:
-    """Which kernels a case runs on, a key of `SMALLEST`."""
-    if case.shells:
-        return "plates"
-    return "arcs" if isinstance(case.solver, Arcs) else "marches"
-
-
-CELL = {"cells_x": 1, "cells_y": 1}
-WALL = Structure(
-    nodes_mm=((0, 0), (10, 0)),
-    walls=((0, 1),),
-    supports=(Support(node=0, fix=("x", "y", "rotation")),),
-    loads=(Load(node=1, force_N=(0.0, -1e-3)),),
-)
-PRESSED: Inputs = {
-    "loading": {"direction": "out_of_plane", "strain": 1e-3, "unload": False},
-    "solver": {"load_steps": 1},
-}
-SMALLEST: Mapping[str, Sequence[Inputs]] = {
-    "marches": [
-        {
-            "lattice": CELL,
-            "loading": {"release_time": 1e-4, "duration": 2e-4},
-            "solver": {"time_step": 1e-4},
-        }
-    ],
-    "arcs": [
-        {
-            "lattice": {"kind": "custom", "structure": WALL},
-            "solver": {"integrator": "arc_length", "load_steps": 1},
-        }
-    ],
-    "plates": [
-        {**PRESSED, "lattice": CELL | {"nodes_per_wall": 1, "layers": 2}},
-        {**PRESSED, "lattice": {"kind": "gyroid", "nodes_per_wall": 1}},
-    ],
-}
-"""Cases of each kind of kernels: motion and crushes in the plane, arc lengths, shells that are flat
-at rest and others.
-"""
-
-
-def warm_up(kernels: Iterable[str] = ("marches",)) -> None:
-    """Load or compile kernels, by their keys in `SMALLEST`, so that no case spends time on it."""
-    for name in kernels:
-        for tables in SMALLEST[name]:
-            simulate(complete(tables).sound())
-
-
 class _Run:
     """The run of one scene: its state, the rows and frames written so far, its time limit.
 
@@ -273,7 +229,7 @@ class _Run:
 
     def __init__(self, scene: Scene | PlateScene, case: Case, control: np.ndarray):
         self.scene, self.case, self.control = scene, case, control
-        self.blind = isinstance(case.loading, OfFile)
+        self.blind = isinstance(case.loading, CustomLoading)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
         self.state = scene.at_rest()
@@ -323,7 +279,7 @@ class _Run:
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
         if not self._balances(self.done):
-            if self._left(self.done) <= self.done * self.noise:
+            if self._residual(self.done) <= self.done * self.noise:
                 return self._failed(outcomes.UNRESOLVED, phase.name)
             self.curable = True
             return unbalanced(self.where())
@@ -353,10 +309,10 @@ class _Run:
         greatest entry; round-off is no excuse.
         """
         rows = self.rows[:count]
-        size = max(np.abs(rows[name]).max() for name in BOOK.values() if name != "residual")
-        return self._left(count) <= GAP * size
+        size = max(np.abs(rows[name]).max() for name in BOOK_COLUMNS.values() if name != "residual")
+        return self._residual(count) <= GAP * size
 
-    def _left(self, count: int) -> float:
+    def _residual(self, count: int) -> float:
         """Greatest residual of the energy book in ``count`` rows, J."""
         return float(np.abs(self.rows["residual"][:count]).max())
 
@@ -425,9 +381,9 @@ class _Run:
             self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
         tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
-        given = self.scene.terms, tolerance, stage, self.state, out, self.control
+        arguments = self.scene.terms, tolerance, stage, self.state, out, self.control
         outcome, passed = (
-            march.march(*given) if self.arc is None else arc_length.follow(*given, self.arc)
+            march.march(*arguments) if self.arc is None else arc_length.follow(*arguments, self.arc)
         )
         there = np.flatnonzero(~np.isnan(out.rows["time"][:passed]))
         self.done = self.reached = start + len(there)
@@ -466,7 +422,7 @@ class _Run:
         """
         rows = self.rows[: self.done].copy()
         if isinstance(self.scene, PlateScene):
-            for name in (*BOOK.values(), "reaction_top", "reaction_bottom", "most_force"):
+            for name in (*BOOK_COLUMNS.values(), "reaction_top", "reaction_bottom", "most_force"):
                 rows[name] *= self.scene.mesh.copies
         if not self.scene.standing.size:
             rows["patch_force"] = rows["patch_at"] = np.nan

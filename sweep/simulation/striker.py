@@ -22,7 +22,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
@@ -105,7 +105,7 @@ def striker_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> d
     """
     loading = case.loading
     columns = dict.fromkeys(MEASURES, nan)
-    shaped = isinstance(loading, Struck) and loading.striker != "flat"
+    shaped = isinstance(loading, WithStriker) and loading.striker != "flat"
     if shaped or isinstance(loading, Impact):
         columns |= stroke_columns(case, scene, history)
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})

@@ -5,10 +5,10 @@ import numpy as np
 from sweep.columns import absorbed_energy_column
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.material import Material
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.config.kinds.table import given_or
@@ -53,7 +53,7 @@ from sweep.simulation.striker import (
 from sweep.simulation.time_resolution import integrator_share, known_peak, path_error
 from sweep.simulation.up_to_force import absorbed_until
 
-BOOK = {
+BOOK_COLUMNS = {
     "work_in_J": "work",
     "kinetic_J": "kinetic",
     "stretch_J": "stretch",
@@ -65,6 +65,7 @@ BOOK = {
     "injected_by_projection_J": "injected",
     "energy_residual_J": "residual",
 }
+"""Columns of the energy book, with their names in `kernels.shared.rows.ROW`."""
 DISSIPATED = ("dissipated_material_J", "dissipated_friction_J", "dissipated_integrator_J")
 PEAKS = ("peak_force_at_densification_N", "peak_force_until_packed_N")
 TOUCHING = ("contact_J", "injected_by_projection_J")
@@ -112,7 +113,7 @@ def history_columns(rows: np.ndarray, case: Case) -> dict[str, Floats]:
         "top_displacement_m": travel,
         "reaction_top_N": rows["reaction_top"].copy(),
         "reaction_bottom_N": rows[below].copy(),
-        **{column: rows[name].copy() for column, name in BOOK.items()},
+        **{column: rows[name].copy() for column, name in BOOK_COLUMNS.items()},
         "newton_iterations": np.diff(rows["iterations"], prepend=0.0),
         "min_gap_m": np.where(np.isfinite(rows["gap"]), rows["gap"], np.nan),
         "base_pressure_Pa": rows["patch_force"] / (patch_width(case) * case.lattice.depth),
@@ -125,10 +126,10 @@ def plateau_stress(strain: Floats, density: Floats, row: int) -> float:
 
     strain and density (work per volume, Pa): (rows,).
     """
-    begun = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[row])))
-    if strain[row] <= strain[begun]:
+    first = int(np.searchsorted(strain, min(PLATEAU_START, 0.5 * strain[row])))
+    if strain[row] <= strain[first]:
         return np.nan
-    return float((density[row] - density[begun]) / (strain[row] - strain[begun]))
+    return float((density[row] - density[first]) / (strain[row] - strain[first]))
 
 
 def peaks_of(case: Case, rows: np.ndarray) -> tuple[float, float]:
@@ -163,7 +164,7 @@ def summarise(  # noqa: PLR0913  of one case each
     printed = printed_mass(case)
     grams = drawn if np.isnan(printed) else printed
     absorbed = float(loading["work_in_J"][-1])
-    given = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
+    supplied = brought(case.loading, history) if isinstance(case.loading, Impact) else absorbed
     force = transmitted(case, curves)
     strain = max(peaks[0], float(history["strain"].max()))
     peak = greatest_force(case, curves, peaks[1])
@@ -177,7 +178,7 @@ def summarise(  # noqa: PLR0913  of one case each
         "relative_density": full,
         "solid_strain": 1.0 - full if case.shells else np.nan,
         "absorbed_energy_J": absorbed,
-        **lost_columns(given, returned(case, history, cycles[0]), grams),
+        **lost_columns(supplied, returned(case, history, cycles[0]), grams),
         "dissipated_energy_J": float(sum(history[name][-1] for name in DISSIPATED)),
         **{name: float(history[name][-1]) for name in DISSIPATED},
         "integrator_share": integrator_share(case.loading, loading if moves(case) else history),
@@ -238,18 +239,18 @@ def returned(case: Case, history: dict[str, Floats], cycle: CycleRows) -> float:
     return float(work[0] - work[-1])
 
 
-def lost_columns(given: float, back: float, grams: float) -> dict[str, float]:
+def lost_columns(supplied: float, back: float, grams: float) -> dict[str, float]:
     """Columns of the returned and the lost energy.
 
-    given, back: work done, or brought by a striker, and work given back, J; negative if a glued
+    supplied, back: work done, or brought by a striker, and work given back, J; negative if a glued
     platen has to pull the lattice back, which is no loss of the loading. grams: mass of the
     specimen, g.
     """
-    lost = given - np.maximum(back, 0.0)  # NaN stays NaN
+    lost = supplied - np.maximum(back, 0.0)  # NaN stays NaN
     return {
         "returned_energy_J": back,
         "lost_energy_J": float(lost),
-        "lost_share": float(lost / given) if given else np.nan,
+        "lost_share": float(lost / supplied) if supplied else np.nan,
         "lost_energy_J_per_g": float(lost / grams),
     }
 
@@ -264,8 +265,8 @@ def greatest_force(case: Case, history: dict[str, Floats], most: float) -> float
     time steps are too long for it. most: from `peaks_of`.
     """
     loading = case.loading
-    if isinstance(loading, OfFile):
-        return np.nan  # reactions are those of its probes
+    if isinstance(loading, CustomLoading):
+        return np.nan  # its reactions are at its probes
     force = transmitted(case, history)
     if isinstance(loading, Impact):
         return float(force.max())
@@ -333,10 +334,10 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
     area, height = _area(case), case.height
     strain, density = loading["strain"], loading["work_in_J"] / (area * height)
     stress = loading["reaction_top_N"] / area
-    gained = efficiency(stress, density)
-    packed, share = packed_row(gained), weights(strain, gained)
+    eta = efficiency(stress, density)
+    packed, share = packed_row(eta), weights(strain, eta)
     row = len(strain) - 1 if packed is None else packed
-    maxima = near_maxima(gained)
+    maxima = near_maxima(eta)
     ends = [strain[end] for end in (min(maxima, default=row), max(maxima, default=row))]
     if packed is None:  # the efficiency is greatest at the end
         ends = [ends[0] if maxima else np.nan, np.nan]
@@ -345,10 +346,10 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
         plateau_stress(strain, density, row),
         np.nan if packed is None else strain[row],
         share @ strain,
-        span(strain, gained),
+        span(strain, eta),
         *ends,
         *(energies.min(), energies.max()),
-        gained[row],
+        eta[row],
         *figures(strain, stress, density).values(),
     )
     return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))

@@ -102,13 +102,13 @@ def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
     mass: of the lattice, kg. Momentum that the lattice may still have does not count.
     """
     speed, force = history["striker_speed_m_per_s"], history["reaction_bottom_N"]
-    brought = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed
-    borne = float(np.sum(force[1:] * np.diff(history["time_s"])))
+    initial = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed
+    impulse = float(np.sum(force[1:] * np.diff(history["time_s"])))
     swing = float((history["kinetic_J"] - kinetic(loading, history))[-1])
-    kept = sqrt(2.0 * mass * max(swing, 0.0))
-    given = brought + loading.weight * float(history["time_s"][-1])
-    missing = abs(given - loading.striker_mass * float(speed[-1]) - borne)
-    return max(missing - kept, 0.0) / brought
+    of_lattice = sqrt(2.0 * mass * max(swing, 0.0))
+    total = initial + loading.weight * float(history["time_s"][-1])
+    missing = abs(total - loading.striker_mass * float(speed[-1]) - impulse)
+    return max(missing - of_lattice, 0.0) / initial
 
 
 def resolving_step(case: Case) -> float:

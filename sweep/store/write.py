@@ -89,7 +89,7 @@ class Writer:
             seal_blocks(part.path, [block], self._about, packed=False)
             self._sealed.append(part)
             self._count(number)
-            self._grown().add(block, np.arange(len(results)))
+            self._file().add(block, np.arange(len(results)))
             self._merge()
 
     def fold(
@@ -106,7 +106,7 @@ class Writer:
             added = [block for file in files for block in open_whole(Path(file), stack)]
             added += [self._block(last)] if last else []
             if parts or added or not self._is_labelled():
-                growing, self._growing = self._grown(), None  # cannot be used again after a failure
+                growing, self._growing = self._file(), None  # cannot be used again after a failure
                 for block, rows in zip(added, newest_rows(added), strict=True):
                     growing.add(block, rows)
                 growing.add_older(self._older(stack))
@@ -139,7 +139,7 @@ class Writer:
     def _count(self, last: int) -> None:
         self._about = replace(self._about, last=last)
 
-    def _grown(self) -> Growing:
+    def _file(self) -> Growing:
         if self._growing is None:
             self._growing = self._stack.enter_context(closing(Growing(self.path, packed=True)))
         return self._growing

@@ -123,6 +123,7 @@ TESTED_ELSEWHERE = {
     "sweep.running.provenance": "sweep/running/test_sweep.py",
     "sweep.running.writer_thread": "sweep/running/test_sweep.py",
     "sweep.simulation.base_load": "sweep/simulation/test_target.py",
+    "sweep.simulation.warm_up": "sweep/running/test_warming.py",
     "sweep.store.batch": "sweep/store/test_read.py",
     "sweep.store.hdf5": "sweep/store/test_read.py",
     "sweep.store.parts": "sweep/store/test_read.py",

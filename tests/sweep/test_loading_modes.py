@@ -8,7 +8,7 @@ from pandas import DataFrame
 from sweep.columns import COLUMNS, HISTORY_COLUMNS
 from sweep.config.case import Case
 from sweep.config.kinds.loading import KINDS as LOADINGS
-from sweep.loading_modes import MODES, asked_of, compared, has, is_coarse, mode_of
+from sweep.loading_modes import MODES, applies_to, compared, has, is_coarse, mode_of
 from sweep.numbers import FACTORS
 from sweep.ranking.requirement_table import MEASURES
 from sweep.result import LOADED
@@ -76,6 +76,6 @@ def test_the_mode_of_a_scene_is_the_one_of_its_rows():
 
 
 def test_modes_of_a_requirement():
-    assert asked_of("min_absorbed") == ("displacement",)
-    assert asked_of("max_stroke")[:3] == ("displacement", "impact", "force")
-    assert asked_of("max_mass") == tuple(MODES)
+    assert applies_to("min_absorbed") == ("displacement",)
+    assert applies_to("max_stroke")[:3] == ("displacement", "impact", "force")
+    assert applies_to("max_mass") == tuple(MODES)

@@ -56,7 +56,7 @@ def test_a_file_whose_cases_failed_is_a_line_without_pictures(tmp_path):
     assert Results(file)._repr_html_() == f"<p>Results of 1 case, 1 failed, in {file}</p>"
     with pytest.raises(ValueError, match="there is nothing to draw"):
         Results(file).plot()
-    with pytest.raises(StoreError, match="3 is no path; needed: that of a results file"):
+    with pytest.raises(StoreError, match="3 is no path; needed: the path of a results file"):
         Results(3)
 
 

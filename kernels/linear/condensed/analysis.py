@@ -85,7 +85,7 @@ class System(NamedTuple):
     own: np.ndarray
     inside: np.ndarray
     scattered: Scattered
-    matrix: object
+    matrix: block_matrix.Blocks
     outer: np.ndarray
     joints: np.ndarray
     place: np.ndarray

@@ -50,8 +50,8 @@ def read_dxf(path: Path) -> Lines:
     except Exception as error:  # noqa: BLE001  a damaged file fails anywhere in its reader
         raise MisfitError(f"not DXF that ezdxf can read ({type(error).__name__})") from None
     counts = [f"{count} x {what}" for what, count in sorted(left_out.items())]
-    said = ", ".join([*counts, *marks])
-    notes += [f"left out: {said}"] if said else []
+    parts = ", ".join([*counts, *marks])
+    notes += [f"left out: {parts}"] if parts else []
     return Lines(ends, unit, notes=tuple(notes))
 
 

@@ -39,7 +39,7 @@ def read_svg(path: Path) -> Lines:
         raise MisfitError(needed) from missing
     try:
         root = Xml.fromstring(path.read_bytes())
-        if _drawn(root) > MOST_LINES:
+        if _element_count(root) > MOST_LINES:
             raise MisfitError(f"more than {MOST_LINES:,} shapes, with those that are used again")
         unit = _unit(root)
         for key in PAGE:
@@ -77,7 +77,7 @@ def _unit(root: Xml.Element) -> float | None:
     return min(scales, default=None)
 
 
-def _drawn(root: Xml.Element) -> int:
+def _element_count(root: Xml.Element) -> int:
     """Number of elements when all that are reused are drawn; too many if one uses itself."""
     named = {element.get("id"): element for element in root.iter()}
     count: dict[int, int] = {}

@@ -8,7 +8,7 @@ from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.solver import IN_TIME, LOAD_STEPS, MAX_STEPS, InTime, Solver
 from sweep.config.kinds.specimen import ENDLESS
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.config.kinds.table import (
     STEADY,
     Cycles,
@@ -32,7 +32,7 @@ STRAIN_RATE = 0.01  # 1/s, in a quasi-static crush of a material that relaxes
 PLATENS = '"contact", "glued" or "sliding"'
 
 
-class Crush(Struck):
+class Crush(WithStriker):
     """A platen that moves down and back up if `unload`; the whole is done `cycles` times.
 
     strain: stroke / the height pressed. speed, strain_rate: None if the crush takes no time, as it
@@ -42,8 +42,11 @@ class Crush(Struck):
     """
 
     because: ClassVar[str] = 'loading.mode is "displacement"'
-    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"cycles": 1, "hold_time": 0.0}
-    needs: ClassVar[dict[str, str]] = Struck.needs | {"strain_rate": STEADY, "hold_time": STEADY}
+    neutral: ClassVar[dict[str, Any]] = WithStriker.neutral | {"cycles": 1, "hold_time": 0.0}
+    needs: ClassVar[dict[str, str]] = WithStriker.needs | {
+        "strain_rate": STEADY,
+        "hold_time": STEADY,
+    }
     words: ClassVar[tuple[str, ...]] = ("displacement",)
     driven: ClassVar[bool] = True
     sets: ClassVar[dict[str, tuple[str, ...]]] = {"strain": ("stroke",), "strain_rate": ("speed",)}

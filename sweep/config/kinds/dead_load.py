@@ -6,14 +6,14 @@ from sweep.config.kinds.body import Body
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS
 from sweep.config.kinds.solver import IN_TIME, Solver
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.config.kinds.table import Duration, Force, Forces, Inputs, RefusedError, own_values
 
 DURATION, RELEASE = 0.2, 0.138  # s, as in the course report
 STEP_ERROR = 1e-4  # of the height: a step lets the strain err by 0.01 %
 
 
-class DeadLoad(Struck):
+class DeadLoad(WithStriker):
     """A dead load on the top nodes, in equal parts (platen "none"), or on a rigid plate."""
 
     because: ClassVar[str] = 'loading.mode is "force"'

@@ -172,7 +172,7 @@ def _check_sides(lattice: Drawn, inputs: Inputs) -> None:
         RefusedError(
             f"lattice.{key}",
             inputs[key],
-            f"{size:.6g} m, that of the drawing; lattice.file_unit changes it",
+            f"{size:.6g} m, the size of the drawing; lattice.file_unit changes it",
         )
         for key in Drawn.derived
         for size in [getattr(lattice, key)]

@@ -9,7 +9,7 @@ from sweep.config.kinds.crush import PLATENS
 from sweep.config.kinds.directed import Ramp
 from sweep.config.kinds.direction import ACROSS, is_along
 from sweep.config.kinds.solver import IN_TIME, MAX_STEPS, Solver
-from sweep.config.kinds.striker import Struck
+from sweep.config.kinds.striker import WithStriker
 from sweep.config.kinds.table import (
     Count,
     Duration,
@@ -31,7 +31,7 @@ STEPS_OF_CONTACT = 20  # time steps in which a solid block would return a strike
 PASSAGES = 10  # default duration / time in which the striker travels the lattice's height
 
 
-class Impact(Struck):
+class Impact(WithStriker):
     """A rigid striker of `striker_mass` that hits the lattice at `striker_speed`.
 
     `drop_height` and `preset` (`drop_tests`) are other ways to give its speed and mass, `specimens`
@@ -45,7 +45,10 @@ class Impact(Struck):
 
     because: ClassVar[str] = 'loading.mode is "impact"'
     labels: ClassVar[tuple[str, ...]] = ("drop_height", "preset", "specimens")
-    neutral: ClassVar[dict[str, Any]] = Struck.neutral | {"filter_class": 1000, "gravity": False}
+    neutral: ClassVar[dict[str, Any]] = WithStriker.neutral | {
+        "filter_class": 1000,
+        "gravity": False,
+    }
     replaces: ClassVar[dict[str, tuple[str, ...]]] = {
         "striker_mass": ("energy", "preset", "specimens"),
         "striker_speed": ("energy", "drop_height", "preset", "specimens"),

@@ -6,18 +6,18 @@ from pydantic import Field
 
 from sweep.config.kinds.body import Body
 from sweep.config.kinds.crush import PLATENS, Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.specimen import TIED
-from sweep.config.kinds.striker import struck
+from sweep.config.kinds.striker import with_striker
 from sweep.config.kinds.table import Inputs, Pairs, RefusedError
 
-Loading: TypeAlias = DeadLoad | Crush | Impact | OfFile
+Loading: TypeAlias = DeadLoad | Crush | Impact | CustomLoading
 KINDS: tuple[type[Loading], ...] = get_args(Loading)
 BY_MODE = tuple(
-    kind for kind in KINDS if kind is not OfFile
+    kind for kind in KINDS if kind is not CustomLoading
 )  # chosen by `loading.mode`, or by keys that only one has
 AnyLoading = Annotated[Loading, Field(discriminator="mode")]
 MODES = '"displacement" or "impact"'
@@ -28,10 +28,10 @@ def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
     inputs = dict(values)
     if body.structure is not None and not body.along:
-        return OfFile.of(inputs, body, integrator, relaxes)
+        return CustomLoading.of(inputs, body, integrator, relaxes)
     mode = _mode_of(inputs, body.shells)
     _check(inputs, mode, body, integrator)
-    inputs = struck(inputs, body.width, body.unending)
+    inputs = with_striker(inputs, body.width, body.unending)
     kind = next(kind for kind in BY_MODE if mode in kind.words)
     return kind.of(inputs, body, integrator, relaxes)
 
@@ -56,17 +56,23 @@ def _mode_of(inputs: Inputs, shells: bool) -> str:
 
 
 def _implied(inputs: Inputs) -> dict[str, str]:
-    """The modes that keys imply, each with the first of its keys; a subclass implies its own."""
-    implied: dict[str, str] = {}
+    """The modes that keys imply, each with the first of its keys; a subclass implies its own, in
+    place of the mode of its base.
+    """
+    implied: dict[type[Loading], str] = {}
     for kind in BY_MODE:
         kinds = [other for other in BY_MODE if not issubclass(other, kind)]
         others = {key for other in kinds for key in other.model_fields}
         own = [key for key in kind.model_fields if key not in others and key in inputs]
         if own:
-            implied[kind.words[0]] = own[0]
-    if "duration" in inputs and "impact" not in implied:
-        implied.setdefault("force", "duration")
-    return implied
+            implied[kind] = own[0]
+    if "duration" in inputs and not any("duration" in kind.model_fields for kind in implied):
+        implied[DeadLoad] = "duration"
+    return {
+        kind.words[0]: key
+        for kind, key in implied.items()
+        if not any(issubclass(other, kind) for other in implied.keys() - {kind})
+    }
 
 
 def _check(inputs: Inputs, mode: str, body: Body, integrator: str | None) -> None:

@@ -199,16 +199,16 @@ class Sheet(Surface):
                 update={"wall_thickness": lattice.mass / (density * lattice.area)}
             )
 
-        wanted = inputs.get("cell_size", CELL_SIZE * height)
-        lattice = checked(draft(wanted))
+        target = inputs.get("cell_size", CELL_SIZE * height)
+        lattice = checked(draft(target))
         if lattice.mass is not None:
             check_thickness(lattice.wall_thickness, inputs)
         check_thin(lattice.wall_thickness, THICKEST * lattice.period)
         if lattice.misfit:
             raise _misfit(lattice, inputs, *narrowest(lattice, draft, step))
-        if wanted > widest(height, step):
+        if target > widest(height, step):
             allowed = f"at most {at_most(widest(height, step))} m where {height:.6g} m are pressed"
-            raise RefusedError("lattice.cell_size", wanted, allowed)
+            raise RefusedError("lattice.cell_size", target, allowed)
         return lattice
 
     @classmethod
@@ -248,7 +248,7 @@ def widest(height: float, step: float) -> float:
 
 def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[float, str]:
     """The least wanted period (m) for which `draft` makes a sheet without `misfit`, infinite if
-    there is none, and the misfit of smaller ones. made: a sheet with a misfit; step: in periods.
+    there is none, and the misfit of smaller ones. lattice: a sheet with a misfit; step: in periods.
     """
     good, bad = 0, round(lattice.pressed_height / (step * lattice.period))  # steps
     why = lattice.misfit
@@ -267,13 +267,13 @@ def pressed_height(inputs: Inputs, along: bool) -> float:
 
 
 def fitted(
-    name: str, inputs: Inputs, along: bool, wanted: float, turned: bool = False
+    name: str, inputs: Inputs, along: bool, target: float, turned: bool = False
 ) -> dict[str, Any]:
-    """The sizes of a panel of the surface ``name``, with the period nearest to ``wanted`` (m) that
+    """The sizes of a panel of the surface ``name``, with the period nearest to ``target`` (m) that
     fits its height; turned: see `Surface`.
     """
     height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
-    period = _period(height, cut.step, wanted)
+    period = _period(height, cut.step, target)
     across, pressed = ("height", "depth") if along else ("depth", "height")
     return {
         "width": cut.across * period,
@@ -284,10 +284,10 @@ def fitted(
     }
 
 
-def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
+def fitted_block(inputs: Inputs, along: bool, target: float) -> dict[str, Any]:
     """The sizes of a block, as in `fitted`; all sides are whole numbers of `BLOCK` periods."""
     height = pressed_height(inputs, along)
-    period = _period(height, BLOCK, wanted)
+    period = _period(height, BLOCK, target)
     step = BLOCK * period
     sizes = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
     whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
@@ -295,11 +295,11 @@ def fitted_block(inputs: Inputs, along: bool, wanted: float) -> dict[str, Any]:
     return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
 
 
-def _period(height: float, step: float, wanted: float) -> float:
-    """The period (m) nearest to ``wanted`` for which a height is a whole number of steps; step: in
+def _period(height: float, step: float, target: float) -> float:
+    """The period (m) nearest to ``target`` for which a height is a whole number of steps; step: in
     periods.
     """
-    return height / (step * max(round(height / (step * wanted)), 1))
+    return height / (step * max(round(height / (step * target)), 1))
 
 
 def checked(lattice: S) -> S:

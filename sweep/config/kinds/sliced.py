@@ -35,6 +35,7 @@ from sweep.design.slicer.patterns import (
     PATTERNS,
     PROGRAMS,
     SLICERS,
+    InfillLines,
     Pattern,
     bare,
     distance_of,
@@ -43,7 +44,6 @@ from sweep.design.slicer.patterns import (
     share_of,
     spread_lines,
 )
-from sweep.design.slicer.patterns import Sliced as Lay
 from sweep.numbers import at_least, at_most, in_unit
 
 FILL_ANGLE, PERIMETERS = radians(45.0), 2
@@ -212,7 +212,7 @@ class Sliced(WallLattice):
         sides, caps = self.outline
         overlaps = OVERLAP * self.line, 0.0 if self.lateral else OVERLAP * self.line
         inset = 0.5 * sides - overlaps[0], 0.5 * caps - overlaps[1]
-        lay = Lay(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
+        lines = InfillLines(self._pattern, self.fill_distance, self.fill_angle, self.lines, inset)
         return Geometry(
             "square",
             None,
@@ -220,7 +220,7 @@ class Sliced(WallLattice):
             (self.width, self.height),
             self.wall_thickness,
             outline=self.outline,
-            sliced=lay,
+            sliced=lines,
         )
 
     @property
@@ -272,7 +272,7 @@ def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any
     spacing = _spacing(lattice, share)
     candidate = lattice.model_copy(update=spacing)
     check_size(candidate, candidate.inputs(), SIZES)
-    if abs(_drawn(candidate) - 1.0) > MASS_ERROR:
+    if abs(_mass_ratio(candidate) - 1.0) > MASS_ERROR:
         raise _refused_drawing(candidate, share, per_area)
     return spacing
 
@@ -282,7 +282,7 @@ def _most_of(lattice: Sliced) -> float:
     return lattice.printed_as.most * lattice.spread_line / lattice.lines
 
 
-def _drawn(candidate: Sliced) -> float:
+def _mass_ratio(candidate: Sliced) -> float:
     """The mass of the walls as drawn over the mass that is extruded."""
     from sweep.design.lattice import build_network
     from sweep.design.slicer.network import drawn_over_extruded
@@ -294,13 +294,13 @@ def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> Refuse
     """Why a share cannot be drawn, and the nearest whole per cent within `NEAR` that can."""
     from sweep.design.lattice import counted_area
 
-    wrong = 100.0 * (_drawn(candidate) - 1.0)
+    wrong = 100.0 * (_mass_ratio(candidate) - 1.0)
     weight = f"{abs(wrong):.0f} % {'more' if wrong > 0.0 else 'less'} than is extruded"
     why = f"lines that run too near the perimeters make the walls weigh {weight}"
     near = [percent / 100.0 for percent in range(1, 100) if abs(percent / 100.0 - share) < NEAR]
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = candidate.model_copy(update=_spacing(candidate, other))
-        if other < _most_of(candidate) and abs(_drawn(nearest) - 1.0) <= MASS_ERROR:
+        if other < _most_of(candidate) and abs(_mass_ratio(nearest) - 1.0) <= MASS_ERROR:
             mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
             examples = {
                 "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",

@@ -86,15 +86,15 @@ class SlicedSheet(Surface):
             share = {"infill": spread / sides["period"]}
             return cls.model_validate(own_values(inputs, cls) | sides | follows | share)
 
-        wanted, height = spread / inputs["infill"], pressed_height(inputs, along)
-        lattice = checked(draft(wanted))
+        target, height = spread / inputs["infill"], pressed_height(inputs, along)
+        lattice = checked(draft(target))
         if lattice.misfit:
             least, why = narrowest(lattice, draft, step)
             if isinf(least):
-                raise _low(lattice, wanted, step)
+                raise _low(lattice, target, step)
             most = f"at most {at_most(in_unit(spread / least, '%'), 3)} %"
             raise RefusedError("lattice.infill", inputs["infill"], f"{most}, {why}")
-        if wanted > widest(height, step):
+        if target > widest(height, step):
             least = spread / widest(height, step)
             allowed = f"at least {at_least(in_unit(least, '%'), 3)} %"
             pressed = f"where {text_in(height, 'mm')} are pressed"
@@ -207,12 +207,12 @@ def _check_block(inputs: Inputs, angle: float, line: float, sides: Mapping[str, 
         raise RefusedError("lattice.perimeters", inputs["perimeters"], f"0 to {most - 1}")
 
 
-def _low(lattice: SlicedSheet, wanted: float, step: float) -> RefusedError:
+def _low(lattice: SlicedSheet, target: float, step: float) -> RefusedError:
     """The refusal of a height, or of a width, in which not even one step of the sheet fits."""
     if lattice.misfit != NARROW:
         return RefusedError("lattice.width", lattice.width, f"less, {lattice.misfit}")
     key = "depth" if lattice.pressed == ALONG else "height"
-    least = step * max(lattice.wall_thickness / THICKEST, LEAST * wanted)
+    least = step * max(lattice.wall_thickness / THICKEST, LEAST * target)
     return RefusedError(
         f"lattice.{key}", lattice.pressed_height, f"above {at_least(least)} m, {NARROW}"
     )

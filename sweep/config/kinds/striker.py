@@ -40,8 +40,10 @@ SHAPED = ("striker", "base")
 _OF_KINDS = {key for keys in USUAL.values() for key in keys}
 
 
-class Struck(Directed):
-    """A loading by a striker on a base; each has the keys of its kind, and None for others."""
+class WithStriker(Directed):
+    """A loading by a striker or a platen on a base, each of some shape: both have the keys of their
+    kinds, and None for others.
+    """
 
     neutral: ClassVar[dict[str, Any]] = Directed.neutral | {"striker": "flat", "base": "flat"}
 
@@ -116,7 +118,7 @@ def _numbers(key: str, inputs: Inputs) -> dict[str, float]:
     return {name: inputs.get(name, number) for name, number in usual.items()}
 
 
-def struck(inputs: Inputs, width: float, unending: str) -> dict[str, Any]:
+def with_striker(inputs: Inputs, width: float, unending: str) -> dict[str, Any]:
     """These values of a loading, with striker and base completed.
 
     Keys of other kinds of strikers are left out. width (m): of the lattice over centre lines.

@@ -145,7 +145,7 @@ class _Translation:
             width = spacing + ROUNDED * (layer or LAYER_HEIGHT)
         values = {
             "slicer": SLICERS[program],
-            "pattern": self._said(names.pattern).lower() or None,
+            "pattern": self._text(names.pattern).lower() or None,
             "infill": _quantity(self._read(names.infill, _percentage), "%"),
             "line_width": _quantity(width, "mm"),
             "layer_height": _quantity(layer, "mm"),
@@ -159,7 +159,7 @@ class _Translation:
     @property
     def lateral(self) -> bool:
         """Whether the lines of the pattern run along the depth, whatever their angle on the bed."""
-        return is_lateral(present_choice("lattice.pattern", self._said(self.names.pattern)))
+        return is_lateral(present_choice("lattice.pattern", self._text(self.names.pattern)))
 
     @property
     def _angle(self) -> float | None:
@@ -168,23 +168,23 @@ class _Translation:
     @property
     def automatic(self) -> bool:
         """Whether the profile leaves the width of lines to the slicer."""
-        said = [self._said(name) for name in self.names.widths]
-        return any(said) and all(text in ("", "0") for text in said)
+        texts = [self._text(name) for name in self.names.widths]
+        return any(texts) and all(text in ("", "0") for text in texts)
 
     def left_out(self) -> Iterator[str]:
         """Settings that change walls, and that no lattice here has, with their values."""
         own = self.settings.values
         widths = {own.get(name, "0") for name in self.names.widths} | {"0", ""}
         for name, neutral in LEFT_OUT[SLICERS[self.settings.program]].items():
-            value = self._said(name)
+            value = self._text(name)
             if name in WALL_WIDTHS:
                 neutral = (*widths,)
             if value and value.removesuffix(".0") not in neutral:
                 yield f"{name} = {value}"
         if self.lateral and self._angle:
-            yield f"{self.names.angle} = {self._said(self.names.angle)}"
+            yield f"{self.names.angle} = {self._text(self.names.angle)}"
 
-    def _said(self, name: str) -> str:
+    def _text(self, name: str) -> str:
         """The text of a setting, of the first extruder; "" if it is not there."""
         text = self.settings.values.get(name, "").partition(" #")[0]  # a note of a bundle
         first, *others = text.split(",")
@@ -194,7 +194,7 @@ class _Translation:
 
     def _read(self, name: str, meaning: Callable[[str], T]) -> T | None:
         """The meaning of a setting; None if it is not there, or, noted, without a meaning."""
-        text = self._said(name)
+        text = self._text(name)
         try:
             return meaning(text) if text else None
         except ValueError:
@@ -211,7 +211,7 @@ class _Translation:
 
     def _spacing(self, nozzle: float) -> float | None:
         """The distance of lines at full infill, one of SuperSlicer's two ways to give the width."""
-        if self._said(self.names.widths[0]) not in ("", "0"):
+        if self._text(self.names.widths[0]) not in ("", "0"):
             return None
         spacing = self._read(SPACING, lambda text: _width_of(text, nozzle))
         return spacing if spacing and spacing > 0.0 else None
@@ -268,7 +268,7 @@ def _notes(name: str, values: Mapping[str, Any], translation: _Translation) -> I
     taken = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in values.items())
     yield f"{name}, of {TITLES[program]}: {taken}"
     if translation.settings.project:
-        yield f"{name}: settings of single objects are not read, only those of the project"
+        yield f"{name}: settings of single objects are not read, only settings of the project"
     if missing:
         yield f'{name} inherits from "{missing}", which is not beside it: what that says is unknown'
     keys = ("pattern", "infill", "perimeters", "line_width", "layer_height", "nozzle")

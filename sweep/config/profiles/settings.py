@@ -157,7 +157,7 @@ def _of_ini(text: str, preset: str) -> Settings:
             raise MisfitError(f'no bundle, and so without "{preset}"; allowed: no #')
         return Settings(program, sections.get(("", ""), {}))
     chosen = sections.get(("presets", ""), {})
-    name = _chosen(preset or chosen.get("print", ""), prints)
+    name = _profile_name(preset or chosen.get("print", ""), prints)
     printers = {name: own for (kind, name), own in sections.items() if kind == "printer"}
     printer = chosen.get("printer", "")
     if printer not in printers and len(visible := _visible(printers)) == 1:
@@ -173,14 +173,14 @@ def _sections(text: str) -> dict[tuple[str, str], dict[str, str]]:
     sections: dict[tuple[str, str], dict[str, str]] = {}
     now = ("", "")
     for line in text.splitlines():
-        said = line.strip()
-        if said.startswith("[") and said.endswith("]"):
-            kind, _, name = said[1:-1].partition(":")
+        text_line = line.strip()
+        if text_line.startswith("[") and text_line.endswith("]"):
+            kind, _, name = text_line[1:-1].partition(":")
             now = (kind.strip(), name.strip())
             sections.setdefault(now, {})
             continue
-        key, equals, value = said.removeprefix(";").partition("=")
-        if equals and not said.startswith("#") and key.strip().isidentifier():
+        key, equals, value = text_line.removeprefix(";").partition("=")
+        if equals and not text_line.startswith("#") and key.strip().isidentifier():
             sections.setdefault(now, {})[key.strip()] = value.strip().strip('"')
     return sections
 
@@ -191,7 +191,7 @@ def _is_superslicer(text: str, sections: Mapping[Any, Mapping[str, str]]) -> boo
     return own or "superslicer" in text[:300].lower()
 
 
-def _chosen(name: str, prints: Mapping[str, Any]) -> str:
+def _profile_name(name: str, prints: Mapping[str, Any]) -> str:
     """The name of the requested print profile."""
     if name in prints:
         return name

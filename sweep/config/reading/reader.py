@@ -367,7 +367,7 @@ class Reader:
         if key.targets == ("material.name",) and isinstance(raw, str):
             return _material(raw, self.folder)
         if key.targets == ("lattice.file",) and isinstance(raw, str):
-            return self._drawn(raw)
+            return self._structure_path(raw)
         raw = present_choice(key.targets[0], raw)
         if key.targets == ("loading.preset",) and isinstance(raw, str):
             return drop_tests.in_si(raw, self.to_si)
@@ -384,7 +384,7 @@ class Reader:
             raise MisfitError(f"no printed material has this; {why}")
         return checked
 
-    def _drawn(self, raw: str) -> str:
+    def _structure_path(self, raw: str) -> str:
         """The absolute path of a user's own structure or drawing."""
         if self.of_file is None:
             words = (f'"{word}"' for kind in FILED for word in kind.words)

@@ -9,9 +9,9 @@ from sweep.config.kinds import material as materials
 from sweep.config.kinds import steps
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.crush import Crush
+from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.damping import NoDamping
 from sweep.config.kinds.direction import ACROSS, ALONG
-from sweep.config.kinds.of_file import OfFile
 from sweep.config.kinds.solver import ARCS
 from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import Table
@@ -36,21 +36,23 @@ IDLE_ALONG = (
 )
 
 
-def still_unused(unused: Mapping[str, str], given: Mapping[str, Any], case: Case) -> dict[str, str]:
+def still_unused(
+    unused: Mapping[str, str], values: Mapping[str, Any], case: Case
+) -> dict[str, str]:
     """The keys of `unused` that have no effect in this case either, each with the reason.
 
-    given: the values from which the `case` is made, by their dotted keys. A key that is not among
+    values: the values from which the `case` is made, by their dotted keys. A key that is not among
     them keeps the reason it has in `unused`.
     """
-    reasons = {key: _clause(key, given, case) for key in unused if key in given}
+    reasons = {key: _clause(key, values, case) for key in unused if key in values}
     return {key: reasons.get(key, why) for key, why in unused.items() if reasons.get(key, "-")}
 
 
-def _clause(key: str, given: Mapping[str, Any], case: Case) -> str:
+def _clause(key: str, values: Mapping[str, Any], case: Case) -> str:
     """A clause that says which part of a value has no effect, and why; empty if all of it has."""
     if key == "lattice.file" and case.lattice.loaded:
         return _unused_part(case.lattice.loaded, case)
-    why = why_unused(key, given, case)
+    why = why_unused(key, values, case)
     return f"has no effect, as {why}{_needed(key, why, case)}" if why else ""
 
 
@@ -65,7 +67,7 @@ def _needed(key: str, why: str, case: Case) -> str:
         kinds, table = [Crush], "loading"
     own = getattr(case, table)
     shells = case.shells and table != "lattice" and why == _why_shells(case)
-    if isinstance(own, (*kinds, OfFile)) or shells or (case.lattice.sheet and name in SIDES):
+    if isinstance(own, (*kinds, CustomLoading)) or shells or (case.lattice.sheet and name in SIDES):
         return ""
     kinds = [kind for kind in kinds if name not in kind.derived]
     words = [word for kind in kinds for word in _words(table, kind)]
@@ -94,25 +96,25 @@ def _unused_part(structure: Structure, case: Case) -> str:
     return ""
 
 
-def why_unused(key: str, given: Mapping[str, Any], case: Case) -> str:
+def why_unused(key: str, values: Mapping[str, Any], case: Case) -> str:
     """Why the given value of a key has no effect in a case; empty if it has an effect."""
     table, name = key.split(".")
     case_value = getattr(getattr(case, table), name, None)
     if key == "material.memory":
-        return _why_no_memory(given)
+        return _why_no_memory(values)
     if key == "material.poisson" and case.material.plane == "stress":
         return 'material.plane is "stress"'
     if key == "loading.base_patch" and (case.lattice.endless or case.lattice.tied_sides):
         return "the lattice repeats"
     if case.shells and key in IDLE_ALONG:
         return _why_shells(case)
-    if case_value == given[key] or _used_otherwise(key, case_value, given, case):
+    if case_value == values[key] or _used_otherwise(key, case_value, values, case):
         return ""
-    implied = getattr(case, table).implies(name, given[key])
-    return "" if implied else _reason(key, given, case)
+    implied = getattr(case, table).implies(name, values[key])
+    return "" if implied else _reason(key, values, case)
 
 
-def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case: Case) -> bool:
+def _used_otherwise(key: str, case_value: object, values: Mapping[str, Any], case: Case) -> bool:
     """True if a value has an effect although the case has another value, or none.
 
     A time step is adjusted to a whole number of steps; the speed of a quasi-static crush is a
@@ -124,28 +126,28 @@ def _used_otherwise(key: str, case_value: object, given: Mapping[str, Any], case
     if name in (kind := getattr(case, table)).fits:
         return name in kind.inputs()
     if key == "contact.model":
-        return bool(given[key] == "auto")
+        return bool(values[key] == "auto")
     if key == "loading.mode":
-        return given[key] in case.loading.words
+        return values[key] in case.loading.words
     if key == "solver.time_step":
-        return case_value is not None and "solver.load_steps" not in given
+        return case_value is not None and "solver.load_steps" not in values
     if key in ("material.name", "lattice.file"):
         return case_value is not None
     return key == "loading.speed" and case.loading.driven
 
 
-def _why_no_memory(given: Mapping[str, Any]) -> str:
+def _why_no_memory(values: Mapping[str, Any]) -> str:
     """Why a measured memory has no effect: the config gives all of its numbers."""
-    if given["material.memory"] != "measured":
+    if values["material.memory"] != "measured":
         return ""
-    stated = read_record(locate(given.get("material.name", "ninjaflex"))).memory
-    others = {key for key in stated if f"material.{key}" not in given}
-    if others - ({"loss"} if "material.relaxation_times" in given else set()):
+    stated = read_record(locate(values.get("material.name", "ninjaflex"))).memory
+    others = {key for key in stated if f"material.{key}" not in values}
+    if others - ({"loss"} if "material.relaxation_times" in values else set()):
         return ""
     return "the config itself gives what the file of the material states"
 
 
-def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
+def _reason(key: str, values: Mapping[str, Any], case: Case) -> str:
     """Why the kinds of a case do not hold the value of a key."""
     table, name = key.split(".")
     kind = getattr(case, table)
@@ -160,7 +162,7 @@ def _reason(key: str, given: Mapping[str, Any], case: Case) -> str:
     if key == "solver.accuracy":
         return f'solver.integrator is "{case.solver.integrator}"'
     if isinstance(kind, NoDamping):
-        return _why_no_damping(given, case)
+        return _why_no_damping(values, case)
     rubs = not case.loading.quasi_static and isinstance(kind, Barrier)
     if rubs and key == "contact.slip_speed" and kind.friction == 0.0:
         return "contact.friction is 0"
@@ -174,12 +176,12 @@ def _why_shells(case: Case) -> str:
     return f'loading.direction is "{case.loading.direction}"'
 
 
-def _why_no_damping(given: Mapping[str, Any], case: Case) -> str:
+def _why_no_damping(values: Mapping[str, Any], case: Case) -> str:
     if case.shells:
         return _why_shells(case)
     if case.loading.quasi_static:
         return STILL
-    if "damping.model" not in given:
+    if "damping.model" not in values:
         return 'damping.model is "none" by default if the material relaxes'
     return NoDamping.because
 

@@ -93,8 +93,8 @@ class Structure(Part):
     @property
     def thickness_mm(self) -> tuple[float, ...]:
         """Thickness of every wall, mm."""
-        given = self.wall_thickness_mm
-        return given if isinstance(given, tuple) else (given,) * len(self.walls)
+        thickness = self.wall_thickness_mm
+        return thickness if isinstance(thickness, tuple) else (thickness,) * len(self.walls)
 
     def with_thickness(self, mean_mm: float) -> "Structure":
         """The structure with all walls thickened by one factor, so that their mean is `mean_mm`."""
@@ -107,16 +107,16 @@ class Structure(Part):
     @property
     def pieces(self) -> tuple[int, ...]:
         """Number of elements of every wall."""
-        given = self.subdivide
-        return given if isinstance(given, tuple) else (given,) * len(self.walls)
+        count = self.subdivide
+        return count if isinstance(count, tuple) else (count,) * len(self.walls)
 
     @property
     def velocity_mm_s(self) -> tuple[Pair, ...]:
         """Initial velocity of every node, mm/s."""
-        given = self.initial_velocity_mm_s
-        if not given or isinstance(given[0], tuple):
-            return given
-        return (given,) * len(self.nodes_mm)
+        velocity = self.initial_velocity_mm_s
+        if not velocity or isinstance(velocity[0], tuple):
+            return velocity
+        return (velocity,) * len(self.nodes_mm)
 
     @property
     def beside_walls(self) -> list[str]:

@@ -168,15 +168,15 @@ def _unknown_nodes(structure: Structure) -> Iterator[str]:
 def _lists(structure: Structure) -> Iterator[str]:
     """Faults of lists with too many or too few entries."""
     walls, nodes = len(structure.walls), len(structure.nodes_mm)
-    for key, given, count, what in (
+    for key, entries, count, what in (
         ("wall_thickness_mm", structure.thickness_mm, walls, "wall"),
         ("subdivide", structure.pieces, walls, "wall"),
         ("initial_velocity_mm_s", structure.velocity_mm_s, nodes, "node"),
     ):
-        if len(given) != count:
+        if len(entries) != count:
             allowed = f"one value, or one for each {what}, {count} here"
             yield _fault(
-                (key,), getattr(structure, key), f"{len(given)} values; allowed: {allowed}"
+                (key,), getattr(structure, key), f"{len(entries)} values; allowed: {allowed}"
             )
     if sum(structure.pieces) > MAX_ELEMENTS:
         allowed = f"at most {MAX_ELEMENTS:,} elements in all, {sum(structure.pieces):,} here"

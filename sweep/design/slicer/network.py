@@ -21,7 +21,7 @@ from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 from sweep.design.network import Network
 from sweep.design.slicer.joining import joined
-from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of
+from sweep.design.slicer.patterns import PATTERNS, InfillLines, distance_of
 
 LEAST_SHARE = 0.01  # least share of infill tried for a mass
 CLOSE = 5e-3  # relative error allowed in a mass, where lines appear all at once
@@ -76,7 +76,7 @@ def _area(geometry: Geometry, lines: Floats) -> float:
     return sliced.line * float(np.linalg.norm(inside[:, 1] - inside[:, 0], axis=1) @ thickness)
 
 
-def _thickness(sliced: Sliced, ends: Floats) -> Floats:
+def _thickness(sliced: InfillLines, ends: Floats) -> Floats:
     """Thickness of walls (w, 2, 2) of the infill over what the lines of one fill, (w,).
 
     Where layers are stacked up the drawing it is the cosine of the slope of the pattern that is
@@ -92,7 +92,7 @@ def _thickness(sliced: Sliced, ends: Floats) -> Floats:
 
 
 @lru_cache(maxsize=256)
-def infill(sliced: Sliced, box: tuple[float, float]) -> Floats:
+def infill(sliced: InfillLines, box: tuple[float, float]) -> Floats:
     """The centre lines of a pattern round the middle of a box and beyond it, (s, 2, 2) m."""
     pattern, half = PATTERNS[sliced.pattern], 0.5 * np.array(box)
     unit = pattern.side * sliced.distance
@@ -146,7 +146,7 @@ def share_for(geometry: Geometry, area: float, most: float) -> tuple[float, floa
     return share, light + area, heavy + area
 
 
-def _sliced(geometry: Geometry) -> Sliced:
+def _sliced(geometry: Geometry) -> InfillLines:
     if geometry.sliced is None:
         raise ValueError("a lattice without a slicer has no lines")
     return geometry.sliced

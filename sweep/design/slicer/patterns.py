@@ -277,7 +277,7 @@ def bare(name: str) -> str:
     return "".join(letter for letter in name.lower() if letter not in " -_")
 
 
-class Sliced(NamedTuple):
+class InfillLines(NamedTuple):
     """How an infill is laid; lengths in m.
 
     pattern: as in `PATTERNS`. distance: of its parallel walls. angle: of the first ones from the

@@ -94,7 +94,7 @@ def footnote(figure: Figure, words: str) -> None:
 def force_displacement(ax: Axes, history: DataFrame, row: Mapping[str, Any]) -> None:
     """Force on the top over strain: loading, unloading, and the work below the curve as an area.
 
-    history : from `read_history`; row : of the case in the summary. A dead load appears and
+    history: from `read_history`; row: of the case in the summary. A dead load appears and
     disappears within one step. Between loose platens its travel exceeds the approach of the rows of
     nodes, as it compresses both contacts: then the absorbed energy is not the area.
     """
@@ -359,7 +359,7 @@ def beside(ax: Axes, inches: float, bottom: float, height: float) -> Axes:
 def winners(fig: Figure, cases: Mapping[str, Mapping[str, Any]]) -> None:
     """Six shapes of each of several cases, one case below another, all at the same scale.
 
-    cases : title -> frames. The size of the figure is set.
+    cases: title -> frames. The size of the figure is set.
     """
     scale = min(map(shapes_scale, cases.values()))
     sizes = (shapes_size(*case, scale=scale) for case in cases.items())

@@ -38,7 +38,7 @@ def absorption_diagram(fig: Figure, designs: DataFrame, crushes: Mapping[str, Cr
 
     Both are divided by the modulus of the material, if the modulus of every design is known. The
     marker is at the shoulder, the greatest energy / stress. The dotted line is the most energy that
-    any of the designs absorbs below a stress. crushes : by case id.
+    any of the designs absorbs below a stress. crushes: by case id.
     """
     look, related = looks(designs), bool((designs["material_modulus_Pa"] > 0.0).all())
     for ax, rows in scene_axes(fig, designs):
@@ -68,7 +68,7 @@ def cushion_diagram(
 ) -> None:
     """Greatest deceleration over static stress of drops from a height (m), a panel per scene.
 
-    The marker is at the least deceleration. falls : impacts in the results, from `drops`; rings
+    The marker is at the least deceleration. falls: impacts in the results, from `drops`; rings
     mark drops of a design of the panel from this height.
     """
     look, rings = looks(designs), False

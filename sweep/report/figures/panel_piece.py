@@ -23,7 +23,7 @@ SAME = 1e-9  # m: corners no farther apart at rest are one node
 def piece(frames: Mapping[str, Any], row: Mapping[str, Any], times: int = 2) -> Mapping[str, Any]:
     """The shapes of ``times`` periods along both sides; unchanged if nothing repeats.
 
-    frames, row : of a case, as `read_frames` and the summary have them.
+    frames, row: of a case, as `read_frames` and the summary have them.
     """
     if "quads" not in frames or not row["sides"].startswith(TIED_SIDES):
         return frames

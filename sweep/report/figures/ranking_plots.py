@@ -67,7 +67,7 @@ ENDS = 0.1, 10.0  # shares of a value: limits of its error bar, since a log axis
 def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
     """Merit over mass, one panel per scene, with the winner of each budget named.
 
-    ranking : all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
+    ranking: all places (`top=None`), of one mode. Merit: absorbed energy, strain under a dead
     load, or force on the support under a striker, with its error bar. The stairs are the Pareto
     front, the best merit up to every mass; its designs are drawn on top, others pale, and grey if
     they are heavier than all budgets. The winner of a budget is the last design of the front within

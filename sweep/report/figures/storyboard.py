@@ -36,7 +36,7 @@ FLOWN = 0.5  # share of its height: a specimen lifted farther is not drawn
 
 
 def headline(row: Mapping[str, Any]) -> str:
-    """Design and scene of a case, each on lines of its own; row : its row of the summary."""
+    """Design and scene of a case, each on lines of its own; row: its row of the summary."""
     return "\n".join(fill(part, TITLE, break_on_hyphens=False) for part in design_and_scene(row))
 
 
@@ -124,7 +124,7 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     """Frames to draw, with captions: at even strains of the first loading, then the last one of the
     last unloading.
 
-    frames : from `read_frames`; release : time (s) at which a dead load is removed. Frames of a
+    frames: from `read_frames`; release: time (s) at which a dead load is removed. Frames of a
     structure without strain are at even times.
     """
     strain, time = frames["strain"], frames["time_s"]

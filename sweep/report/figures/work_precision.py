@@ -28,7 +28,7 @@ SIGNS = "osD^vP"
 
 
 def work_precision(fig: Figure, studies: dict[str, Study]) -> None:
-    """One row of panels per scene, one panel per measure. studies : by title."""
+    """One row of panels per scene, one panel per measure. studies: by title."""
     strips = fig.subfigures(len(studies), 1, squeeze=False)[:, 0]
     for strip, (title, study) in zip(strips, studies.items(), strict=True):
         strip.suptitle(title, x=0.01, ha="left", fontsize="medium")

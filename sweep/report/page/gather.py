@@ -106,29 +106,30 @@ def page_data(
 ) -> dict[str, Any]:
     """All data of a page, for JSON; numbers that rank designs keep all their digits.
 
-    question : the question with which the page starts; budget (kg) and panel (m) are lists or None.
-    ranking : its `first_ranking`, if it exists already. files_of : the page holds the files to
+    question: the question with which the page starts; budget (kg) and panel (m) are lists or None.
+    ranking: its `first_ranking`, if it exists already. files_of: the page holds the files to
     print of the first designs.
     """
     heads = list(design_text(loaded(summary), summary))
-    counted = _counted(needed_columns(summary, OF_SCENES))
-    compared = counted[0].rows
-    finished = loaded(compared)
-    labels = scene_labels(compared)
+    by_force = _counted(needed_columns(summary, OF_SCENES))
+    whole = by_force[0].rows
+    finished = loaded(whole)
+    labels = scene_labels(whole)
     by_label = dict(islice(by_scene(finished, labels).items(), SCENES if len(finished) else 0))
     scenes = [*by_label.values()]
-    first = _asked_first(ranking or first_ranking(summary, question))
-    ids = select_designs(first, counted, scenes)
+    first = _first_ids(ranking or first_ranking(summary, question))
+    ids = select_designs(first, by_force, scenes)
     kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
-    cases = _cases(counted, kept, summary)
-    stopped_by_label = by_scene(compared[interrupted(compared)], labels)
-    stopped = [stopped_by_label.get(label, compared[:0]) for label in by_label]
-    some = [select_stopped(rows, counted[0].names, len(scenes)) for rows in stopped]
-    shown = [widened(rows, summary) for rows in some]
-    unfinished = _cases(counted, shown, summary)
+    cases = _cases(by_force, kept, summary)
+    stopped_by_label = by_scene(whole[interrupted(whole)], labels)
+    stopped = [stopped_by_label.get(label, whole[:0]) for label in by_label]
+    shown = [
+        widened(select_stopped(rows, by_force[0].names, len(scenes)), summary) for rows in stopped
+    ]
+    unfinished = _cases(by_force, shown, summary)
     about = read_attributes(file)
-    forces = [each.force for each in counted if each.force is not None]
-    leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(counted, scenes)]))
+    forces = [each.force for each in by_force if each.force is not None]
+    leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(by_force, scenes)]))
     rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
     stored = _Stored(len(cases))
     for run in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
@@ -142,15 +143,15 @@ def page_data(
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
         "scenes": [
-            _scene(label, rows, some)
-            | {"designs": len(rows), "stopped": len(halted) - len(named)}
-            | {"others": group_others(counted, rows, ids, len(scenes))}
-            | {"front_of_others": front_of_others(counted, rows, ids)}
-            for (label, rows), some, halted, named in zip(
+            _scene(label, rows, on_page)
+            | {"designs": len(rows), "stopped": len(all_stopped) - len(stopped_on_page)}
+            | {"others": group_others(by_force, rows, ids, len(scenes))}
+            | {"front_of_others": front_of_others(by_force, rows, ids)}
+            for (label, rows), on_page, all_stopped, stopped_on_page in zip(
                 by_label.items(), kept, stopped, shown, strict=True
             )
         ],
-        "energies": [_energy(each) for each in counted],
+        "energies": [_energy(each) for each in by_force],
         "heads": heads,
         "question": {
             "budgets_g": [in_unit(float(mass), "g") for mass in question.budgets],
@@ -219,15 +220,15 @@ def _up_to(force: float, summary: DataFrame) -> Counted:
 
 
 def _cases(
-    counted: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
+    by_force: Sequence[Counted], scenes: Sequence[DataFrame], summary: DataFrame
 ) -> dict[str, dict[str, Any]]:
     """The ranking data of every case of these scenes, and its row of the table, by its id."""
-    cases, ends = {}, end_columns(counted[0].names.energy)
+    cases, ends = {}, end_columns(by_force[0].names.energy)
     for number, part in enumerate(scenes):
         if part.empty:
             continue
         least = compared(part)
-        energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in counted]
+        energies = [_with_bars(each.rows.loc[part.index], each.names.energy) for each in by_force]
         columns = {
             "id": part["case_id"],
             "scene": [number] * len(part),
@@ -235,7 +236,7 @@ def _cases(
             "text": list(zip(*design_text(part, summary).values(), strict=True))
             or [()] * len(part),
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
-            "mass": _exact(part[counted[0].names.mass]),
+            "mass": _exact(part[by_force[0].names.mass]),
             "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
             "gap": _exact(gap_behind(part)),
             "energies": list(zip(*energies, strict=True)),
@@ -252,7 +253,7 @@ def _cases(
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
             "coarse": part["coarse"].tolist(),
-            "errors": _errors(part, counted[0].names),
+            "errors": _errors(part, by_force[0].names),
             "stretched": part["beyond_curve"].tolist(),
             "undrawn": part["does_not_print"],
             "open": part["ends_early"].tolist(),
@@ -330,12 +331,12 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
     }
 
 
-def _energy(counted: Counted) -> dict[str, Any]:
-    bar = error_column(counted.names.energy) in counted.rows
-    return {"force": counted.force, "until": counted.names.until, "bar": bar}
+def _energy(one: Counted) -> dict[str, Any]:
+    bar = error_column(one.names.energy) in one.rows
+    return {"force": one.force, "until": one.names.until, "bar": bar}
 
 
-def _asked_first(ranking: Ranking) -> list[str]:
+def _first_ids(ranking: Ranking) -> list[str]:
     """Ids of the winners of the first ranking of the page, and of the nearest designs."""
     groups = ranking.table.groupby(["scene", "budget_g"], dropna=False, sort=False)
     winners = groups.head(TOP_OF_A_BUDGET).sort_values("place", kind="stable")["case_id"]
@@ -446,8 +447,8 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
         (work_until(limit, *full), work_until(limit, *thin))
         for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
     ]
-    counted = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
-    return max((abs(value / true - 1.0) for true, value in counted), default=0.0)
+    large = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
+    return max((abs(value / true - 1.0) for true, value in large), default=0.0)
 
 
 def _as_measured(run: StoredRun, row: Series) -> StoredRun:

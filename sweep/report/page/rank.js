@@ -58,7 +58,7 @@ function askedOf(data, question) {
   if (question.per === "panel" && !question.panel) return {};
   const mode = data.scenes[question.scene].mode;
   const limits = Object.entries(question.require ?? {});
-  return Object.fromEntries(limits.filter(([name]) => data.measures[name].asked_of.includes(mode)));
+  return Object.fromEntries(limits.filter(([name]) => data.measures[name].modes.includes(mode)));
 }
 
 // The value (SI) of a row for each requirement, of a specimen or of the panel.

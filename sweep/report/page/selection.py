@@ -65,7 +65,7 @@ def select_designs(
 ) -> list[str]:
     """Ids of the designs that a page holds, the most important first.
 
-    first : the ids that come first. scenes : the rows of each, with the columns of `counted[0]`.
+    first: the ids that come first. scenes: the rows of each, with the columns of `counted[0]`.
     """
     every = [case_id for rows in scenes for case_id in rows["case_id"]]
     if len(every) <= MOST:
@@ -172,7 +172,7 @@ def group_others(
     """The groups of the designs of a scene that are not on the page, by both groupings; none if all
     are.
 
-    ids : of the designs on the page. scenes : number of scenes.
+    ids: of the designs on the page. scenes: number of scenes.
     """
     rows = rows[~rows["case_id"].isin([*ids]) & rows[counted[0].names.mass].notna()]
     if rows.empty:

@@ -125,7 +125,7 @@ def _path(points: Sequence[Sequence[int]]) -> str:
 def moving_shape(frames: Mapping[str, Any], forces: Sequence[Any]) -> dict[str, Any]:
     """Some frames of a case: trails of nodes, and the data of `_moving`.
 
-    frames : from `read_frames`. forces : of every frame (N), None if unknown.
+    frames: from `read_frames`. forces: of every frame (N), None if unknown.
     """
     used, edges = np.unique(frames["edges"], return_inverse=True)
     position = np.asarray(frames["position_m"], float)[:, used]
@@ -161,7 +161,7 @@ def _moving(frames: Mapping[str, Any], position: Floats, forces: Sequence[Any]) 
     """Strain, time, force and platens of some frames, and positions (f, n, c) in m as 16-bit
     numbers in base 64: x = low x + step x number, in mm; frame after frame, node after node.
     """
-    chosen = _shown(np.asarray(frames["strain"]))
+    chosen = _frame_numbers(np.asarray(frames["strain"]))
     position = in_unit(position[chosen], "mm")
     low = position.min((0, 1))
     step = float((position.max((0, 1)) - low).max()) / GRID or 1.0
@@ -183,7 +183,7 @@ def _points(outline: Floats) -> list[list[float]]:
     return [[float(f"{v:.4g}") for v in point] for point in outline]
 
 
-def _shown(strain: Floats) -> list[int]:
+def _frame_numbers(strain: Floats) -> list[int]:
     """At most `FRAMES` numbers of frames: the first, the last and the turning point at the greatest
     strain; the others evenly spaced between them.
     """

@@ -99,7 +99,7 @@ def _cheapest(study: Study, target: float) -> Iterator[str]:
     if not names:
         yield f"Errors below {percents(target)} are not resolved: the reference is too uncertain."
         return
-    rows, where = study.settings, f"below {percents(target)} in {_listed(study, names)}"
+    rows, where = study.settings, f"below {percents(target)} in {_measure_words(study, names)}"
     worst = rows[names].max(axis=1, skipna=False)
     good = rows[worst < target].sort_values("cpu_s")
     cheap = rows[rows["energy"] < target].sort_values("cpu_s")
@@ -210,7 +210,7 @@ def _doubt(study: Study, name: str) -> str:
     return percents(max(study.references[name].doubt, LEAST_SHOWN))
 
 
-def _listed(study: Study, names: Iterable[str]) -> str:
+def _measure_words(study: Study, names: Iterable[str]) -> str:
     """Measures in words: "absorbed energy, peak force and strain over time"."""
     *first, last = [measure_noun(study, name) for name in names]
     return f"{', '.join(first)} and {last}" if first else last

@@ -68,7 +68,7 @@ def quantity(name: str, value: float) -> str:
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
     """The requirements for these kinds of loading in one sentence; empty if there are none."""
     kinds = set(modes)
-    own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].asked_of)}
+    own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].modes)}
     limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
     return f"Required of {of_which(ranking)}: {', '.join(limits)}." if limits else ""
 
@@ -271,7 +271,7 @@ def column_notes(ranking: Ranking) -> list[str]:
 
 def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
     """Whether a requirement applies to the designs of one scene."""
-    return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].asked_of
+    return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].modes
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:

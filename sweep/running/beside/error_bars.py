@@ -33,7 +33,7 @@ from sweep.running.beside.refinement import refined
 from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
-from sweep.store.read import ONLY_MISSING, Rerun, exists, finished_ids, read_summary
+from sweep.store.read import Rerun, exists, finished_ids, read_summary
 from sweep.store.write import Writer
 
 PEAKS = ("peak_force_N", "peak_force_at_densification_N", "peak_force_until_packed_N")
@@ -114,7 +114,7 @@ def _labelled(case: Case) -> Case:
 
 
 def companions_beside(
-    designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun = ONLY_MISSING
+    designs: Sequence[Case], out: str | os.PathLike[str], rerun: Rerun
 ) -> dict[str, Case]:
     """Companions of all designs by their id, except those that are cases of the sweep itself."""
     by_id = {c.case.case_id: c.case for design in designs for c in companions(design)}

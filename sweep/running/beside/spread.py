@@ -51,7 +51,7 @@ def corners(design: Case) -> list[Corner]:
     if isinstance(design.contact, Barrier) and "contact.friction" not in design.axes:
         ranges["friction"] = friction
     candidates = [
-        Corner(f"{name} {end}", _moved(design, name, value))
+        Corner(f"{name} {end}", _with_value(design, name, value))
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
     ]
@@ -74,7 +74,7 @@ def _named(name: str, ends: tuple[float, float]) -> Iterable[tuple[str, float]]:
     return zip(words, ends, strict=True)
 
 
-def _moved(design: Case, name: str, value: float) -> Case:
+def _with_value(design: Case, name: str, value: float) -> Case:
     """The design with another value of an uncertain number, and a label for it."""
     if name == "friction":
         return design.changed({"contact.friction": value}, contact={"friction": value})

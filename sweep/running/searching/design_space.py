@@ -58,7 +58,7 @@ class DesignSpace:
                 return None
             chosen[self._size.name] = size
         case = chosen_case(self.config.recipe, chosen)
-        if case is None or not self._panels(case):
+        if case is None or not self._specimens(case):
             return None
         return case if self.weight(case) <= greatest_mass(self.budget) else None
 
@@ -95,7 +95,7 @@ class DesignSpace:
 
     def _limited_of_slicer(self, size: Interval, least: Case) -> Interval | None:
         """The axis of the mass as extruded, or of the share of infill, up to the budget."""
-        most = self.budget / (self._panels(least) or inf)
+        most = self.budget / (self._specimens(least) or inf)
         if size.name == "lattice.infill":
             most = _greatest_share(least, size, most)
         if most < size.low:
@@ -113,7 +113,7 @@ class DesignSpace:
             return max(count * specimen - self.budget, specimen - grams)
 
         def count(thickness: float) -> float:
-            return self._panels(_with_walls(least, thickness))
+            return self._specimens(_with_walls(least, thickness))
 
         assert isinstance(least.lattice, WallLattice)
         low = least.lattice.wall_thickness
@@ -132,9 +132,9 @@ class DesignSpace:
         """Mass (kg) that the budget limits, of a specimen or of the panel; 0 without a budget."""
         if self.budget == inf:
             return 0.0
-        return self._panels(case) * _mass(case)
+        return self._specimens(case) * _mass(case)
 
-    def _panels(self, case: Case) -> float:
+    def _specimens(self, case: Case) -> float:
         """Number of specimens in a panel, as a ranking counts them; 1 without a panel."""
         if self.panel is None:
             return 1.0

@@ -125,10 +125,10 @@ class Search:
         many more, up to `MOST_TRIED`, as are needed to find one that is a design.
         """
         sobol = qmc.Sobol(self.space.dimension, scramble=True, seed=seed)
-        points = tried = sobol.random_base2(START)
-        while len(points) < MOST_TRIED and not any(map(self.space.case, tried)):
-            tried = sobol.random(len(points))
-            points = np.concatenate([points, tried])
+        points = candidates = sobol.random_base2(START)
+        while len(points) < MOST_TRIED and not any(map(self.space.case, candidates)):
+            candidates = sobol.random(len(points))
+            points = np.concatenate([points, candidates])
         return points
 
     def _is_over(self, *_: object, **__: object) -> bool:

@@ -143,7 +143,7 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     first = np.column_stack([np.arange(n), np.zeros((n, 2), np.int64)])
     nodes, corner = _numbered(np.concatenate([first, key]))
     quads = corner[n:].reshape(-1, 4)
-    original, shift = np.ascontiguousarray(nodes[:, 0]), nodes[:, 1:]  # as the lattice of prisms is
+    original, shift = np.ascontiguousarray(nodes[:, 0]), nodes[:, 1:]  # as of upright walls
     rest = net.points[original]
     rest[:, :2] += shift * period
     shorter = np.concatenate([_shorter(net.corners)[rows] for rows in near])

@@ -6,7 +6,7 @@ python -m tests.studies.bench FOLDER
 import sys
 from pathlib import Path
 
-from sweep.simulation.simulate import warm_up
+from sweep.simulation.warm_up import warm_up
 from tests.studies.bench import densify, growth, scenes, starts, sweeps
 from tests.studies.tables import tell
 

@@ -32,7 +32,7 @@ from sweep.design.lattice import build_network
 from sweep.design.network import mass
 from sweep.numbers import percent
 from sweep.simulation.failures import faster_than_sound
-from sweep.simulation.simulate import warm_up
+from sweep.simulation.warm_up import warm_up
 from tests.studies.stability.audit import audit
 from tests.studies.stability.draw import CONFIGS, remembering, second_order, wide
 from tests.studies.stability.structures import COUNT, structure_scene

@@ -8,7 +8,7 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.scene.custom import build_structure
-from sweep.simulation.simulate import warm_up
+from sweep.simulation.warm_up import warm_up
 from tests.studies.stability import audit, draw, model, structures
 from tests.studies.stability.__main__ import counted, has_no_answer, markdown, outcome
 from tests.studies.stability.structures import IN_TIME

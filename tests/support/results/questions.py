@@ -132,7 +132,7 @@ def random_question(rng, table):
     force = [None, None, *FORCES, 27.0, 41.5][rng.integers(7)]
     force = None if force is None else force * (count if per == "panel" else 1.0)
     modes = {*table["loading_mode"]}
-    known = [name for name, measure in MEASURES.items() if modes.intersection(measure.asked_of)]
+    known = [name for name, measure in MEASURES.items() if modes.intersection(measure.modes)]
     (apart,) = rng.spawn(1)
     draws = {name: apart if name in FELT else rng for name in known}
     names = [name for name in known if draws[name].random() < 0.25]

@@ -104,4 +104,4 @@ def test_files_of_different_configs_are_told(array, capsys):
     part(capsys, "1/5", "two.h5")
     status, said, err = crumple(capsys, "merge", "all.h5", "one.h5", "two.h5")
     assert (status, said) == (0, "all.h5: 2 cases\n")
-    assert "of 2 configs; all.h5 keeps that of one.h5" in err
+    assert "of 2 configs; all.h5 keeps the config of one.h5" in err

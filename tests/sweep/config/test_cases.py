@@ -96,7 +96,7 @@ def test_some_of_the_cases():
 
 def test_no_case_is_made_to_know_ids_and_labels(monkeypatch):
     lazy = Cases(many())
-    monkeypatch.setattr("sweep.config.cases._made", None)
+    monkeypatch.setattr("sweep.config.cases._case_of", None)
     assert len(lazy.without([*lazy.ids][:3]).ids) == len(lazy) - 3
     assert len([*lazy.labels.values()]) == len(lazy)
 

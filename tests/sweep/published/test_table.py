@@ -73,10 +73,10 @@ def test_a_new_prediction_keeps_the_measured_value():
 
 
 def test_words_find_rows():
-    found = [row.name for row in read_table(OURS) if row.is_meant("DING")]
+    found = [row.name for row in read_table(OURS) if row.matches("DING")]
     assert found == ["ding plateau", "ding energy"]
-    assert ROW.is_meant("2024")
-    assert not ROW.is_meant("2025")
+    assert ROW.matches("2024")
+    assert not ROW.matches("2025")
 
 
 @pytest.mark.parametrize(

@@ -28,4 +28,4 @@ def test_an_example_is_shown_in_the_unit_of_a_maker(name, measure):
     value = quantity(measure.example, measure.unit)
     assert text_of(name, value).endswith(f" {measure.shown}")
     assert quantity(text_of(name, value), measure.unit) == pytest.approx(value)
-    assert measure.asked_of
+    assert measure.modes

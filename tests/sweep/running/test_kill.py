@@ -14,7 +14,7 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
-from sweep.simulation.simulate import warm_up
+from sweep.simulation.warm_up import warm_up
 from sweep.store.read import finished_ids, read_history, read_summary
 
 ROOT = Path(__file__).parents[3]

@@ -5,7 +5,7 @@ import pytest
 from sweep.config.case import Case
 from sweep.running.warming import real_simulate, simulate_unloaded
 from sweep.simulation.retries import simulate_again
-from sweep.simulation.simulate import kernels_of
+from sweep.simulation.warm_up import kernels_of
 
 ALONG = {"direction": "out_of_plane"}
 
@@ -16,7 +16,7 @@ def cold(monkeypatch):
     loaded = []
     monkeypatch.setattr("kernels.compile.cache.is_cold", lambda name: name not in loaded)
     monkeypatch.setattr("kernels.compile.cache.warmed_up", lambda name: None)
-    monkeypatch.setattr("sweep.simulation.simulate.warm_up", loaded.extend)
+    monkeypatch.setattr("sweep.simulation.warm_up.warm_up", loaded.extend)
     return loaded
 
 

@@ -7,7 +7,8 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.config.faults import ConfigError
-from sweep.simulation.simulate import simulate, warm_up
+from sweep.simulation.simulate import simulate
+from sweep.simulation.warm_up import warm_up
 
 
 def test_tables_of_a_config_are_a_case_too():

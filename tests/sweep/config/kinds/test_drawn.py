@@ -110,7 +110,7 @@ def test_the_unit_is_that_of_the_file_or_of_the_config(tmp_path):
         ({"wall_thickness": "3 mm"}, "below half the width of the widest cell, 2.083 mm"),
         ({"wall_thickness": "1e-9 mm"}, "at least .* mm, a millionth of the greatest"),
         ({"mass": "90 g"}, "between .* with these cells"),
-        ({"width": "20 mm"}, r"allowed: 12\.5 mm, that of the drawing"),
+        ({"width": "20 mm"}, r"allowed: 12\.5 mm, the size of the drawing"),
         ({"cells": 4}, "has no effect, as lattice.kind is"),
     ],
 )

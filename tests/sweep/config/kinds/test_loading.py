@@ -1,9 +1,14 @@
 """The tables of a case: what each accepts by itself, and the mode that keys imply."""
 
+from typing import ClassVar, Literal
+
 import pytest
 
 from sweep.config.case import Case
-from sweep.config.kinds.table import RefusedError
+from sweep.config.kinds import loading as loadings
+from sweep.config.kinds.body import Body
+from sweep.config.kinds.dead_load import DeadLoad
+from sweep.config.kinds.table import Duration, RefusedError
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -76,6 +81,23 @@ def test_duration_is_a_key_of_loads_and_of_strikers():
     assert Case.of(loading=dict(duration=0.1, energy=0.1)).loading.mode == "impact"
     with pytest.raises(RefusedError, match=r'"force" or "impact", as loading\.force needs'):
         Case.of(loading=dict(force=1.0, energy=0.1))
+
+
+class Creep(DeadLoad):
+    """A dead load that grows for a while, as a kind that has the keys of another one."""
+
+    words: ClassVar[tuple[str, ...]] = ("creep",)
+
+    mode: Literal["creep"] = "creep"
+    rise_time: Duration = 0.1
+
+
+@pytest.mark.parametrize("others", [{}, {"force": 2.0}, {"duration": 0.3}])
+def test_a_key_of_a_subclass_chooses_it_beside_keys_of_its_base(monkeypatch, others):
+    monkeypatch.setattr(loadings, "BY_MODE", (*loadings.BY_MODE, Creep))
+    loading = loadings.loading({"rise_time": 0.2, **others}, Body(0.01, False), None, False)
+    assert type(loading) is Creep
+    assert loading.rise_time == 0.2
 
 
 def test_a_curve_that_is_not_given_is_missed_where_it_is_used():

@@ -176,7 +176,7 @@ def test_of_a_project_the_settings_of_objects_are_not_read(tmp_path):
         archive.writestr("Metadata/project_settings.config", json.dumps(ORCA))
     found = read_profile(path, "own.3mf")
     assert found.values["pattern"] == "tri-hexagon"
-    told = "own.3mf: settings of single objects are not read, only those of the project"
+    told = "own.3mf: settings of single objects are not read, only settings of the project"
     assert told in found.notes
 
 

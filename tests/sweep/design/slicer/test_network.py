@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 from sweep.design.geometry import Geometry
 from sweep.design.lattice import build_network
 from sweep.design.slicer.network import extruded_area, infill
-from sweep.design.slicer.patterns import PATTERNS, Sliced, distance_of, line_of
+from sweep.design.slicer.patterns import PATTERNS, InfillLines, distance_of, line_of
 
 LINE = line_of("prusa", 0.45e-3, 0.2e-3)
 LATERAL = [name for name, pattern in PATTERNS.items() if pattern.slopes]
@@ -21,7 +21,7 @@ def geometry(pattern, share=0.2, angle=None, size=20e-3, perimeters=2, line=LINE
     """The drawing of a pattern in a square, at its usual fill angle."""
     angle = (0.0 if pattern in LATERAL else 45.0) if angle is None else angle
     distance, inset = distance_of(pattern, share, line), (0.5 * perimeters - 0.25) * line
-    sliced = Sliced(pattern, distance, radians(angle), line, (inset, inset))
+    sliced = InfillLines(pattern, distance, radians(angle), line, (inset, inset))
     outline = (perimeters * line,) * 2
     wall = PATTERNS[pattern].wall * line
     return Geometry("square", None, (1, 1), (size, size), wall, outline=outline, sliced=sliced)
@@ -111,7 +111,7 @@ def lines_of_a_layer(pattern, height, s):
 @pytest.mark.parametrize("pattern", LATERAL)
 def test_walls_are_where_layers_have_lines(pattern):
     """From the lower end of an upright wall, or from a joint, which is the middle of the box."""
-    sliced = Sliced(pattern, distance_of(pattern, 1.0, LINE), 0.0, LINE, (0.0, 0.0))
+    sliced = InfillLines(pattern, distance_of(pattern, 1.0, LINE), 0.0, LINE, (0.0, 0.0))
     ends = infill(sliced, (40.0 * LINE, 40.0 * LINE)) - 20.0 * LINE
     side = PATTERNS[pattern].side * sliced.distance
     zero = (sliced.distance / 2.0, -side / 2.0) if pattern == "lateral-honeycomb" else (0.0, 0.0)

@@ -11,7 +11,7 @@ from sweep.design.slicer.patterns import (
     NO_PRISMS,
     PATTERNS,
     SLICERS,
-    Sliced,
+    InfillLines,
     distance_of,
     family_of,
     line_of,
@@ -47,7 +47,7 @@ def test_sides_and_walls_are_those_of_the_slicer(pattern, side, wall, most):
     distance = distance_of(pattern, 0.2, LINE)
     assert made.side * distance == pytest.approx(side * LINE / 0.2)
     assert (made.wall, made.most) == (pytest.approx(wall), pytest.approx(most))
-    assert Sliced(pattern, distance, 0.0, LINE, (0.0, 0.0)).share == pytest.approx(0.2)
+    assert InfillLines(pattern, distance, 0.0, LINE, (0.0, 0.0)).share == pytest.approx(0.2)
 
 
 def test_walls_of_honeycomb_are_double_in_every_third_layer():

@@ -1,5 +1,5 @@
-"""Reports the result of `lattice.cell_size`: whole numbers of cells, and their size; the period of
-a sheet; the walls of a drawing.
+"""Notes on the lattices of a config: whole numbers of cells that follow from `lattice.cell_size`,
+the period of a sheet, the walls of a drawing.
 """
 
 from collections.abc import Sequence
@@ -15,11 +15,10 @@ from sweep.numbers import counted, in_unit, text_in
 from sweep.plain_text import plain
 
 
-def cell_sentences(cases: Sequence[Case], infill: float | None = None) -> list[str]:
-    """A line for each lattice that a size of cells has divided; infill: the share that a config
-    gives for cases that have none of their own.
+def lattice_notes(cases: Sequence[Case], infill: float | None = None) -> list[str]:
+    """A line for each different lattice whose sizes do not stand in the config as they are.
 
-    "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)"
+    infill: the share that a config gives for cases that have none of their own.
     """
     lattices = [case.lattice for case in cases]
     cells = (lattice for lattice in lattices if isinstance(lattice, Cells))
@@ -30,7 +29,7 @@ def cell_sentences(cases: Sequence[Case], infill: float | None = None) -> list[s
         if isinstance(case.lattice, Surface)
     )
     drawings = (_of_drawing(lattice) for lattice in lattices if isinstance(lattice, Drawn))
-    return list(dict.fromkeys([*map(_sentence, sized), *sheets, *drawings]))
+    return list(dict.fromkeys([*map(_of_cells, sized), *sheets, *drawings]))
 
 
 def _of_drawing(lattice: Drawn) -> str:
@@ -70,15 +69,16 @@ def _of_sheet(lattice: Surface, infill: Any) -> str:
     return f"{line}; a block of {size} mm within perimeters"
 
 
-def _share(taken: float, given: Any) -> str:
-    """The share of infill of a sheet whose period fits, and the given share, if it is another
+def _share(fitting: float, requested: Any) -> str:
+    """The share of infill of a sheet whose period fits, and the requested share, if it is another
     one.
     """
-    texts = [text_in(share, "%", 3) for share in (taken, given or taken)]
+    texts = [text_in(share, "%", 3) for share in (fitting, requested or fitting)]
     return " for ".join(dict.fromkeys(texts))
 
 
-def _sentence(lattice: Cells) -> str:
+def _of_cells(lattice: Cells) -> str:
+    """A line: "lattice.cell_size 4 mm: 25 x 4 cells of 4 x 3.75 mm (square)"."""
     from sweep.design.sizing import cell_of
 
     width, height = (f"{in_unit(side, 'mm'):.3g}" for side in cell_of(lattice.geometry))

@@ -11,7 +11,7 @@ from sweep.config.kinds.table import Duration, Inputs, RefusedError
 from sweep.config.structures.structure import Structure
 
 
-class OfFile(Directed):
+class CustomLoading(Directed):
     """Loads and prescribed moves of the file. `quasi_static`: they grow together in equal steps."""
 
     because: ClassVar[str] = 'lattice.kind is "custom"'
