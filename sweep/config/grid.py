@@ -18,7 +18,7 @@ from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
 from sweep.config.materials.material_header import UNITS
 from sweep.config.question import Rank, Require
-from sweep.config.reading.unused_keys import still_unused
+from sweep.config.reading.keys_without_effect import keys_without_effect
 from sweep.numbers import counted, text_in
 
 MAX_CASES = 1_000_000
@@ -162,7 +162,7 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
         case = draft.labelled()
         if case.case_id not in cases.ids:
             cases.add(case)
-        unused = still_unused(unused, draft.values, case) if unused else unused
+        unused = keys_without_effect(unused, draft.values, case) if unused else unused
     refused = [draft for draft in impossible if draft.is_mistaken(usable)] if cases else impossible
     if refused and not (recipe.search and cases):
         raise ConfigError(_reasons(refused, max(count, len(refused)), recipe))

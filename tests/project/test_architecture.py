@@ -98,6 +98,8 @@ TESTED_ELSEWHERE = {
     "kernels.terms.kelvin_voigt": "kernels/terms/test_damping.py",
     "kernels.terms.rayleigh": "kernels/terms/test_damping.py",
     "sweep.__main__": "sweep/cli/test_verbs.py",
+    "sweep.cli.arguments": "sweep/cli/test_verbs.py",
+    "sweep.cli.parser": "sweep/cli/test_verbs.py",
     "sweep.config.kinds.contact": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.crush": "sweep/config/kinds/test_completion.py",
     "sweep.config.kinds.damping": "sweep/config/kinds/test_relaxation.py",

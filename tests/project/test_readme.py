@@ -12,7 +12,8 @@ from functools import cache
 import matplotlib.pyplot
 import pytest
 
-from sweep.__main__ import main, parser
+from sweep.__main__ import main
+from sweep.cli.parser import parser
 from sweep.columns import COLUMNS, PER_GRAM
 from sweep.config.case import Case
 from sweep.config.grid import expand

@@ -13,7 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from sweep.__main__ import parser
+from sweep.cli.parser import parser
 from sweep.cli.refusals import REFUSALS, ArgumentError, writing
 from sweep.cli.verbs import VERBS
 from sweep.columns import absorbed_energy_column

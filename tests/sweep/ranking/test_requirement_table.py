@@ -2,7 +2,7 @@
 
 import pytest
 
-from sweep.__main__ import parser
+from sweep.cli.parser import parser
 from sweep.config.keys import table_keys
 from sweep.config.units import quantity
 from sweep.ranking.requirement_table import MEASURES

@@ -36,7 +36,7 @@ IDLE_ALONG = (
 )
 
 
-def still_unused(
+def keys_without_effect(
     unused: Mapping[str, str], values: Mapping[str, Any], case: Case
 ) -> dict[str, str]:
     """The keys of `unused` that have no effect in this case either, each with the reason.
