@@ -146,8 +146,12 @@ def _heading(question: Question, ranking: Ranking) -> str:
         lines.insert(0, f"At most {text}.")
     if panel := question.panel:
         sides = " x ".join(_quantity_text(side, "mm") for side in panel)
-        whole = len(ranking.table) and is_period(ranking.table).all()
-        how = "in one piece" if whole else "tiled with separate specimens"
+        periods = is_period(ranking.table)
+        how = "tiled with separate specimens"
+        if periods.any():
+            how = (
+                "in one piece" if periods.all() else f"{how}, or in one piece where sides are tied"
+            )
         lines.insert(0, f"Panel of {sides}, {how}.")
     return " ".join(lines)
 

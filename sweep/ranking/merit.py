@@ -10,7 +10,7 @@ force are n times the values of a specimen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from pandas import DataFrame, Series
@@ -20,13 +20,16 @@ from sweep.columns import (
     TIED_SIDES,
     absorbed_energy_column,
     correction_column,
+    describe_column,
     end_columns,
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
 from sweep.loading_modes import has, is_coarse
+from sweep.numbers import text_in
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import Quantity, Question, RankError, in_si
+from sweep.ranking.requirement_table import MEASURES
 from sweep.result import sides_of
 
 if TYPE_CHECKING:
@@ -42,6 +45,8 @@ AT_ALLOWED = "absorbed_energy_at_allowed_J"
 STROKE_AT_ALLOWED = "stroke_at_allowed_m"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
 SAME_AREA = 1e-6  # relative difference of the areas of equal periods
+SUMMED = ("N", "J", "g", "kg")  # units of what specimens of a panel have together
+UNEQUAL = "periods of wide panels differ in area here, and so in force, energy and mass"
 
 
 class Compared(NamedTuple):
@@ -183,9 +188,9 @@ def pressed_area(frame: DataFrame) -> Series:
 
 
 def unequal_periods(frame: DataFrame) -> bool:
-    """Whether some rows are periods of a wide panel, not all of the same area."""
-    areas = pressed_area(frame[is_period(frame)])
-    return bool(len(areas) and areas.max() > (1.0 + SAME_AREA) * areas.min())
+    """Whether some rows are periods of a wide panel, and not all rows have the same area."""
+    areas = pressed_area(frame)
+    return bool(is_period(frame).any() and areas.max() > (1.0 + SAME_AREA) * areas.min())
 
 
 def check_budgets(frame: DataFrame, question: Question) -> None:
@@ -195,6 +200,29 @@ def check_budgets(frame: DataFrame, question: Question) -> None:
             f'budget = "{question.budgets[0]}"; allowed with a panel, such as --panel "100 mm" '
             '"50 mm": here masses are of periods of wide panels, not of parts'
         )
+
+
+def check_areas(rows: DataFrame, question: Question, required: Mapping[str, float]) -> None:
+    """Refuse a question that compares forces, energies or masses of periods of unequal areas, in
+    the rows of one scene. required: limits (SI) by name.
+    """
+    if not unequal_periods(rows):
+        return
+    limits = {
+        name: text_in(limit, MEASURES[name].shown)
+        for name, limit in required.items()
+        if MEASURES[name].shared
+    }
+    if question.allowed_force is not None:
+        limits["allowed_force"] = text_in(in_si(question.allowed_force, "N"), "N")
+    if limits and question.per != "panel":
+        name, limit = next(iter(limits.items()))
+        allowed = 'of a panel: --panel "100 mm" "50 mm" --per panel'
+        raise RankError(f'{name} = "{limit}"; allowed {allowed}, as {UNEQUAL}')
+    by = question.by or ""
+    if describe_column(by).units in SUMMED and not by.startswith("panel_"):
+        allowed = "a value per gram, or one of a panel, such as panel_energy_J"
+        raise RankError(f'cannot sort by "{by}", as {UNEQUAL}\nallowed: {allowed}')
 
 
 def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:

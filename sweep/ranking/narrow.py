@@ -2,6 +2,7 @@
 
 from pandas import DataFrame
 
+from sweep.columns import ALONG
 from sweep.loading_modes import has
 
 WIDE = 8
@@ -13,8 +14,10 @@ def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
 
     Empty if all rows are of one pattern, as their order then says nothing about patterns.
     """
-    across = rows[(rows["direction"] == "in_plane") & (rows["sides"] == "free")]
-    if across["lattice_kind"].nunique() < 2:
+    free = rows[rows["sides"] == "free"]
+    if free["lattice_kind"].nunique() < 2:
         return ()
-    few = across[(across["cells_x"] < WIDE) & ~has(across, "probed")]
-    return tuple(few["lattice_kind"].drop_duplicates())
+    few = free[(free["cells_x"] < WIDE) & ~has(free, "probed")]
+    along = few["direction"] == ALONG
+    names = few["lattice_kind"].where(~along, few["lattice_kind"] + " along the cells")
+    return tuple(names.drop_duplicates())

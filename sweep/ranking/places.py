@@ -6,6 +6,8 @@ from pandas import DataFrame, Series, concat
 from sweep.columns import correction_column, end_columns, error_column, less_is_better
 from sweep.ranking.merit import doubtful
 
+LARGE = 0.1  # error / value
+
 
 def places_by(rows: DataFrame, by: str) -> Series:
     """Places of the rows of one scene, sorted by a column, the best first (`shared_places`).
@@ -46,7 +48,8 @@ def shared_places(
     """Places of sorted values, the best first.
 
     A value shares a place if it differs from the first value of the place by no more than their
-    corrections or their errors differ, so that an error that both have in common does not count. A
+    corrections or their errors differ, so that an error that both have in common does not count;
+    if both errors are `LARGE`, by no more than the lesser one, as so much need not be common. A
     missing correction is 0, a missing error differs from none. A value also shares the place if its
     range, up to `above`, overlaps the range of the first value, down to `below`. Otherwise the
     value starts a new place, whose number is 1 + the number of values before it.
@@ -58,6 +61,8 @@ def shared_places(
     best = shift = bar = low = np.nan
     for value, correction, error, under, over in rows:
         apart = np.fmax(abs(correction - shift), abs(error - bar))
+        if error > LARGE * abs(value) and bar > LARGE * abs(best):
+            apart = max(apart, min(error, bar))
         if abs(value - best) <= apart + low + over:
             places.append(places[-1])
         else:

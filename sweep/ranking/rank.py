@@ -25,7 +25,15 @@ from sweep.loading_modes import compared
 from sweep.numbers import in_unit
 from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import Compared, check_budgets, doubtful, is_period, merits, pressed_area
+from sweep.ranking.merit import (
+    Compared,
+    check_areas,
+    check_budgets,
+    doubtful,
+    is_period,
+    merits,
+    pressed_area,
+)
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.pareto import pareto
@@ -185,6 +193,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     ]
     labels = scene_labels(whole)
     scene_rows = by_scene(finished, labels)
+    for rows in scene_rows.values():
+        check_areas(rows, question, required)
     allowed = np.nan if allowed_force is None else in_si(allowed_force, "N")
     judged = {
         label: judge(rows, names, required, per, masses, allowed)
@@ -276,11 +286,12 @@ def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared)
     """Rows of one scene with its label and their Pareto flag; the front consists of trusted
     designs.
 
-    Periods of a wide panel, whose sizes have no meaning, are compared by mass and energy per area.
+    Where some are periods of a wide panel, whose sizes have no meaning, mass and energy per area
+    are compared.
     """
     sound = rows[~doubtful(rows)]
     mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]
-    if least is None and names.mass != "panel_mass_g" and is_period(sound).all():
+    if least is None and names.mass != "panel_mass_g" and is_period(sound).any():
         area = pressed_area(sound)
         mass, merit = (values / area * area.mean() for values in (mass, merit))
     front = sound.index[pareto(mass, merit)]

@@ -31,6 +31,7 @@ from sweep.ranking.merit import (
 )
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
+from sweep.ranking.places import LARGE
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.ranking import Ranking
@@ -161,6 +162,7 @@ def page_data(
         },
         "measures": _requirements(),
         "round_off": ROUND_OFF,
+        "large_error": LARGE,
         "round_off_of_curves": SEVEN_DIGITS,
         "beside": BESIDE,
         "factors": FACTORS,

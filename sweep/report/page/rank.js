@@ -178,12 +178,12 @@ function halfToEven(value) {
   return below % 2 ? below + 1 : below;
 }
 
-// Merit and weight of a row on the front: of periods without a panel, whose sizes mean nothing, those of
-// equal areas.
+// Merit and weight of a row on the front; where some are periods without a panel, whose sizes mean
+// nothing, those of equal areas.
 function ofFront(rows, scene, question) {
   if (scene.least) return [(row) => (row.value === null ? null : -row.value), (row) => row.mass];
   const area = ({ design: { outer: [width, depth] } }) => width * depth;
-  const periods = !question.panel && rows.every((row) => row.design.gap === null);
+  const periods = !question.panel && rows.some((row) => row.design.gap === null);
   const mean = rows.reduce((sum, row) => sum + area(row), 0) / rows.length;
   const equal = (value, row) => (value === null || !periods ? value : (value / area(row)) * mean);
   return [(row) => equal(row.energy, row), (row) => equal(row.mass, row)];
@@ -209,14 +209,16 @@ function markFront(rows, merit, weight) {
 
 // Places of sorted rows, doubtful ones last: a value shares the place of the first value of that
 // place if it differs from it by no more than their corrections or their errors differ, if those are
-// known, or if their ranges meet; but no doubtful row shares a place with one that is not.
-function markPlaces(rows) {
+// known, or than the lesser of two large errors, or if their ranges meet; but no doubtful row shares a place with one that is not.
+function markPlaces(rows, large_error) {
   let best = NaN;
   let [shift, bar, low] = [NaN, NaN, NaN];
   rows.forEach((row, i) => {
     const [correction, error] = [row.correction ?? 0, row.error ?? NaN];
     const apart = i > 0 && doubtful(row) !== doubtful(rows[i - 1]);
-    const differ = Math.max(Math.abs(correction - shift), Math.abs(error - bar) || 0);
+    const large = error > large_error * Math.abs(row.value) && bar > large_error * Math.abs(best);
+    const common = large ? Math.min(error, bar) : 0;
+    const differ = Math.max(Math.abs(correction - shift), Math.abs(error - bar) || 0, common);
     const reached = Math.abs(row.value - best) <= differ + low + row.above;
     if (reached && !apart) row.place = rows[i - 1].place;
     else [best, shift, bar, low, row.place] = [row.value, correction, error, row.below, i + 1];
@@ -341,7 +343,7 @@ function ranked(data, question) {
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
   const bar = scene.least ? scene.bar : known >= 0 && data.energies[known].bar;
-  markPlaces(placed);
+  markPlaces(placed, data.large_error);
   const nearest = within.some(sound) ? undefined : missing.find((row) => row.worst < Infinity);
   const passedOver = placed.filter((row) => sign * (row.value - placed[0].value) < 0 && doubtful(row) > doubtful(placed[0])).length;
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);

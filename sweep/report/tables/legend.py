@@ -38,7 +38,8 @@ striker: it acts on the whole depth as a line; a tooth or a corner narrower than
 of the lattice. Strain is its way after the first touch / height."""
 FIRST_LOADING = """\
 Results {} are of walls as drawn, at their first loading. Printed ones that
-have been pressed before may be several times softer."""
+have been pressed before may be several times softer. Mesh and imperfection may change them by a
+tenth, so that closer orders are not certain (--error-bars, --spread, lattice.nodes_per_wall)."""
 ERRORS = """\
 ±: estimated error of the sorted column, from mesh and steps, in % of the value; not a bound."""
 TIED = "=: a tie: the errors may reverse the order. Errors common to all designs do not count."
@@ -61,6 +62,9 @@ Pareto front compares mass and energy per pressed area."""
 STRUCK_PERIODS = """\
 Periods differ in area, and a striker brings more energy per area to a smaller one: only forces of
 equal areas can be compared."""
+
+UNEQUAL_PERIODS = """\
+Periods differ in area: compare energy per gram, or panels, not mass, force or energy of one."""
 
 
 def legend(ranking: Ranking) -> str:
@@ -115,7 +119,7 @@ def _notes(ranking: Ranking) -> list[str]:
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
-    period += [STRUCK_PERIODS] if mode.struck and unequal_periods(rows) else []
+    period += [STRUCK_PERIODS if mode.struck else UNEQUAL_PERIODS] if unequal_periods(rows) else []
     shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
     return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
 

@@ -22,9 +22,9 @@ i: {} are too long for the greatest force (–). Densification, and energies unt
 or up to a force, may err by a tenth or more. Shorter steps help ({})."""
 MEANINGS = {
     "!": """\
-!: do not trust this result, which is beyond the model: an element is shorter than 0.7 of its rest
-length, the lattice is pressed below its solid height, a wall is broken (message: where), or walls
-that are shells fill the whole area (solid_strain). Placed behind all others.""",
+!: do not trust this result, which is beyond the model: an element in the plane is shorter than 0.7
+of its rest length, the lattice is pressed below its solid height, a wall is broken (message: where)
+or walls that are shells fill the whole area (solid_strain). Placed behind all others.""",
     "x": """\
 x: walls cross one another, as no contact stops them. Do not trust this result; it is placed behind
 all others.""",

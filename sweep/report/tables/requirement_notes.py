@@ -307,7 +307,7 @@ def panel_note(rows: DataFrame, panel: Sequence[float]) -> list[str]:
     if most == 1:
         return [ONE_SPECIMEN.format(size), *other]
     unequal = [UNEQUAL] if least < most else []
-    count = f"{least} to {most}" if unequal else least
+    count = f"{least:.0f} to {most:.0f}" if unequal else f"{least:.0f}"
     return [PANEL.format(count, size), *unequal, *other, *struck]
 
 

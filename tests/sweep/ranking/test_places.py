@@ -59,11 +59,17 @@ def test_values_share_a_place_if_one_of_them_is_known_far_less_well():
     """Its corrections by mesh and by steps may cancel."""
     values, errors = pd.Series([10.0, 9.7, 9.5, 9.0]), pd.Series([0.1, 0.5, 0.3, NAN])
     assert list(shared_places(values, None, errors)) == [1, 1, 3, 4]
-    assert list(shared_places(values, 0.0 * errors, 0.0 * errors + 5.0)) == [1, 2, 3, 4]
+    assert list(shared_places(values, 0.0 * errors, 0.0 * errors + 0.9)) == [1, 2, 3, 4]
+
+
+def test_large_errors_need_not_be_common():
+    values, none = pd.Series([10.0, 9.0, 8.5]), pd.Series([0.0, 0.0, 0.0])
+    assert list(shared_places(values, none, none + 1.2)) == [1, 1, 3]
+    assert list(shared_places(values, none, pd.Series([1.2, 0.4, 1.2]))) == [1, 2, 2]
 
 
 def test_errors_that_all_designs_share_make_no_ties():
-    table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.9] * 4))
+    table = summary(*with_bars([10.0, 9.5, 8.0, 7.9], [0.7] * 4))
     correction = "correction_absorbed_energy_until_packed_J"
     assert list(rank(table.assign(**{correction: 1e-3}))["place"]) == [1, 2, 3, 4]
     apart = table.assign(**{correction: [1e-3, 1e-3, -1e-3, -0.8e-3]})

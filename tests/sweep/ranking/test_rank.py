@@ -54,6 +54,38 @@ def test_budgets_are_refused_for_periods_without_a_panel():
     assert len(rank(mixed)) == 2
 
 
+def test_a_period_is_compared_with_a_part_per_area():
+    """The part is heavier and absorbs less per area, though it is lighter as a whole."""
+    part, period = periods([1.0, 3.0], [0.1, 0.4], [0.01, 0.04])
+    assert rank(summary(part | {"sides": "free"}, period))["pareto"].tolist() == [True, False]
+    heavy = summary(part | {"sides": "free", "mass_g": 1.0}, period | {"mass_g": 3.9})
+    assert dict(rank(heavy)[["mass_g", "pareto"]].to_numpy()) == {1.0: False, 3.9: True}
+
+
+@pytest.mark.parametrize(
+    "limit",
+    [
+        {"require": {"max_force": "9 kN"}},
+        {"require": {"min_absorbed": "1 mJ"}},
+        {"by": "absorbed_energy_J"},
+        {"by": "mass_g", "panel": ("100 mm", "50 mm")},
+    ],
+)
+def test_forces_and_energies_of_unequal_periods_are_not_compared(limit):
+    table = summary(*periods([4.0, 2.0], [0.4, 0.2], [0.04, 0.02]))
+    with pytest.raises(RankError, match=r"periods .* differ in area"):
+        rank(table, **limit)
+    assert len(rank(table.assign(outer_width_m=0.02), **limit)) == 2
+    assert len(rank(table.assign(sides="free"), **limit)) == 2
+
+
+def test_panels_of_unequal_periods_are_compared():
+    table = summary(*periods([4.0, 2.0], [0.4, 0.2], [0.04, 0.02]))
+    panel = {"panel": ("100 mm", "50 mm"), "per": "panel"}
+    assert len(rank(table, require={"min_absorbed": "1 J"}, **panel)) == 2
+    assert len(rank(table, by="panel_energy_J", **panel)) == 2
+
+
 def test_periods_fill_a_panel_in_parts():
     """A period of twice the area is twice as heavy: both panels weigh and absorb the same."""
     table, panel = summary(*periods([4.0, 2.0], [0.4, 0.2], [0.04, 0.02])), ("100 mm", "50 mm")
