@@ -111,7 +111,8 @@ SHOW_EXAMPLES = """examples:
   crumple show F.h5 2 --budget "25 g" --allowed-force "60 N"    the second of that ranking
 """
 EXPORT = """Write one case as a file for another program, in the format that its ending names:
-  .stl .3mf     the print as a closed body, as heavy as the ranking says
+  .stl .3mf     the print as a closed body, as heavy as the ranking says; thick sheets are a few
+                per cent lighter
   .svg .dxf     its outline, in mm
   .csv          the curves: travel, force, strain, stress, energies
   .vtkhdf       the stored shapes as a grid that moves, for ParaView 5.12 and later

@@ -14,7 +14,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.constants import TO_MM
+from sweep.constants import TO_MM, TO_MM3
 from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of, printed_thickness
 from sweep.export.errors import ExportError
@@ -56,7 +56,9 @@ def sheet_panel(case: Case, sides: Sequence[float] | None) -> tuple[Body, list[s
         body = body.stood_up
     if not body.is_closed:
         raise ExportError(f"the mesh of case {case.case_id} is not closed; allowed: another panel")
-    return body, _description(case, first, second)
+    weighs = in_unit(case.material.density * body.volume / TO_MM3, "g")
+    description = f"{_description(case, first, second)}; the body weighs {weighs:.4g} g"
+    return body, [description]
 
 
 def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list[str]]:
@@ -75,9 +77,8 @@ def sheet_block(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list
     )
     shape = shapely.box(0.0, 0.0, *(TO_MM * side for side in plan))
     grams = _grams(case, first, second)
-    return Layout(case.case_id, shape, TO_MM * depth, 1, 1, grams), _description(
-        case, first, second
-    )
+    layout = Layout(case.case_id, shape, TO_MM * depth, 1, 1, grams)
+    return layout, [_description(case, first, second)]
 
 
 def _within_perimeters(case: Case, sides: Sequence[float] | None) -> tuple[Layout, list[str]]:
@@ -163,12 +164,12 @@ def _grams(case: Case, first: float, second: float) -> float:
     return in_unit(case.material.density * _sheet_of(case).extruded * share, "g")
 
 
-def _description(case: Case, first: float, second: float) -> list[str]:
+def _description(case: Case, first: float, second: float) -> str:
     """A description of the part, in a sentence."""
     size = " x ".join(f"{TO_MM * side:.4g}" for side in (first, second))
     thick = f"{TO_MM * _sheet_of(case).pressed_height:.4g} mm thick"
     how = "along" if case.along else "across"
-    return [
+    return (
         f"{size} mm, {thick}, pressed {how} the print axis, which is z: rank counts "
         f"{_grams(case, first, second):.4g} g; its edges count as its middle"
-    ]
+    )
