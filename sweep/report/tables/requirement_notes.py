@@ -84,8 +84,10 @@ def of_one(rows: DataFrame) -> str:
 
 def of_which(ranking: Ranking) -> str:
     """To what an allowed force and requirements refer."""
-    tiled = "panel_specimens" in ranking.table
-    return f"a {ranking.per}" if tiled or ranking.per == "panel" else "the part"
+    if ranking.per == "panel":
+        return "a panel"
+    one = of_one(ranking.table)
+    return "a specimen" if one == "one specimen" else one
 
 
 def titled(title: str, ranking: Ranking) -> str:
