@@ -217,7 +217,7 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
         limits["allowed_force"] = text_in(in_si(question.allowed_force, "N"), "N")
     if limits and question.per != "panel":
         name, limit = next(iter(limits.items()))
-        allowed = 'of a panel: --panel "100 mm" "50 mm" --per panel'
+        allowed = 'of a panel: --panel "100 mm" "50 mm" --per panel, or both in [rank]'
         raise RankError(f'{name} = "{limit}"; allowed {allowed}, as {UNEQUAL}')
     by = question.by or ""
     if describe_column(by).units in SUMMED and not by.startswith("panel_"):
