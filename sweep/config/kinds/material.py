@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from sweep.config.kinds.table import (
     COMPUTED,
@@ -96,7 +96,7 @@ class Material(Table):
     modulus: Stress
     density: Density
     poisson: Annotated[float, Field(ge=0, lt=0.5)] = 0.48
-    loss: Loss | None = None
+    loss: Annotated[Loss | None, AfterValidator(lambda loss: loss or None)] = None  # 0: none
     relaxation_times: Durations = ()
     relaxation_shares: Shares = ()
     reference_time: Duration | None = None
@@ -171,7 +171,6 @@ def _completed(own: Inputs) -> dict[str, Any]:
     by_numbers = "modulus" in own and "name" not in own
     record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
     inputs = _with_memory(dict(own), record)
-    inputs["loss"] = inputs.get("loss") or None
     if record is not None:
         inputs = dict(record.plasticity) | inputs
     if not relaxes(inputs):

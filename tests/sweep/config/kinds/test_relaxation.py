@@ -64,6 +64,7 @@ def test_a_loss_of_zero_is_none(load):
     assert elastic.case_id == expand(load("name = 'a'"))[0].case_id != relaxing.case_id
     assert not elastic.material.relaxes
     assert material_with(modulus=1e7, density=1e3, loss=0).loss is None
+    assert not relaxing.changed(material={"loss": 0.0}).material.relaxes
 
 
 def test_a_curve_that_falls_does_not_relax(own_record):
