@@ -208,10 +208,11 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
     """
     if not unequal_periods(rows):
         return
+    mode = rows["loading_mode"].iloc[0]
     limits = {
         name: text_in(limit, MEASURES[name].shown)
         for name, limit in required.items()
-        if MEASURES[name].shared
+        if MEASURES[name].shared and mode in MEASURES[name].modes
     }
     if question.allowed_force is not None:
         limits["allowed_force"] = text_in(in_si(question.allowed_force, "N"), "N")

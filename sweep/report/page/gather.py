@@ -23,11 +23,13 @@ from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import (
     SEVEN_DIGITS,
+    UNEQUAL,
     Compared,
     gap_behind,
     is_period,
     merits,
     through_solid,
+    unequal_periods,
 )
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.needed_columns import needed_columns, widened
@@ -168,6 +170,7 @@ def page_data(
         "factors": FACTORS,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
+        "unequal": UNEQUAL,
         "cases": list(cases.values()),
         "unfinished": list(unfinished.values()),
         "total": len(summary),
@@ -330,6 +333,7 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
         "heads": list(_measures(kept)),
         "meanings": meanings(rows, mode),
         "narrow": list(narrow_note(narrow_patterns(rows))),
+        "unequal": unequal_periods(rows),
     }
 
 

@@ -321,6 +321,11 @@ function showAnswer() {
   const best = now.placed[0];
   const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
   for (const name of ["picture", "command", "print"]) $(name).replaceChildren();
+  if (now.refused) {
+    $("sentence").textContent = `No design is named, as ${data.unequal}. Fill a panel, and set limits per panel.`;
+    $("detail").textContent = "";
+    return;
+  }
   if (!best) {
     const none = asked.budget !== null && Number.isFinite(now.lightest) && greatestMass(data, asked) < now.lightest;
     $("sentence").textContent = none
@@ -582,7 +587,7 @@ function notes() {
         (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar) lines.push("±: estimated error from mesh and steps, not a bound.");
-  if (rows.some(isTied))
+  if (rows.some((row) => row.sharing > 1))
     lines.push(`=: a tie, as ${now.bar ? "errors may reverse the order" : "the energy of a design with two maxima of the efficiency is a range, as is its densification"}.`);
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
@@ -598,7 +603,7 @@ function notes() {
     lines.push("u: stopped after its loading, which determines energy, peak and densification; what only unloading tells is not known (–).");
   if (rows.some((row) => row.design.bowed)) lines.push("b: simulated with another imperfection, as it stopped with the one asked for.");
   const over = now.rows.length - rows.length - now.missing.length;
-  if (over > 0 && asked.budget !== null) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
+  if (over > 0 && asked.budget !== null && !now.refused) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));
 }
 
@@ -684,7 +689,7 @@ function dot(plot, row, shown, hue) {
 function showCard(plot, row, x, y) {
   const { design } = row;
   const card = $("card");
-  const out = missText(row) || (row.value === null ? "not ranked" : "above the budget");
+  const out = (!now.refused && missText(row)) || (now.refused || row.value === null ? "not ranked" : "above the budget");
   const place = row.place === undefined ? out : `place ${placeText(row)}`;
   const values = `${digits(row.mass)} g, ${row.value === null ? "no value" : valueText(row) + percentOf(row)}`;
   card.replaceChildren(...drawn(design), element("p", {}, design.label), element("p", {}, `${values}; ${place}`));

@@ -1,5 +1,5 @@
 // Ranks designs as sweep/ranking/rank.py does: the same sums in the same order, so the same ties.
-// Other files of that folder are repeated too: merit.py (measured), places.py (markFront,
+// Other files of that folder are repeated too: merit.py (measured, incomparable), places.py (markFront,
 // markPlaces), unfinished.py (couldPlace) and requirements.py (which limits a scene has, and by how much a design misses them).
 // An unknown value is null, which JavaScript takes for 0: `times`, `least` and `exceeds` do not.
 
@@ -59,6 +59,13 @@ function askedOf(data, question) {
   const mode = data.scenes[question.scene].mode;
   const limits = Object.entries(question.require ?? {});
   return Object.fromEntries(limits.filter(([name]) => data.measures[name].modes.includes(mode)));
+}
+
+// Whether forces, energies or masses of periods of unequal area would be compared: merit.py.
+function incomparable(data, question) {
+  if (!data.scenes[question.scene].unequal || question.per === "panel") return false;
+  const shared = Object.keys(askedOf(data, question)).some((name) => data.measures[name].shared);
+  return shared || question.force !== null;
 }
 
 // The value (SI) of a row for each requirement, of a specimen or of the panel.
@@ -323,6 +330,7 @@ function certainty(data, question, { placed, nearest, lightestMeeting }) {
 // design to be trusted fulfils it, the first of them whose values are known; `lightestMeeting`: the
 // lightest one to be trusted that fulfils it, of any mass; `stopped`: from `unfinished`;
 // `passedOver`: doubtful designs whose values are better than the first.
+// `refused`: whether designs cannot be compared; none of them has a place then, or is named.
 // Of a page that leaves designs out: `certain` and `better` of `certainty`.
 function ranked(data, question) {
   const scene = data.scenes[question.scene];
@@ -330,7 +338,9 @@ function ranked(data, question) {
   const rows = data.cases.filter(weighed).map((design) => measured(data, design, question));
   const sign = scene.least ? 1 : -1;
   const sound = (row) => !doubtful(row);
-  const meeting = rows.filter((row) => row.worst === 0);
+  const refused = incomparable(data, question);
+  const comparable = refused ? [] : rows;
+  const meeting = comparable.filter((row) => row.worst === 0);
   markFront(meeting.filter(sound), ...ofFront(meeting.filter(sound), scene, question));
   const most = greatestMass(data, question);
   const within = meeting.filter((row) => row.mass <= most);
@@ -338,7 +348,7 @@ function ranked(data, question) {
   const byId = (a, b) => (a.design.id < b.design.id ? -1 : 1);
   const byMass = (a, b) => a.mass - b.mass || byId(a, b);
   placed.sort((a, b) => doubtful(a) - doubtful(b) || sign * (a.value - b.value) || byMass(a, b));
-  const missing = rows.filter((row) => row.worst > 0 && row.mass <= most);
+  const missing = comparable.filter((row) => row.worst > 0 && row.mass <= most);
   const further = (a, b) => (a.worst === b.worst ? 0 : a.worst - b.worst);
   missing.sort((a, b) => doubtful(a) - doubtful(b) || further(a, b) || byMass(a, b));
   const known = storedEnergy(data, question);
@@ -348,7 +358,7 @@ function ranked(data, question) {
   const passedOver = placed.filter((row) => sign * (row.value - placed[0].value) < 0 && doubtful(row) > doubtful(placed[0])).length;
   const [lightestMeeting] = meeting.filter(sound).sort(byMass);
   const lightest = Math.min(...rows.map((row) => row.mass));
-  const stopped = unfinished(data, placed, question);
+  const stopped = refused ? [] : unfinished(data, placed, question);
   const sure = certainty(data, question, { placed, nearest, lightestMeeting });
-  return { rows, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, passedOver, ...sure };
+  return { rows, refused, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, passedOver, ...sure };
 }

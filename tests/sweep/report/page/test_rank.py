@@ -7,7 +7,8 @@ import pytest
 from py_mini_racer import MiniRacer
 
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.question import Question
+from sweep.ranking.merit import UNEQUAL
+from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import ranked
 from sweep.ranking.unfinished import PLACES
 from sweep.report.page import gather
@@ -42,6 +43,7 @@ function answersOf({ data, questions }) {
         beyond_model: row.beyond, crossed: row.design.crossed,
         value: row.value, mass: row.mass, early: row.early || row.open,
       })),
+      refused: found.refused,
       missing: found.missing.length,
       passed_over: found.passedOver,
       nearest: found.nearest ? found.nearest.design.id : null,
@@ -54,6 +56,12 @@ function answersOf({ data, questions }) {
   }));
 }
 """
+
+
+def counted_until(question):
+    """The part of a random question that tells up to which force energy is counted."""
+    force, panel, per = (question[name] for name in ("force", "panel", "per"))
+    return Question(allowed_force=force, panel=panel, per=per)
 
 
 def expected(table, question):
@@ -143,9 +151,7 @@ def asked_of_both(page_answers, path, seed):
     each = [one for question in questions for one in each_budget(question)]
     wanted = []
     for question in questions:
-        asked = Question(None, question["panel"], None, None, question["force"])
-        asked = asked._replace(per=question["per"])
-        wanted += expected(with_allowed(file, table, asked, known), question)
+        wanted += expected(with_allowed(file, table, counted_until(question), known), question)
     answers = page_answers(data, each)
     for question, scenes, found in zip(each, wanted, answers, strict=True):
         for scene, answer in zip(data["scenes"], found, strict=True):
@@ -178,6 +184,32 @@ def test_page_and_python_rank_alike(page_answers, tmp_path, seed):
     assert min(*counts, missing, stopped, passed_over) > 5
     assert min(nearest, border) > 0
     assert close > 0
+
+
+@pytest.mark.parametrize("seed", range(len(OTHERS)))
+def test_page_and_python_refuse_alike_what_periods_cannot_be_compared_by(
+    page_answers, tmp_path, seed
+):
+    """Python refuses a question for all scenes, of which the page shows one."""
+    rng = np.random.default_rng(seed)
+    table, factors = random_sweep(rng, OTHERS[seed])
+    table["sides"] = "tied"
+    file = write_curves(tmp_path / "periods.h5", table, factors)
+    data, known, refused = page_data(file, table, Question()), {}, 0
+    for _ in range(ASKED):
+        question = random_question(rng, table) | {"budgets": [], "budget": None}
+        (scenes,) = page_answers(data, [question])
+        rows = with_allowed(file, table, counted_until(question), known)
+        if any(scene["refused"] for scene in scenes):
+            with pytest.raises(RankError, match=UNEQUAL):
+                expected(rows, question)
+            assert not any(scene["placed"] for scene in scenes if scene["refused"])
+            refused += 1
+        else:
+            (wanted,) = expected(rows, question)
+            for scene, own in zip(scenes, wanted.values(), strict=True):
+                assert len(scene["placed"]) == len(own["placed"])
+    assert 2 < refused < ASKED - 2
 
 
 STAND_INS = """

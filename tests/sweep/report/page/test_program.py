@@ -1,0 +1,66 @@
+"""The whole program of the page: that no question, scene, design or frame makes it fail."""
+
+import json
+
+import numpy as np
+import pytest
+
+from sweep.ranking.question import Question
+from sweep.report.page.write import write_page
+from tests.support.document import opened
+from tests.support.results.questions import OTHERS, random_question, random_sweep, write_curves
+
+QUESTIONS = 12
+ASK = """
+(() => {{
+  Object.assign(asked, {question});
+  enter();
+  return [$("sentence").textContent, now.refused, now.placed.length];
+}})()
+"""
+LOOK = """
+(() => {
+  for (const head of document.getElementById("table").tHead)
+    if (head.name === "button") head.dispatch("click");
+  if ($("all").listeners.has("click")) $("all").dispatch("click");
+  for (const { design } of now.rows.slice(0, 3)) {
+    lookAt(design.id);
+    play();
+    for (const step of timers) step?.();
+    stop();
+  }
+  for (const dot of document.getElementById("map"))
+    for (const event of ["pointerenter", "pointerleave"])
+      if (dot.listeners.has(event)) dot.dispatch(event);
+  return $("one-words").textContent;
+})()
+"""
+
+
+def page_of(folder, table, factors):
+    """The page (HTML) of invented results."""
+    file = write_curves(folder / "random.h5", table, factors)
+    return write_page(str(file), table, Question(), folder / "random.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize("sides", ["free", "tied"])
+@pytest.mark.parametrize("seed", range(len(OTHERS)))
+def test_every_question_is_answered(tmp_path, seed, sides):
+    rng = np.random.default_rng(seed)
+    table, factors = random_sweep(rng, OTHERS[seed])
+    table["sides"] = sides
+    answers, looks = [], []
+    with opened(page_of(tmp_path, table, factors)) as run:
+        answers.append(run(ASK.format(question="{}")))
+        for number in range(QUESTIONS):
+            question = random_question(rng, table)
+            budget = next(iter(question.pop("budgets")), None)
+            question |= {"scene": number % 2, "budget": budget and 1e3 * budget}
+            answers.append(run(ASK.format(question=json.dumps(question))))
+            looks.append(run(LOOK))
+    best = sum(words.startswith("The best design") for words, _, _ in answers)
+    assert best == sum(placed > 0 for _, _, placed in answers) > 2
+    refused = [words for words, refused, _ in answers if refused]
+    assert all("periods of wide panels differ in area" in words for words in refused)
+    assert bool(refused) == (sides == "tied")
+    assert any(looks)
