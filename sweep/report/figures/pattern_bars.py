@@ -16,7 +16,7 @@ from sweep.ranking.merit import doubtful
 from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import GREY, beside, legend, walls
 from sweep.report.figures.design_style import errors_of, until
-from sweep.report.figures.ranking_plots import HEAVY, heading
+from sweep.report.figures.ranking_plots import COARSE, HEAVY, heading, mark_coarse
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
 
@@ -37,8 +37,8 @@ def pattern_bars(
 ) -> None:
     """Energy per gram of every design with its error bar, the best on top, one panel per scene.
 
-    Bars of doubtful designs are open, bars above all budgets grey. shapes: case_id -> frames; then
-    each name has a drawing.
+    Bars of doubtful designs are open, bars above all budgets grey; an i marks coarse steps.
+    shapes: case_id -> frames; then each name has a drawing.
     """
     designs, per_gram = ranking.table, ranking.per_gram
     heavy = designs[ranking.mass] > greatest_mass(max(ranking.budgets_g, default=inf))
@@ -52,6 +52,8 @@ def pattern_bars(
             bar.set(fill=not doubt)
         errors = errors_of(ordered, per_gram)
         ax.errorbar(ordered[per_gram], range(len(ordered)), xerr=errors, fmt="none", ecolor="black")
+        coarse = ordered["coarse"].to_numpy()
+        mark_coarse(ax, ordered[per_gram][coarse], np.flatnonzero(coarse))
         labels = design_labels(ordered, designs)
         labels = [fill(label, LETTERS) for label in labels] if shapes else labels
         ax.set_yticks(range(len(ordered)), labels, fontsize="small")
@@ -61,7 +63,8 @@ def pattern_bars(
         ax.set_title(heading(titled(str(scene), ranking)), loc="left", fontsize="medium")
         ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
-    legend(fig, [HEAVY | {"marker": "s"}] * bool(heavy.any()))
+    entries = [HEAVY | {"marker": "s"}] * bool(heavy.any())
+    legend(fig, entries + [COARSE] * bool(designs["coarse"].any()))
 
 
 def _draw(ax: Axes, shapes: Sequence[Mapping[str, Any]]) -> None:

@@ -4,7 +4,7 @@ passed_on.png) and over the wall thickness (wall_thickness.png).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import inf
 from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
@@ -179,7 +179,12 @@ def _dots(ax: Axes, x: Series, y: Series, style: dict[str, Any], points: DataFra
     beyond = doubtful(points).to_numpy()[:, None]
     faces: Any = np.where(beyond, WHITE, colors)
     dots.set(edgecolor=colors, facecolor=faces)
-    for at in zip(x[points["coarse"]], y[points["coarse"]], strict=True):
+    mark_coarse(ax, x[points["coarse"]], y[points["coarse"]])
+
+
+def mark_coarse(ax: Axes, x: Series, y: Iterable[float]) -> None:
+    """Write an i beside points whose steps are coarse."""
+    for at in zip(x, y, strict=True):
         ax.annotate("i", at, (5.0, 3.0), textcoords="offset points", fontsize="small")
 
 

@@ -67,3 +67,13 @@ def test_what_is_not_to_be_trusted_is_open_and_every_scene_has_a_panel():
     assert [[bar.get_fill() for bar in ax.patches] for ax in figure.axes] == [[False, True], [True]]
     scenes = [ax.get_title("left") for ax in figure.axes]
     assert scenes == [f"crushed to 50 %, {platen} platens" for platen in ("glued", "contact")]
+
+
+def test_bars_of_coarse_steps_are_marked():
+    rows = designs([1.0, 1.0], [0.2, 0.1])
+    rows[1]["peak_step_error"] = 0.6
+    figure = blank(6, 3)
+    pattern_bars(figure, ranked(summary(*rows), top=None))
+    ((mark,),) = (ax.texts for ax in figure.axes)
+    assert (mark.get_text(), mark.xy) == ("i", (0.1, 0))
+    assert [key.get_texts()[0].get_text() for key in figure.legends] == ["coarse steps"]
