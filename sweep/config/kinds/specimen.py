@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from sweep.design.network import Network
 
 NOZZLE, LAYER_HEIGHT = 0.4e-3, 0.2e-3  # m
-# The factor of a lattice of 70 000 nodes takes 8 GB, and a step several minutes.
-MAX_NODES = 50_000
+# A lattice of 54,681 nodes (40 x 40 triangles) takes 2.5 GB.
+MAX_NODES = 60_000
 ENDLESS = 'if lattice.boundary is "periodic"'
 TIED = 'if lattice.sides is "periodic"'
 MOST_IMPERFECTION = 1.0  # largest imperfection of shells, in wall thicknesses

@@ -87,7 +87,7 @@ def test_other_texts_are_refused_with_a_line(text, line):
         (Case.of(), "lattice", {"cells": 3}, "lattice.cells: "),
         (Case.of(), "lattice", {"mass": "heavy"}, "lattice.mass: .*valid number"),
         (Case.of(), "lattice", {"wall_thickness": 3e-3}, "narrowest cell"),
-        (Case.of(), "lattice", {"nodes_per_wall": 1000, "cells_x": 90}, "at most 50,000"),
+        (Case.of(), "lattice", {"nodes_per_wall": 1000, "cells_x": 90}, "at most 60,000"),
         (Case.of(), "lattice", {"kind": "custom"}, "path of a .json file"),
         (Case.of(), "lattice", {"structure": FAR}, "lattice.structure: Extra"),
         (Case.of(), "loading", {"force": float("nan")}, "finite|expected value"),

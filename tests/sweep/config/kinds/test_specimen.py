@@ -14,11 +14,11 @@ from sweep.config.kinds.table import RefusedError
     ("text", "words"),
     [
         ('wall_thickness = "2.5 mm"', "2.083 mm"),
-        ('width = "3 m"\nheight = "3 m"\ncells = 300', "at most 50,000"),
-        ("cells_y = 4\ncells_x = 6\nnodes_per_wall = 999", "at most 50,000"),
+        ('width = "3 m"\nheight = "3 m"\ncells = 300', "at most 60,000"),
+        ("cells_y = 4\ncells_x = 7\nnodes_per_wall = 999", "at most 60,000"),
         ('height = "0.01 mm"\nwidth = "40 mm"', "from 1e-05 mm to 10 mm"),
         ('height = "30 m"', "from 1.25e-05 m to 12.5 m"),
-        ('mass = "9 g"\ncells = 6\nnodes_per_wall = 999', "at most 50,000"),  # not the mass
+        ('mass = "9 g"\ncells = 6\nnodes_per_wall = 999', "at most 60,000"),  # not the mass
     ],
 )
 def test_what_does_not_fit_is_refused(last_refused, text, words):
