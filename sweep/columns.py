@@ -28,6 +28,8 @@ class Column:
 ALONG = "out_of_plane"  # a value of the column `direction`
 TIED_SIDES = "tied"
 """First word of the column `sides` if the sides are tied to each other."""
+SAME_EFFICIENCY = 0.02
+"""Share of the greatest efficiency within which two strains of densification are as good."""
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),

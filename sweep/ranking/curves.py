@@ -58,7 +58,9 @@ def with_allowed(
     cache |= {(k, forces[k]): reached(curve, forces[k]) for k, curve in curves} if new else {}
     values = [cache[key] for key in keys]
     added = summary.assign(**{AT_ALLOWED: np.nan, STROKE_AT_ALLOWED: np.nan})
-    added.loc[crushes, [AT_ALLOWED, STROKE_AT_ALLOWED]] = np.array(values).reshape(-1, 2)
+    energies, strokes = np.array(values).reshape(-1, 2).T
+    strokes = np.minimum(strokes, rows["stroke_m"])  # curves have single precision
+    added.loc[crushes, [AT_ALLOWED, STROKE_AT_ALLOWED]] = np.column_stack([energies, strokes])
     return added
 
 

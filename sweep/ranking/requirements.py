@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from pandas import DataFrame, Series
 
-from sweep.columns import end_columns, error_column
+from sweep.columns import SAME_EFFICIENCY, end_columns, error_column
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
@@ -238,13 +238,16 @@ def measured(rows: DataFrame, names: Compared, per: str) -> dict[str, Series]:
 def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     """The error of the value of each row for each requirement, relative to that value: the greatest
     of the estimate of its load steps, of its error bar, and of its range where two strains of
-    densification are as good, for a force up to the greatest of the crush. 0 where none is known.
+    densification are as good. 0 where none is known.
+
+    The efficiency energy / greatest force is the same at both strains, but for `SAME_EFFICIENCY`,
+    so that their forces differ as their energies do.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
     of_energy = np.fmax(rows[names.energy] - low, high - rows[names.energy]) / rows[names.energy]
-    of_force = (rows["peak_force_N"] / rows["passed_on_N"] - 1.0).where(
-        crushed & (high > low * (1.0 + ROUND_OFF))
+    of_force = ((1.0 + of_energy) / (1.0 - SAME_EFFICIENCY) - 1.0).where(
+        high > low * (1.0 + ROUND_OFF)
     )
     whole = _bar(rows, "peak_force_N")
     none = Series(0.0, index=rows.index)

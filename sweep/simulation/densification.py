@@ -21,10 +21,10 @@ other.
 
 import numpy as np
 
+from sweep.columns import SAME_EFFICIENCY
 from sweep.scene.mesh import Floats
 
 BAND = 0.2  # share of the greatest efficiency within which strains count
-ALIKE = 0.02  # share of the greatest efficiency within which maxima may exchange their ranks
 
 
 def efficiency(stress: Floats, work_density: Floats) -> Floats:
@@ -48,7 +48,7 @@ def near_maxima(eta: Floats) -> list[int]:
     row; of equal neighbours the last one counts.
     """
     inner, before, after = eta[1:-1], eta[:-2], eta[2:]
-    near = inner >= (1.0 - ALIKE) * eta.max()
+    near = inner >= (1.0 - SAME_EFFICIENCY) * eta.max()
     return [int(row) + 1 for row in np.flatnonzero(near & (inner >= before) & (inner > after))]
 
 
@@ -65,7 +65,7 @@ def weights(strain: Floats, eta: Floats) -> Floats:
 
 def span(strain: Floats, eta: Floats) -> float:
     """Strain from the first to the last row of nearly the greatest efficiency."""
-    near = strain[eta >= (1.0 - ALIKE) * eta.max()]
+    near = strain[eta >= (1.0 - SAME_EFFICIENCY) * eta.max()]
     return float(near[-1] - near[0])
 
 

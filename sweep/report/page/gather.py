@@ -6,7 +6,7 @@ import json
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +22,9 @@ from sweep.numbers import FACTORS, counted, in_unit, short
 from sweep.ranking.budget import ROUND_OFF
 from sweep.ranking.curves import reached
 from sweep.ranking.merit import (
+    AT_ALLOWED,
     SEVEN_DIGITS,
     UNEQUAL,
-    Compared,
     gap_behind,
     is_period,
     merits,
@@ -56,18 +56,31 @@ from sweep.report.page.selection import (
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
+    stair_strokes,
     thin_curves,
     thin_stairs,
     work_until,
 )
 from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, plan
 from sweep.report.tables.design_text import design_labels, design_text
-from sweep.report.tables.legend import front, meanings
-from sweep.report.tables.marks import other_bow
+from sweep.report.tables.legend import (
+    EQUAL,
+    TIED,
+    densification_notes,
+    front,
+    meanings,
+    printed_note,
+)
+from sweep.report.tables.marks import mark_notes, marks
 from sweep.report.tables.missing_notes import incomplete
-from sweep.report.tables.requirement_notes import COLUMN_NOTES, STRUCK_PANEL
+from sweep.report.tables.requirement_notes import (
+    COLUMN_NOTES,
+    ONE_BY_ONE,
+    STRUCK_PANEL,
+    TOLERATED,
+)
 from sweep.report.tables.sheets import crush_text, impact_text
-from sweep.report.tables.size_notes import narrow_note
+from sweep.report.tables.size_notes import narrow_note, size_note
 from sweep.result import Status
 from sweep.simulation.filter_class import without_blows
 from sweep.store.errors import StoreError
@@ -141,7 +154,9 @@ def page_data(
         design = cases.get(case.case_id) or unfinished[case.case_id]
         design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
         if len(case.history) and MODES[row["loading_mode"]].driven:
-            design["strokes"] += _exact(reached(case.history, force)[1] for force in forces)
+            most = row["stroke_m"]  # curves have single precision
+            ends = (min(reached(case.history, force)[1], most) for force in forces)
+            design["strokes"] += _exact(ends)
     return {
         "file": Path(file).name,
         "name": _config(about).get("name") or Path(file).stem,
@@ -170,12 +185,17 @@ def page_data(
         "factors": FACTORS,
         "column_notes": COLUMN_NOTES,
         "struck_panel": STRUCK_PANEL,
+        "one_by_one": ONE_BY_ONE,
+        "tolerated": TOLERATED,
         "unequal": UNEQUAL,
+        "ties": {"errors": TIED, "values": EQUAL},
         "cases": list(cases.values()),
         "unfinished": list(unfinished.values()),
+        "printed": printed_note(summary) if by_force[0].names.mass != "mass_g" else "",
         "total": len(summary),
         "designs": len(finished),
-        "failed": int((summary["status"] != Status.CONVERGED).sum()),
+        "failed": len(summary) - len(loaded(summary)),
+        "unloaded": int(unloaded(summary).sum()),
         "failures": list(_failures(summary, labels)),
         "missing": list(incomplete(len(summary), about)),
         "drawings": stored.drawings,
@@ -242,6 +262,8 @@ def _cases(
             or [()] * len(part),
             "more": list(zip(*_measures(part).values(), strict=True)) or [()] * len(part),
             "mass": _exact(part[by_force[0].names.mass]),
+            "net": _exact(part["mass_g"]),
+            "printed": _exact(part["printed_mass_g"]),
             "outer": list(zip(_exact(part["outer_width_m"]), _exact(part["depth_m"]), strict=True)),
             "gap": _exact(gap_behind(part)),
             "energies": list(zip(*energies, strict=True)),
@@ -258,14 +280,13 @@ def _cases(
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
             "coarse": part["coarse"].tolist(),
-            "errors": _errors(part, by_force[0].names),
-            "stretched": part["beyond_curve"].tolist(),
+            "errors": list(zip(*_errors(part, by_force), strict=True)),
+            "marks": marks(part.assign(beyond_model=False)),
             "undrawn": part["does_not_print"],
             "open": part["ends_early"].tolist(),
             "struck": _exact(relative_energy(part)),
             "unresolved": (part["status"] == Status.UNRESOLVED).tolist(),
             "unloaded": unloaded(part).tolist(),
-            "bowed": other_bow(part).tolist(),
             "rest": _exact(stroke_left(part)),
             "message": part["message"],
             "slicer": part["slicer_settings"],
@@ -277,11 +298,22 @@ def _cases(
     return cases
 
 
-def _errors(part: DataFrame, names: Compared) -> list[dict[str, float]]:
-    """The known relative errors of the values for the requirements, row by row."""
-    columns = relative_errors(part, names)
-    rows = zip(*(_exact(values) for values in columns.values()), strict=True)
-    return [{name: v for name, v in zip(columns, row, strict=True) if v} for row in rows]
+def _errors(part: DataFrame, by_force: Sequence[Counted]) -> Iterator[list[dict[str, float]]]:
+    """The known relative errors of the values for the requirements, row by row: for each energy,
+    and at the end for those up to other forces, which have no error bars.
+    """
+    for each in by_force:
+        question = Question(allowed_force=each.force)
+        yield _known(relative_errors(*merits(part, question)))
+    unbarred = part.drop(columns=error_column("passed_on_N"), errors="ignore")
+    names = by_force[0].names._replace(energy=AT_ALLOWED)
+    yield _known(relative_errors(unbarred.assign(**{AT_ALLOWED: np.nan}), names))
+
+
+def _known(errors: Mapping[str, Series]) -> list[dict[str, float]]:
+    """The errors of each row that are not zero, by the name of their requirement."""
+    rows = zip(*(_exact(values) for values in errors.values()), strict=True)
+    return [{name: v for name, v in zip(errors, row, strict=True) if v} for row in rows]
 
 
 def _exact(values: Iterable[float]) -> list[float | None]:
@@ -331,10 +363,20 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
         "front": front(mode),
         "bar": least is not None and error_column(least) in rows,
         "heads": list(_measures(kept)),
-        "meanings": meanings(rows, mode),
+        "meanings": [*meanings(rows, mode), *densification_notes(kept)],
+        "marks": _mark_notes(kept),
+        "sizes": list(size_note(kept)),
         "narrow": list(narrow_note(narrow_patterns(rows))),
         "unequal": unequal_periods(rows),
     }
+
+
+def _mark_notes(rows: DataFrame) -> list[str]:
+    """The meanings of all marks that these rows may have, whether a question puts them beyond the
+    model or not.
+    """
+    both = (mark_notes(rows.assign(beyond_model=beyond)) for beyond in (True, False))
+    return [*dict.fromkeys(chain(*both))]
 
 
 def _energy(one: Counted) -> dict[str, Any]:
@@ -406,13 +448,16 @@ class _Stored:
         return {"base": {"label": label, "values": [numbers(column) for column in values]}}
 
     def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
-        """Force (N) and work (J) of `force_stairs` while the platen comes down."""
+        """Force (N), work (J) and travel (m) of `force_stairs` while the platen comes down."""
         loading = history.iloc[: last_loaded(history, row) + 1]
         force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
         work = loading["work_in_J"].to_numpy()
-        full, thin = force_stairs(force, work), thin_stairs(force, work, self.points)
-        self.doubt = max(self.doubt, _work_error(full, thin))
-        return [numbers(column, 7) for column in thin]
+        highest, done = force_stairs(force, work)
+        kept = thin_stairs(highest, done, self.points)
+        self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
+        travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
+        way = stair_strokes(force, travel)[kept]
+        return [numbers(column, 7) for column in (highest[kept], done[kept], way)]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which an earlier case may share."""

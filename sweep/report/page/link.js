@@ -24,7 +24,7 @@ function questionOf(link, data, usual) {
   const number = (text) => (/^[\d.]+(e[-+]?\d+)?$/.test(text ?? "") && Number(text) > 0 && Number(text) < Infinity ? Number(text) : null);
   const sides = (text) => {
     const both = (text ?? "").split("x").map(number);
-    return both.length === 2 && both.every((side) => side !== null) ? both : null;
+    return both.length === 2 && both.every((side) => side !== null && side <= 100) ? both : null;
   };
   const said = (name, read) => (words.get(name) === NONE ? null : (read(words.get(name)) ?? usual[name]));
   const limits = Object.keys(data.measures).map((name) => [name, number(words.get(name))]);

@@ -12,6 +12,8 @@ const NARROW = 560; // px: the window of a phone, as in page.css
 const LINKED = 300; // ms after which a question is in the address
 const FIRST = 3; // best designs whose curves are shown until others are chosen
 const PER_SECOND = 12; // frames
+const WORDS = new Intl.Collator("en", { numeric: true }); // "6 x 2" before "12 x 4"
+const ANY_FORCE = { low: 1, high: 1e4 }; // N, where no peak is known
 const LENGTH = { low: 10, high: 1000 }; // mm, of a panel
 
 const asked = { scene: 0, budget: null, panel: null, force: null, require: {}, per: "specimen" };
@@ -45,8 +47,8 @@ function massRange() {
 // Of a specimen or of the panel.
 function forceRange() {
   const count = (design) => (ofPanel(asked) ? panelOf(asked.panel, design, data.beside).specimens : 1);
-  const peaks = data.cases.filter((design) => design.scene === asked.scene).map((design) => count(design) * design.peak);
-  return { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) };
+  const peaks = data.cases.filter((design) => design.scene === asked.scene).filter((design) => design.peak > 0).map((design) => count(design) * design.peak);
+  return peaks.length ? { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) } : ANY_FORCE;
 }
 
 function three(value) {
@@ -67,8 +69,12 @@ function wish(name, range, unit, on) {
     tell(Number(number.value) * unit());
   });
   number.addEventListener("input", () => {
-    if (box) box.checked = true;
-    tell(Number(number.value) * unit());
+    const value = Number(number.value) * unit();
+    if (box) box.checked = value > 0;
+    if (box && !(value > 0)) {
+      on(null);
+      refresh();
+    } else tell(value);
   });
   if (box)
     box.addEventListener("change", () => {
@@ -156,8 +162,7 @@ function makeRequired() {
     const tell = () => {
       const value = Number(number.value);
       if (box.checked && value > 0) asked.require[name] = toSI(value, shown);
-      else if (!box.checked) delete asked.require[name];
-      else return;
+      else delete asked.require[name];
       Object.assign(view, { chosen: null, current: null });
       refresh();
     };
@@ -182,29 +187,41 @@ function limitText(name, value) {
 
 // What is required, and how many designs within the budget fulfil it.
 function requiredText() {
-  const limits = Object.entries(askedOf(data, asked));
-  if (!limits.length)
-    return Object.keys(asked.require).length && asked.per === "panel" && !asked.panel
-      ? "Requirements on a panel are not applied, as there is no panel."
-      : "";
-  const words = limits.map(([name, limit]) => data.measures[name].limit.replace("{}", limitText(name, limit)));
-  const counts = limits.map(([name]) => [name, now.missing.filter((row) => row.misses[name] > 0).length]);
-  const failed = counts.filter(([, n]) => n).map(([name, n]) => `${data.measures[name].noun} (${n})`);
-  const designs = now.rows.filter((row) => row.mass <= greatestMass(data, asked)).length;
-  const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
+  const limits = askedOf(data, asked);
+  const nouns = (names) => names.map((name) => data.measures[name].noun).join(", ");
+  const others = Object.keys(asked.require).filter((name) => !(name in limits));
+  if (others.length && asked.per === "panel" && !asked.panel) return "Requirements on a panel are not applied, as there is no panel.";
+  const left = others.length ? `Not applied to this loading: ${nouns(others)}.` : "";
+  if (!Object.keys(limits).length) return left;
+  const words = Object.entries(limits).map(([name, limit]) => data.measures[name].limit.replace("{}", limitText(name, limit)));
   const required = `Required of ${asked.per === "panel" ? "a panel" : ofOne()}: ${words.join(", ")}.`;
-  if (!designs) return required;
-  const coarse = now.placed.filter((row) => row.design.coarse && !doubtful(row)).length;
-  const unsure = coarse ? ` Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: with shorter steps ${coarse === 1 ? "it" : "they"} may fail.` : "";
-  const near = now.rows.filter((row) => row.mass <= greatestMass(data, asked) && !doubtful(row));
-  const close = near.flatMap((row) => closeOf(data, row, asked));
-  const border = limits
-    .map(([name]) => [name, close.filter((other) => other === name).length])
-    .filter(([, n]) => n)
-    .map(([name, n]) => ` ${n} ${n === 1 ? "meets or misses" : "meet or miss"} the limit of ${data.measures[name].noun} by less than the uncertainty of the value.`)
-    .join("");
-  return `${required} ${designs - now.missing.length} of ${designs} designs${within} ` +
-    `fulfil this${failed.length ? `; the others fail: ${failed.join(", ")}` : ""}.${unsure}${border}`;
+  const outcome = outcomeOf(data, now, asked);
+  const counts = outcome.designs ? [fulfilText(outcome), ...uncertainText(outcome)] : [];
+  return [required, ...counts, left].filter(Boolean).join(" ");
+}
+
+function counted(numbers) {
+  return Object.entries(numbers).filter(([, n]) => n);
+}
+
+// How many designs fulfil what is required, and how many fail each part of it.
+function fulfilText({ designs, fulfil, doubtful: marked, failed }) {
+  const within = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
+  const trusted = marked ? `, ${marked} of them marked ! or x` : "";
+  const each = counted(failed).map(([name, n]) => `${data.measures[name].noun} (${n})`);
+  const several = counted(failed).reduce((sum, [, n]) => sum + n, 0) > designs - fulfil ? "; some fail several" : "";
+  return `${fulfil} of ${designs} designs${within} fulfil this${trusted}${each.length ? `; the others fail: ${each.join(", ")}${several}` : ""}.`;
+}
+
+// Which of these counts are not certain.
+function* uncertainText({ coarse, unknown, close, open }) {
+  if (coarse) yield `Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: with shorter steps ${coarse === 1 ? "it" : "they"} may fail.`;
+  for (const [name, n] of counted(unknown)) yield `${n} without a value for ${data.measures[name].noun}: ${data.measures[name].unknown}.`;
+  for (const [name, n] of counted(close))
+    yield `${n} ${n === 1 ? "meets or misses" : "meet or miss"} the limit of ${data.measures[name].noun} by less than the uncertainty of the value.`;
+  if (open)
+    yield `${open} of those that fail may absorb enough in a longer crush: ` +
+      `theirs ended before ${asked.force === null ? "densification" : "the allowed force was reached"}.`;
 }
 
 // The requirements that a row misses, with its values.
@@ -296,9 +313,14 @@ function isPeriod(design) {
   return design.gap === null;
 }
 
+function allPeriods() {
+  return data.cases.every((design) => design.scene !== asked.scene || isPeriod(design));
+}
+
 // What an allowed force and requirements are of.
 function ofOne() {
   if (ofPanel(asked)) return "the panel";
+  if (allPeriods()) return "one period";
   return asked.panel ? "a specimen" : "the part";
 }
 
@@ -322,14 +344,16 @@ function showAnswer() {
   const limit = asked.budget === null ? "" : ` up to ${inUnit(asked.budget)}`;
   for (const name of ["picture", "command", "print"]) $(name).replaceChildren();
   if (now.refused) {
-    $("sentence").textContent = `No design is named, as ${data.unequal}. Fill a panel, and set limits per panel.`;
+    $("sentence").textContent = now.small
+      ? "No design is named, as the panel is smaller than half of a specimen."
+      : `No design is named, as ${data.unequal}. Fill a panel, and set limits per panel.`;
     $("detail").textContent = "";
     return;
   }
   if (!best) {
     const none = asked.budget !== null && Number.isFinite(now.lightest) && greatestMass(data, asked) < now.lightest;
     $("sentence").textContent = none
-      ? `No design weighs ${inUnit(asked.budget)} or less; the lightest weighs ${inUnit(now.lightest)}.`
+      ? `No design weighs ${inUnit(asked.budget, 6)} or less; the lightest weighs ${inUnit(now.lightest, 6)}.`
       : "No design has a value to rank by.";
     const missed = !none && now.missing.length > 0;
     if (missed) $("sentence").textContent = `No design${limit} meets the requirements.`;
@@ -370,25 +394,27 @@ function fileName({ id }, ending) {
 function* words(best) {
   const panel = best.panel
     ? `A panel of ${panelText(best)} mm${isPeriod(best.design) ? "" : `, ${best.panel.specimens} specimen${best.panel.specimens > 1 ? "s" : ""},`} weighs ${inUnit(best.mass)}`
-    : `It weighs ${inUnit(best.mass)}`;
+    : `${isPeriod(best.design) ? "One period" : "It"} weighs ${inUnit(best.mass)}`;
   const absorbs = () => `absorbs ${best.early ? "at least " : ""}${energyText(best.energy)}`;
   if (scene().least) yield `${panel}.`;
   else if (!crushed()) yield `${panel} and ${absorbs()}, ${digits(best.perGram)} J/g.`;
   else
-    yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g; ` +
-      `${isPeriod(best.design) ? "one period" : asked.panel ? "a specimen" : "it"} then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`;
+    yield `${panel} and ${absorbs()} ${until()}, ${digits(best.perGram)} J/g` +
+      (best.passed === null ? "; the force meanwhile is not known." : `; ${isPeriod(best.design) ? "one period" : asked.panel ? "a specimen" : "it"} then transmits ${digits(best.passed)} N${best.panel ? `, the panel ${digits(best.panel.specimens * best.passed)} N` : ""}.`);
   if (best.early) yield "The crush ended before that force was reached; a longer one absorbs more.";
   if (best.beyond) yield "Its result is beyond the model: do not trust it.";
   if (best.design.crossed) yield "Its walls cross one another: do not trust this result.";
+  const others = marksOf(best).replace(/[!xp]/g, ""); // which are explained here
+  if (others) yield `It is marked ${[...others].join(", ")}: see below the table.`;
   if (best.design.undrawn) yield `It does not print as drawn: ${best.design.undrawn}.`;
   const tied = now.placed.filter((row) => row !== best && row.place === best.place);
-  const others = tied.slice(0, 3).map((row) => row.design.label).join("; ");
+  const shown = tied.slice(0, 3).map((row) => row.design.label).join("; ");
   if (tied.length)
-    yield `Tied${now.bar ? " within the estimated errors" : ""}: ${others}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
+    yield `Tied${now.bar ? " within the estimated errors" : ""}: ${shown}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
 }
 
 function detail(best) {
-  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...lackText(), ...stoppedText()].filter(Boolean);
+  return [...words(best), requiredText(), ...(now.nearest ? [...nearestText(), ...instead()] : []), ...lackText(), ...stoppedText()].filter(Boolean);
 }
 
 // Whether the page leaves designs of the scene out.
@@ -430,6 +456,8 @@ function* stoppedText() {
 // The command that prints the same ranking, if there is one.
 function showCommand() {
   if (asked.per === "panel" && !asked.panel) return;
+  if (data.scenes.some((_, scene) => incomparable(data, { ...asked, scene }))) return; // rank refuses for all scenes
+  if (asked.budget !== null && !asked.panel && data.cases.some(isPeriod)) return;
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
   if (!(budgeted && paneled)) return;
@@ -460,22 +488,25 @@ function columns() {
     const text = (row) => row.design.text[i];
     found.push({ head, text, key: (row) => (text(row) === "" ? "" : Number.isNaN(Number(text(row))) ? text(row) : Number(text(row))) });
   });
-  found.push(number("mass g", (row) => digits(row.design.mass)));
+  found.push(number("mass g", (row) => digits(row.design.net)));
+  if (data.printed) found.push(number("print g", (row) => digits(row.design.printed)));
   if (asked.panel) {
     found.push(number("panel mm", panelText, (row) => row.panel.lengths[0]));
     found.push(number("panel g", (row) => digits(row.mass)));
   }
   if (shown) found.push(number(shown.head, (row) => digits(inUnits(row.value, shown.unit)), (row) => row.value));
-  else {
+  if (shown && asked.panel && scene().struck)
+    found.push(number("panel N", (row) => digits(times(row.design.peak, row.panel.specimens))));
+  if (!shown) {
     const most = Math.max(...now.placed.map((row) => row.energy ?? 0));
     const unit = energyUnit(most);
     const more = (row) => (row.early ? "> " : "");
-    found.push(number(`${asked.panel ? "panel" : "usable"} ${unit}`, (row) => more(row) + digits(inUnits(row.energy, unit)), (row) => row.energy));
+    found.push(number(`${asked.panel ? "panel" : crushed() ? "usable" : "absorbed"} ${unit}`, (row) => more(row) + digits(inUnits(row.energy, unit)), (row) => row.energy));
     found.push(number("J/g", (row) => more(row) + digits(row.perGram), (row) => row.perGram));
     if (crushed()) {
       found.push(number("peak N", (row) => digits(row.passed), (row) => row.passed));
       if (asked.panel)
-        found.push(number("panel N", (row) => digits(row.panel.specimens * row.passed), (row) => row.panel.specimens * row.passed));
+        found.push(number("panel N", (row) => digits(times(row.passed, row.panel.specimens)), (row) => times(row.passed, row.panel.specimens)));
     }
   }
   if (now.bar) found.push(number("± %", (row) => (percentOf(row) ? share(row) : "?")));
@@ -501,22 +532,25 @@ function requiredColumns() {
   return found;
 }
 
+// The marks of its design, and whether it is beyond the model, which the question decides: marks.py.
+function marksOf({ beyond, design: { marks } }) {
+  return beyond ? `!${marks.replace("s", "")}` : marks;
+}
+
 function placeText(row) {
-  const { crossed, coarse, stretched, undrawn, unloaded, bowed } = row.design;
-  const signs = { "!": row.beyond, x: crossed, i: coarse, "^": stretched, p: undrawn, u: unloaded, b: bowed };
-  const marks = Object.keys(signs).filter((sign) => signs[sign]).join("");
-  return `${row.place}${row.sharing > 1 ? "=" : ""}${row.pareto ? "*" : ""}${marks}`;
+  return `${row.place}${row.sharing > 1 ? "=" : ""}${row.pareto ? "*" : ""}${marksOf(row)}`;
 }
 
 function sorted(shown) {
   now.placed.forEach((row, i) => (row.rank = i));
   const by = shown.find((column) => column.head === view.sort);
   if (!by) return now.placed;
-  const last = (v) => v === null || v === "" || Number.isNaN(v);
+  const last = (v) => v === null || v === "" || v === "–" || Number.isNaN(v);
   return [...now.placed].sort((a, b) => {
     const [u, v] = [by.key(a), by.key(b)];
     if (last(u) || last(v)) return last(u) - last(v) || a.rank - b.rank;
-    return (view.up ? 1 : -1) * (u < v ? -1 : u > v ? 1 : 0) || a.rank - b.rank;
+    const order = typeof u === "number" && typeof v === "number" ? u - v : WORDS.compare(u, v);
+    return (view.up ? 1 : -1) * order || a.rank - b.rank;
   });
 }
 
@@ -524,7 +558,7 @@ function sorted(shown) {
 function arranged(shown) {
   if (window.innerWidth > NARROW) return shown;
   const noun = asked.panel ? "panel" : "usable";
-  const heads = ["#", "pattern", scene().shown?.head, `${noun} J`, `${noun} mJ`, "J/g", asked.panel ? "panel g" : "mass g"];
+  const heads = ["#", "pattern", scene().shown?.head, `${noun} J`, `${noun} mJ`, "J/g", asked.panel ? "panel g" : data.printed ? "print g" : "mass g"];
   const early = heads.flatMap((head) => shown.filter((column) => column.head === head));
   return [...early, ...shown.filter((column) => !early.includes(column))];
 }
@@ -571,13 +605,28 @@ function near(id, on) {
   for (const dot of document.querySelectorAll(`[data-dot="${id}"]`)) dot.classList.toggle("near", on);
 }
 
+// What separate specimens of a panel leave open, and how it differs from the one of the question: `panel_note` of requirement_notes.py.
+function* panelNotes() {
+  const rows = now.placed.filter((row) => row.panel && !isPeriod(row.design));
+  if (!rows.length || scene().dead) return;
+  const counts = rows.map((row) => row.panel.specimens);
+  if (Math.max(...counts) > 1) yield data.one_by_one;
+  if (Math.min(...counts) < Math.max(...counts)) yield `The number of specimens differs, so that places depend on it: compare J/g, or choose sides that all fill.`;
+  const apart = Math.max(...rows.flatMap((row) => row.panel.lengths.map((side, k) => Math.abs(side / asked.panel[k] - 1))));
+  const sides = asked.panel.map((side) => Number(inUnits(side, "mm").toPrecision(4))).join(" x ");
+  if (apart > data.tolerated) yield `Whole specimens make a panel whose sides differ by up to ${percents(apart)} % from the ${sides} mm of the question. Mass, energy and force are of the panel that they make.`;
+}
+
 function notes() {
   const lines = [`*: on the Pareto front: no lighter design ${scene().front}. mass: of ${now.rows.every((row) => isPeriod(row.design)) ? "one period" : asked.panel ? "one specimen" : "the part"}.`];
   const rows = now.placed;
   lines.unshift(...partText());
+  if (data.printed) lines.push(data.printed);
   if (crushed()) lines.push(`Energy and peak are counted ${until()}.`);
   if (!(crushed() && asked.force !== null)) lines.push(...scene().meanings);
+  if (!asked.panel) lines.push(...scene().sizes);
   lines.push(...scene().narrow);
+  lines.push(...panelNotes());
   if (asked.panel && scene().struck && !now.rows.every((row) => isPeriod(row.design))) lines.push(data.struck_panel);
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
@@ -588,20 +637,11 @@ function notes() {
     );
   if (now.bar) lines.push("±: estimated error from mesh and steps, not a bound.");
   if (rows.some((row) => row.sharing > 1))
-    lines.push(`=: a tie, as ${now.bar ? "errors may reverse the order" : "the energy of a design with two maxima of the efficiency is a range, as is its densification"}.`);
+    lines.push(now.bar ? data.ties.errors : data.ties.values);
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
   if (rows.some((row) => row.early && row.place > 1)) lines.push("The first place is not certain: in a longer crush (loading.strain) a design with > may lead.");
-  if (rows.some((row) => row.beyond)) lines.push("!: beyond the model: do not trust this result. Placed behind all others.");
-  if (rows.some((row) => row.design.crossed)) lines.push("x: walls cross one another: do not trust this result. Placed behind all others.");
+  lines.push(...scene().marks.filter((words) => rows.some((row) => marksOf(row).includes(words[0]))));
   if (now.passedOver) lines.push(`By value alone, ${now.passedOver} design${now.passedOver > 1 ? "s" : ""} marked ! or x would stand before the first.`);
-  if (rows.some((row) => row.design.coarse))
-    lines.push("i: the steps are coarse (load_step_error, peak_step_error, path_error, integrator_share). Energies, forces and strains are uncertain.");
-  if (rows.some((row) => row.design.stretched)) lines.push("^: a wall is stretched beyond the measured curve.");
-  if (rows.some((row) => row.design.undrawn))
-    lines.push("p: does not print as drawn: walls are not a multiple of the line width, or gaps are narrower.");
-  if (rows.some((row) => row.design.unloaded))
-    lines.push("u: stopped after its loading, which determines energy, peak and densification; what only unloading tells is not known (–).");
-  if (rows.some((row) => row.design.bowed)) lines.push("b: simulated with another imperfection, as it stopped with the one asked for.");
   const over = now.rows.length - rows.length - now.missing.length;
   if (over > 0 && asked.budget !== null && !now.refused) lines.push(`${over} of ${now.rows.length} designs are above the budget or have no value.`);
   $("notes").replaceChildren(...lines.map((words) => element("span", {}, words)));
@@ -626,28 +666,31 @@ function hues() {
 
 function showMap() {
   const { shown: least } = scene();
-  const noun = asked.panel ? "panel" : "part";
+  const perArea = !least && !asked.panel && now.rows.some((row) => isPeriod(row.design)); // as `ofFront`
+  const noun = asked.panel ? "of a panel" : perArea ? "per cm² pressed" : "of a part";
+  const area = ({ design: { outer } }) => (perArea ? 1e4 * outer[0] * outer[1] : 1);
+  const massOf = (row) => row.mass / area(row);
   const rows = now.rows.filter((row) => merit(row) > 0);
-  const energy = ["Energy over mass", `energy of a ${noun}`, energyUnit(Math.max(...rows.map(merit)))];
+  const energy = ["Energy over mass", `energy ${noun}`, energyUnit(Math.max(...rows.map((row) => merit(row) / area(row))))];
   const [title, quantity, unit] = least ? [least.chart, least.quantity, least.unit] : energy;
   $("map-title").textContent = title;
   if (!rows.length) return $("map").replaceChildren("Nothing to draw.");
-  const masses = rows.map((row) => row.mass);
-  const shown = (row) => inUnits(merit(row), unit);
+  const masses = rows.map(massOf);
+  const shown = (row) => inUnits(merit(row) / area(row), unit);
   const values = rows.map(shown);
   const plot = chart($("map"), {
-    x: { range: logExtent(masses), label: `mass of a ${noun}, g`, log: true },
+    x: { range: logExtent(masses), label: `mass ${noun}, g`, log: true },
     y: { range: logExtent(values), label: `${quantity}, ${unit}`, log: true },
     height: 400,
     label: title,
   });
   showLimit(plot);
-  const front = rows.filter((row) => row.pareto).sort((a, b) => a.mass - b.mass);
-  const steps = front.flatMap((row, i) => (i ? [[row.mass, shown(front[i - 1])], [row.mass, shown(row)]] : [[row.mass, shown(row)]]));
+  const front = rows.filter((row) => row.pareto).sort((a, b) => massOf(a) - massOf(b));
+  const steps = front.flatMap((row, i) => [...(i ? [[massOf(row), shown(front[i - 1])]] : []), [massOf(row), shown(row)]]);
   line(plot, steps.map(([mass]) => mass), steps.map(([, value]) => value), { class: "front" });
   const hue = hues();
   const behind = (row) => row.place !== undefined && row.pareto;
-  for (const row of [...rows].sort((a, b) => behind(a) - behind(b))) dot(plot, row, shown, hue(row.design));
+  for (const row of [...rows].sort((a, b) => behind(a) - behind(b))) dot(plot, row, massOf(row), shown, hue(row.design));
 }
 
 function showLimit(plot) {
@@ -660,8 +703,8 @@ function showLimit(plot) {
   );
 }
 
-function dot(plot, row, shown, hue) {
-  const [x, y] = [plot.toX(row.mass), plot.toY(shown(row))];
+function dot(plot, row, mass, shown, hue) {
+  const [x, y] = [plot.toX(mass), plot.toY(shown(row))];
   const placed = row.place !== undefined;
   const kind = [placed ? (row.pareto ? "" : "behind") : "out", row.beyond || row.design.crossed ? "doubt" : "", row.place === 1 ? "best" : ""];
   if (row.error && row.value) {
@@ -752,8 +795,9 @@ function showCurves() {
   designs.forEach((design, i) =>
     line(plot, ...design.curve, { style: `stroke: var(--c${i})`, "stroke-width": design.id === current() ? 2.8 : 1.6 }),
   );
-  if (asked.force !== null && plot.toY(asked.force) > MARGIN.top)
-    plot.svg.append(shape("line", { class: "limit", x1: MARGIN.left, x2: plot.right, y1: plot.toY(asked.force), y2: plot.toY(asked.force) }));
+  const share = (design) => asked.force / (ofPanel(asked) ? panelOf(asked.panel, design, data.beside).specimens : 1);
+  for (const y of asked.force === null ? [] : new Set(designs.map((design) => plot.toY(share(design)))))
+    if (y > MARGIN.top) plot.svg.append(shape("line", { class: "limit", x1: MARGIN.left, x2: plot.right, y1: y, y2: y }));
   const marker = shape("circle", { r: 5, fill: "var(--ink)", visibility: "hidden" });
   plot.svg.append(marker);
   view.mark = (strain, time, value) => {
@@ -774,7 +818,7 @@ function showOne() {
   if (!design) return;
   $("one-title").textContent = design.label;
   const said = [
-    ...[`Case ${design.id}.`, design.message, design.slicer && `Printed by ${design.slicer}.`],
+    ...[`Case ${design.id}.`, design.message, design.slicer && `Slicer: ${design.slicer}.`],
     design.undrawn && `Does not print as drawn: ${design.undrawn}.`,
   ];
   $("one-words").textContent = said.filter(Boolean).join(" ");

@@ -46,10 +46,9 @@ function countedEnergy(data, design, question, force) {
 function countedStroke(data, design, question, force) {
   const known = storedEnergy(data, question);
   if (known >= 0) return design.strokes?.[known] ?? null;
-  if (!design.curve) return null;
-  const [strains, forces] = design.curve;
-  const end = strains.indexOf(Math.max(...strains)) + 1;
-  return (design.height * valueUntil(force, [forces.slice(0, end), strains.slice(0, end)], 1)) / 100;
+  if (!design.stairs) return null;
+  const [forces, , strokes] = design.stairs;
+  return valueUntil(force, [forces, strokes], 1);
 }
 
 // The limits (SI) that are asked of the designs of a scene: sweep/ranking/requirements.py. Those of
@@ -66,6 +65,13 @@ function incomparable(data, question) {
   if (!data.scenes[question.scene].unequal || question.per === "panel") return false;
   const shared = Object.keys(askedOf(data, question)).some((name) => data.measures[name].shared);
   return shared || question.force !== null;
+}
+
+// Whether a panel is smaller than half of some specimen: panel_in of merit.py.
+function isTooSmall(data, { panel }) {
+  const fits = (side, one, gap) => side + gap >= (one + gap) / 2;
+  const holds = ({ outer, gap }) => gap === null || (fits(panel[0], outer[0], data.beside) && fits(panel[1], outer[1], gap));
+  return Boolean(panel) && !data.cases.every(holds);
 }
 
 // The value (SI) of a row for each requirement, of a specimen or of the panel.
@@ -106,13 +112,45 @@ function missesOf(data, row, question) {
 // one by more.
 function closeOf(data, row, question) {
   const values = required(data, row, question);
+  const known = storedEnergy(data, question);
+  const errors = row.design.errors.at(known); // the last ones are those at other forces
   const within = ([name, limit]) => {
-    const error = (row.design.errors[name] ?? 0) * (values[name] ?? 0);
+    const error = (errors[name] ?? 0) * (values[name] ?? 0);
     return Math.abs(values[name] - limit) < error;
   };
   const close = Object.entries(askedOf(data, question)).filter(within).map(([name]) => name);
   const others = Object.keys(row.misses).filter((name) => !close.includes(name));
   return others.every((name) => row.misses[name] === 0) ? close : [];
+}
+
+// Whether a row misses its least energy alone, and may absorb it in a longer crush.
+function mayFulfil(data, row, question) {
+  const limits = askedOf(data, question);
+  const { min_absorbed: energy, max_force = Infinity, max_stroke = Infinity } = limits;
+  const { min_absorbed: short = 0, ...others } = row.misses;
+  const alone = short > 0 && short < Infinity && Object.values(others).every((share) => share === 0);
+  if (!row.open || !alone) return false;
+  const force = Math.min(max_force, question.force ?? Infinity);
+  return force * Math.min(row.design.height, max_stroke) >= energy;
+}
+
+// How the designs within the budget meet what is required: the numbers of `Outcome`.
+function outcomeOf(data, { rows }, question) {
+  const part = rows.filter((row) => row.mass <= greatestMass(data, question));
+  const fulfilling = part.filter((row) => row.worst === 0);
+  const close = part.filter((row) => !doubtful(row)).flatMap((row) => closeOf(data, row, question));
+  const names = Object.keys(askedOf(data, question));
+  const each = (count) => Object.fromEntries(names.map((name) => [name, count(name)]));
+  return {
+    designs: part.length,
+    fulfil: fulfilling.length,
+    doubtful: fulfilling.filter(doubtful).length,
+    coarse: fulfilling.filter((row) => row.design.coarse && !doubtful(row)).length,
+    failed: each((name) => part.filter((row) => row.misses[name] > 0).length),
+    unknown: each((name) => part.filter((row) => row.misses[name] === Infinity).length),
+    close: each((name) => close.filter((other) => other === name).length),
+    open: part.filter((row) => mayFulfil(data, row, question)).length,
+  };
 }
 
 // The energy (J) that must be absorbed, of a striker or as required, the force (N) that is allowed
@@ -291,7 +329,7 @@ function bestOf(data, group, question, which) {
   const best = group[which];
   const more = count(group.smallest) / count(group.outer);
   const energies = best.energies.map(([most]) => [times(most, more), null, null]);
-  const stairs = best.stairs && [best.stairs[0], best.stairs[1].map((work) => more * work)];
+  const stairs = best.stairs && [best.stairs[0], best.stairs[1].map((work) => more * work), best.stairs[2]];
   const row = measured(data, { ...group, ...best, energies, stairs }, question);
   const known = storedEnergy(data, question);
   if (!data.scenes[question.scene].least && !question.panel && question.budget === null && known >= 0)
@@ -338,7 +376,8 @@ function ranked(data, question) {
   const rows = data.cases.filter(weighed).map((design) => measured(data, design, question));
   const sign = scene.least ? 1 : -1;
   const sound = (row) => !doubtful(row);
-  const refused = incomparable(data, question);
+  const small = isTooSmall(data, question);
+  const refused = small || incomparable(data, question);
   const comparable = refused ? [] : rows;
   const meeting = comparable.filter((row) => row.worst === 0);
   markFront(meeting.filter(sound), ...ofFront(meeting.filter(sound), scene, question));
@@ -360,5 +399,5 @@ function ranked(data, question) {
   const lightest = Math.min(...rows.map((row) => row.mass));
   const stopped = refused ? [] : unfinished(data, placed, question);
   const sure = certainty(data, question, { placed, nearest, lightestMeeting });
-  return { rows, refused, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, passedOver, ...sure };
+  return { rows, refused, small, placed, missing, nearest, bar, lightest, lightestMeeting, stopped, passedOver, ...sure };
 }

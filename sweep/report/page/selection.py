@@ -268,7 +268,6 @@ def _corner(of: dict[str, Floats], forces: Sequence[float]) -> dict[str, Any]:
         "ends": [None, None],
         "within": None,
         "strokes": [_least(of["stroke"]), *(0 for _ in forces)],
-        "curve": [[0], [0]],  # no stroke: a member has it from its curve
         "height": 0,
     }
 
@@ -291,4 +290,5 @@ def _stairs(forces: Sequence[float], most: Sequence[float | None]) -> list[list[
         return None
     works = np.maximum.accumulate(np.array(most, float))
     steps = np.repeat(works, 2)[1:-1] if len(forces) else works
-    return [np.repeat(forces, 2).tolist() or [0.0], steps.tolist()]
+    no_stroke = [0.0] * len(steps)  # a member has it from its stairs
+    return [np.repeat(forces, 2).tolist() or [0.0], steps.tolist(), no_stroke]

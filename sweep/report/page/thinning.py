@@ -95,13 +95,31 @@ def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
     Where the force rises again after a dip, a point is added at its former height.
     """
     highest = np.maximum.accumulate(force)
-    again = np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
-    before, after = np.maximum(force[again], 0.0), force[again + 1]
-    share = (highest[again] ** 2 - before**2) / (after**2 - before**2)
-    added = work[again] + share * (work[again + 1] - work[again])
+    again = _risen_again(force, highest)
+    added = _at(highest[again], np.maximum(force, 0.0), work, again, 2)
     return (
         np.insert(highest, again + 1, highest[again]),
         np.insert(work, again + 1, added),
+    )
+
+
+def stair_strokes(force: Floats, travel: Floats) -> Floats:
+    """Travel (m) of the platen at the points of `force_stairs`."""
+    highest = np.maximum.accumulate(force)
+    again = _risen_again(force, highest)
+    return np.insert(travel, again + 1, _at(highest[again], force, travel, again, 1))
+
+
+def _risen_again(force: Floats, highest: Floats) -> Indices:
+    """The rows before which the force was higher and after which it is, too."""
+    return np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
+
+
+def _at(limit: Floats, force: Floats, values: Floats, rows: Indices, power: int) -> Floats:
+    """Values between rows and the next ones at forces, linear in a power of the force."""
+    before, after = force[rows] ** power, force[rows + 1] ** power
+    return values[rows] + (limit**power - before) / (after - before) * (
+        values[rows + 1] - values[rows]
     )
 
 
@@ -119,13 +137,11 @@ def work_until(limit: float, highest: Floats, work: Floats) -> float:
     return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
-def thin_stairs(force: Floats, work: Floats, most: int) -> tuple[Floats, Floats]:
+def thin_stairs(highest: Floats, done: Floats, most: int) -> list[int]:
     """At most ``most`` points of `force_stairs`, chosen for the least relative error of the
     work.
     """
-    highest, done = force_stairs(force, work)
-    kept = thinned(np.column_stack([highest**2, done]), most, gap=_work_gaps)
-    return highest[kept], done[kept]
+    return thinned(np.column_stack([highest**2, done]), most, gap=_work_gaps)
 
 
 def numbers(values: Iterable[float], digits: int = 4) -> list[float | int | None]:

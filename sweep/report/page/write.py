@@ -25,7 +25,7 @@ from sweep.whole_file import write_whole
 
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")
-IN_HTML = ("failures", "failed", "missing", "about", "config", "total", "designs")
+IN_HTML = ("failures", "failed", "unloaded", "missing", "about", "config", "total", "designs")
 LEFT_OUT = (
     "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
     "up to the forces of the columns or below some limit, and a sample of the others. Where a "
@@ -54,6 +54,8 @@ def page(data: Mapping[str, Any], static: str) -> str:
     done = counted(data["total"], "case")
     if failed := data["failed"]:
         done += f", {failed} of them failed"
+    if late := data["unloaded"]:
+        done += f", {late} stopped after their loading, which ranks them"
     return Template(_read("page.html")).substitute(
         title=escape(f"{data['name']}: which lattice is best?"),
         subtitle=escape(f"{data['file']}, {done}"),
@@ -63,7 +65,7 @@ def page(data: Mapping[str, Any], static: str) -> str:
         script_hash=f"sha256-{digest}",
         data=_as_script(_of_the_program(data)),
         tables=static,
-        failures=_failures(data["failures"], data["failed"], data["file"]),
+        failures=_failures(data["failures"], failed, late, data["file"]),
         origin=_origin(data),
     )
 
@@ -107,9 +109,10 @@ def _as_script(data: Mapping[str, Any]) -> str:
     return text
 
 
-def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> str:
-    """The cases that did not converge, with their messages; "" if there is none. failed: their
-    total number, of which the page may have only the first.
+def _failures(failures: Iterable[Mapping[str, str]], failed: int, late: int, file: str) -> str:
+    """The cases that did not converge, with their messages; "" if there is none. failed, late:
+    numbers of those that stopped before and after the end of their loading, of which the page may
+    have only the first.
     """
     rows = [
         f"<tr>{cells([each['case_id'], each['label'], each['scene'], each['status']])}"
@@ -119,9 +122,10 @@ def _failures(failures: Iterable[Mapping[str, str]], failed: int, file: str) -> 
     if not rows:
         return ""
     heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
-    count = f"{counted(failed, 'case')} failed"
-    more = f"{failed - len(rows)} more are left out: crumple status {file} says why they failed."
-    note = paragraphs([more]) if failed > len(rows) else ""
+    words = [f"{counted(failed, 'case')} failed"] * bool(failed)
+    words += [f"{counted(late, 'case')} stopped after the loading"] * bool(late)
+    count, left = ", ".join(words), failed + late - len(rows)
+    note = paragraphs([f"{left} more are left out: crumple status {file} says why."] * (left > 0))
     return (
         f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
         f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"

@@ -116,6 +116,14 @@ def _notes(ranking: Ranking) -> list[str]:
     return [note for note, is_needed in notes.items() if is_needed]
 
 
+def densification_notes(rows: DataFrame) -> list[str]:
+    """The meaning of strains of densification that are no single number; nothing if all are."""
+    crushed = rows[has(rows, "driven")]
+    densified, twice = crushed["densification_strain"].notna(), densifies_twice(crushed)
+    unsure = is_unsure(crushed) & densified & ~twice
+    return [UNSURE] * bool(unsure.any()) + [TWICE] * bool(twice.any())
+
+
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []

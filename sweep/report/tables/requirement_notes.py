@@ -25,10 +25,13 @@ from sweep.ranking.requirements import Outcome
 
 DECELERATION = "peak_deceleration_filtered_m_per_s2"
 ONE_SPECIMEN = "panel N: force of the panel, which is one specimen of {} mm."
-PANEL = (
-    "panel N: force of the {} separate specimens of a panel together. Its true size is {} mm.\n"
+ONE_BY_ONE = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
     "of 0.4 mm press on one another."
+)
+PANEL = (
+    "panel N: force of the {} separate specimens of a panel together. Its true size is {} mm.\n"
+    + ONE_BY_ONE
 )
 UNEQUAL = (
     "Their number differs, so that places depend on it: compare J/g, or choose sides that all fill."

@@ -79,7 +79,7 @@ def put(tab, name, value, what="value", event="input"):
 
 def places(texts):
     """Numbers of places without their marks."""
-    return [int(text.rstrip("=*!x^p")) for text in texts]
+    return [int(text.rstrip("=*!xifs^purb")) for text in texts]
 
 
 def ranked_by_the_command(tab, capsys, file, scene=0):
