@@ -157,8 +157,10 @@ MODES: Mapping[str, Mode] = {
                 keys="solver.step_error or time_step",
             ),
             Coarse(
-                *("peak_force_N", nan, "time steps", "the greatest force"),
+                *("peak_force_N", nan, "time steps", "the greatest force (–)"),
                 keys="solver.time_step",
+                effect="Densification, and energies until then\n"
+                "or up to a force, may err by a tenth or more.",
             ),
         ),
         turn="reversal",
@@ -193,6 +195,11 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("integrator_share", 0.01, "time steps", "the impact energy"),
                 keys="solver.step_error or time_step",
+            ),
+            Coarse(
+                *("peak_deceleration_filtered_m_per_s2", nan, "time steps", "peaks of the force"),
+                keys="solver.time_step",
+                effect="The greatest force may be a quarter higher.",
             ),
         ),
         total="brought by the striker",

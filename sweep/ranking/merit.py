@@ -46,7 +46,10 @@ STROKE_AT_ALLOWED = "stroke_at_allowed_m"
 SEVEN_DIGITS = 1e-6  # relative round-off of `AT_ALLOWED`, as stored curves have single precision
 SAME_AREA = 1e-6  # relative difference of the areas of equal periods
 SUMMED = ("N", "J", "g", "kg")  # units of what specimens of a panel have together
-UNEQUAL = "periods of wide panels differ in area here, and so in force, energy and mass"
+UNEQUAL = (
+    "periods of wide panels differ in area here, from one another or from whole parts, "
+    "and so in force, energy and mass"
+)
 
 
 class Compared(NamedTuple):

@@ -17,7 +17,10 @@ def narrow_patterns(rows: DataFrame) -> tuple[str, ...]:
     free = rows[rows["sides"] == "free"]
     if free["lattice_kind"].nunique() < 2:
         return ()
-    few = free[(free["cells_x"] < WIDE) & ~has(free, "probed")]
+    between = free["cells_x"].where(
+        free["direction"] != ALONG, free[["cells_x", "cells_y"]].min(axis=1)
+    )
+    few = free[(between < WIDE) & ~has(free, "probed")]
     along = few["direction"] == ALONG
     names = few["lattice_kind"].where(~along, few["lattice_kind"] + " along the cells")
     return tuple(names.drop_duplicates())

@@ -16,7 +16,7 @@ from sweep.ranking.scenes import scene_keys
 NEEDED = frozenset(
     {
         *("case_id", "status", "loaded", "loading_mode", "model_version"),
-        *("lattice_kind", "cells_x", "sides", "direction", "platen", "striker", "base"),
+        *("lattice_kind", "cells_x", "cells_y", "sides", "direction", "platen", "striker", "base"),
         *("height_m", "depth_m", "outer_width_m", "stroke_m", "mass_g", "printed_mass_g"),
         *("force_N", "striker_mass_g", "striker_speed_m_per_s", "impact_energy_J"),
         *("gravity", "target_mass_g", "solid_joint_share"),

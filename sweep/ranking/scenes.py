@@ -7,6 +7,7 @@ from pandas import DataFrame, Series, to_numeric
 from sweep.columns import describe_column
 from sweep.loading_modes import MODES, has, mode_of
 from sweep.numbers import NOTHING, short, text_in, with_unit
+from sweep.ranking.merit import is_period, pressed_area
 
 SCENE = [
     *("loading_mode", "platen", "striker", "base"),
@@ -77,9 +78,13 @@ def scene_labels(frame: DataFrame) -> Series:
 
 
 def _values(frame: DataFrame) -> DataFrame:
-    """The values that define the scene of each row: its keys, and how far a crush is pressed."""
-    strain = (frame["stroke_m"] / frame["height_m"]).where(has(frame, "driven"))
-    columns = {key: frame[key] for key in scene_keys(frame)} | {"strain": strain}
+    """The values that define the scene of each row: its keys, how far a crush is pressed, and the
+    area of a panel on which a load or a striker acts.
+    """
+    driven = has(frame, "driven")
+    strain = (frame["stroke_m"] / frame["height_m"]).where(driven)
+    area = pressed_area(frame).where(is_period(frame) & ~driven)
+    columns = {key: frame[key] for key in scene_keys(frame)} | {"strain": strain, "area": area}
     return DataFrame({key: _alike(column) for key, column in columns.items()}, index=frame.index)
 
 
@@ -122,6 +127,9 @@ def scene_label(rows: DataFrame, digits: int = DIGITS[0]) -> str:
     if mode.driven:
         strain = text_in(first["stroke_m"] / first["height_m"], "%", max(digits, STRAIN_DIGITS))
         words[0] += f" to {strain}"
+    elif is_period(rows[:1]).all():
+        area = float(pressed_area(rows[:1]).iloc[0])
+        words[0] += f" on {text_in(area, 'mm2', digits)} of a panel"
     if not mode.probed:
         words += _standing(first)
     keys = [key for key in scene_keys(rows) if key not in SCENE]

@@ -56,15 +56,10 @@ be the end of the crush; the energy until densification is a range (lowest_..., 
 EQUAL = "=: a tie: the values of designs are equal, or their ranges meet."
 EARLY = """\
 >: at least: the crush ended before the allowed force was reached; a longer one absorbs more."""
-ONE_PERIOD = """\
-Sides are tied: mass, force and energy are of one period of a wide panel; the
-Pareto front compares mass and energy per pressed area."""
-STRUCK_PERIODS = """\
-Periods differ in area, and a striker brings more energy per area to a smaller one: only forces of
-equal areas can be compared."""
-
+ONE_PERIOD = "Sides are tied: mass, force and energy are of one period of a wide panel."
 UNEQUAL_PERIODS = """\
-Periods differ in area: compare energy per gram, or panels, not mass, force or energy of one."""
+Areas differ: compare energy per gram, or panels, not mass, force or energy of one. The Pareto front
+compares mass and energy per pressed area."""
 
 
 def legend(ranking: Ranking) -> str:
@@ -127,7 +122,7 @@ def densification_notes(rows: DataFrame) -> list[str]:
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
-    period += [STRUCK_PERIODS if mode.struck else UNEQUAL_PERIODS] if unequal_periods(rows) else []
+    period += [UNEQUAL_PERIODS] if unequal_periods(rows) else []
     shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
     return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
 

@@ -18,8 +18,7 @@ COARSE = """\
 i: {} are long: their estimated error is above {} % of {}, here up to {} %
 ({}). {} Shorter steps help ({})."""
 NO_PEAK = """\
-i: {} are too long for the greatest force (–). Densification, and energies until then
-or up to a force, may err by a tenth or more. Shorter steps help ({})."""
+i: {} are too long for {}. {} Shorter steps help ({})."""
 MEANINGS = {
     "!": """\
 !: do not trust this result, which is beyond the model: an element in the plane is shorter than 0.7
@@ -74,7 +73,7 @@ def _coarse_note(coarse: Coarse, rows: DataFrame) -> str:
     if rows.empty:
         return ""
     if isnan(coarse.most):
-        return NO_PEAK.format(coarse.steps, coarse.keys)
+        return NO_PEAK.format(coarse.steps, coarse.whole, coarse.effect, coarse.keys)
     most = f"{in_unit(coarse.most, '%'):g}"
     greatest = tenths(float(rows[coarse.column].replace(inf, 1.0).max()))
     about = (coarse.steps, most, coarse.whole, greatest, coarse.column, coarse.effect, coarse.keys)

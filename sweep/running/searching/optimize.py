@@ -5,11 +5,12 @@ line.
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from math import inf
+from math import inf, prod
 
 from sweep.config.axis import Choice, Written
 from sweep.config.case import Case
 from sweep.config.grid import Config
+from sweep.config.kinds.crush import Crush
 from sweep.config.load import Source, load_config
 from sweep.ranking.assessment import check_column, check_searched
 from sweep.ranking.question import Quantity, Question, check_units, in_si
@@ -138,6 +139,11 @@ def check_start(question: Question, start: Sequence[Case]) -> None:
     if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
         allowed = "lattices that are drawn with lines; sheets are compared in a [grid]"
         raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
+    periods = [case for case in start if case.lattice.tied_sides]
+    areas = {prod(case.footprint) for case in periods if not isinstance(case.loading, Crush)}
+    if len(areas) > 1:
+        allowed = "periods of one area, as the load or the striker acts on each of them"
+        raise OptimizeError(f'lattice.sides = "periodic" in [search]; allowed: {allowed}')
 
 
 def check_found(search: Search) -> None:

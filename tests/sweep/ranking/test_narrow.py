@@ -17,7 +17,16 @@ HEX = {"lattice_kind": "hex", "cells_x": 12}
         (summary({}, {"cells_x": 4}), ()),  # one pattern
         (summary({"cells_x": 8}, HEX), ()),
         (summary({}, HEX).assign(sides="tied, fixed period"), ()),
-        (summary({}, HEX).assign(direction="out_of_plane"), ("square along the cells",)),
+        (
+            summary({}, HEX | {"cells_y": 12}).assign(direction="out_of_plane"),
+            ("square along the cells",),
+        ),
+        (
+            summary(
+                {"cells_x": 9, "cells_y": 9}, HEX | {"cells_y": 2, "direction": "out_of_plane"}
+            ),
+            ("hex along the cells",),
+        ),
     ],
 )
 def test_patterns_with_few_cells_between_free_sides_are_named(table, named):

@@ -26,6 +26,18 @@ def test_scenes_are_never_compared():
     ]
 
 
+@pytest.mark.parametrize("load", [LOADED, STRUCK])
+def test_loads_on_periods_of_unequal_area_are_never_compared(load):
+    """The load or the striker acts on each period, whatever its area."""
+    table = summary({"outer_width_m": 0.01}, {"outer_width_m": 0.02}, {"sides": "free"}, load)
+    table = table.assign(**load, depth_m=0.01, sides=["tied", "tied", "free", "free"])
+    whole, *_ = by_scene(table[2:])
+    assert list(by_scene(table)) == [
+        *(whole.replace(", glued", f" on {area} mm2 of a panel, glued") for area in (100, 200)),
+        whole,
+    ]
+
+
 def test_a_label_has_what_presses_and_what_carries():
     scenes = by_scene(summary({"striker": "nose"}, {"base": "ribs"}))
     assert list(scenes) == [

@@ -20,6 +20,7 @@ def marked(table, **asked):
     return [row[0] for row in sheet.rows], legend(ranking)
 
 
+KNOWN = IMPACTS.assign(peak_deceleration_filtered_m_per_s2=500.0)
 ROUGH = ["", "walls of 1.5 lines of 0.4 mm"]
 CROSSED = SPARSE | {"contact_model": "none", "max_crossings": 3}
 TWO = summary({}, {"mass_g": 2.0})
@@ -72,7 +73,7 @@ def test_a_pulse_that_the_filter_cuts_is_marked():
 
 def test_an_impact_that_uses_up_the_stroke_is_marked():
     """Of 10 mm, 5 are used and 5 or half a millimetre are left."""
-    table = IMPACTS.assign(height_m=0.01, peak_strain=0.5, stroke_left_m=[0.5e-3, 5e-3])
+    table = KNOWN.assign(height_m=0.01, peak_strain=0.5, stroke_left_m=[0.5e-3, 5e-3])
     seen, text = marked(table)
     assert seen == ["1*s", "2 "]
     assert MEANINGS["s"] in text
@@ -82,7 +83,7 @@ def test_an_impact_that_uses_up_the_stroke_is_marked():
 
 def test_a_retry_that_changes_what_varies_is_marked():
     retries = ["", "solver.time_step = 1.25 us"]
-    table = IMPACTS.assign(retry=retries)
+    table = KNOWN.assign(retry=retries)
     assert marked(table)[0] == ["1*", "2 "]
     seen, text = marked(table.assign(**{"solver.time_step": 2e-4}))
     assert seen == ["1*", "2 r"]
@@ -95,6 +96,13 @@ def test_steps_that_are_too_long_for_the_peak_are_marked():
     assert seen == ["1*", "2 i"]
     assert "too long for the greatest force (–)" in text
     assert "load_step_error" not in text
+
+
+def test_impacts_of_rows_too_far_apart_for_their_filter_are_marked():
+    seen, text = marked(IMPACTS)
+    assert seen == ["1*", "2 i"]
+    assert "i: time steps are too long for peaks of the force" in text
+    assert marked(KNOWN)[0] == ["1*", "2 "]
 
 
 def test_the_greatest_estimate_is_told():

@@ -11,6 +11,14 @@ from sweep.running.searching.optimize import OptimizeError, optimize
 from tests.support.results.searches import BEST, TOML, simulate
 
 ENERGY = "absorbed_energy_J"
+PERIODS = {
+    "loading": {"mode": "force", "force": "5 N", "platen": "glued"},
+    "lattice": {"kind": "square", "sides": "periodic", "cells_y": 2},
+    "search": {
+        "lattice.width": ["6 mm", "12 mm"],
+        "lattice.wall_thickness": {"from": "0.4 mm", "to": "0.8 mm"},
+    },
+}
 
 
 @pytest.fixture
@@ -68,6 +76,7 @@ def test_what_is_asked_is_what_the_ranking_answers(tables):
         ({}, {"require": {"max_mass": 1}}, RankError, "a bare number"),
         ({}, {"require": {"max_weight": "1 g"}}, RankError, "max_weight = .1 g.: unknown req"),
         ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
+        (PERIODS, {}, OptimizeError, "periods of one area, as the load"),
     ],
 )
 def test_what_cannot_be_sought_is_refused(tables, changed, asked, error, told):
