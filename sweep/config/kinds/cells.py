@@ -83,8 +83,10 @@ class Cells(WallLattice):
         """The cells of these values. along: pressed along the cells, so that periodic sides are
         periodic in both directions.
         """
-        usual = {"nodes_per_wall": nodes_of(inputs.get("kind", "square"))}
-        lattice = cls.model_validate(usual | own_values(inputs, cls))
+        values = own_values(inputs, cls)
+        graded = values.get("grading", 1.0) != 1.0
+        usual = {"nodes_per_wall": nodes_of(inputs.get("kind", "square"), graded)}
+        lattice = cls.model_validate(usual | values)
         check_proportion(lattice)
         if along and lattice.tied_sides:
             lattice = lattice.model_copy(update={"layers": lattice.layers or 1})

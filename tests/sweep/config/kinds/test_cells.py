@@ -67,6 +67,14 @@ def test_equal_walls_have_an_equal_id_however_they_are_asked_for():
     assert plain.line_width is None
 
 
+@pytest.mark.parametrize("kind", ["square", "kagome"])
+def test_graded_cells_have_twelve_elements_a_wall(kind):
+    graded = Case.of(lattice=dict(kind=kind, wall_thickness=0.5e-3, grading=1.5)).lattice
+    assert graded.nodes_per_wall == 11
+    usual = Case.of(lattice=dict(kind=kind, wall_thickness=0.5e-3)).lattice.nodes_per_wall
+    assert usual == (7 if kind == "square" else 11)
+
+
 def test_a_sweep_of_masses_is_labelled_by_them(load):
     cases = expand(load('[lattice]\nkind = "hex"\n[grid]\nlattice.mass = ["0.8 g", "1 g"]'))
     assert [case.axes["lattice.mass"] for case in cases] == [0.8e-3, 1e-3]
