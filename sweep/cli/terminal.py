@@ -146,7 +146,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
         lines.insert(0, f"At most {text}.")
     if panel := question.panel:
         sides = " x ".join(_quantity_text(side, "mm") for side in panel)
-        periods = is_period(ranking.table)
+        periods = is_period(ranking.designs)
         how = "tiled with separate specimens"
         if periods.any():
             how = (

@@ -70,6 +70,11 @@ class Ranking:
         return f"<Ranking by {self.by}: {counted(len(self.table), 'place')} in {scenes}>"
 
     @property
+    def designs(self) -> DataFrame:
+        """The ranked designs; where none has a place, the lightest one of each scene."""
+        return self.table if len(self.table) else concat([self.table, *self.lightest.values()])
+
+    @property
     def with_unfinished(self) -> DataFrame:
         """The table, and below it the unfinished cases, which have no place."""
         if self.unfinished.empty:

@@ -80,16 +80,18 @@ def of_one(rows: DataFrame) -> str:
     """To what masses and forces refer: the printed part, a specimen of a tiled panel, or a
     period.
     """
-    if len(rows) and is_period(rows).all():
+    periods = is_period(rows)
+    if len(rows) and periods.all():
         return "one period"
-    return "one specimen" if "panel_specimens" in rows else "the part"
+    one = "one specimen" if "panel_specimens" in rows else "the part"
+    return f"{one} or one period" if periods.any() else one
 
 
 def of_which(ranking: Ranking) -> str:
     """To what an allowed force and requirements refer."""
     if ranking.per == "panel":
         return "a panel"
-    one = of_one(ranking.table)
+    one = of_one(ranking.designs)
     return "a specimen" if one == "one specimen" else one
 
 
