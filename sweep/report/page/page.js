@@ -47,7 +47,8 @@ function massRange() {
 // Of a specimen or of the panel.
 function forceRange() {
   const count = (design) => (ofPanel(asked) ? panelOf(asked.panel, design, data.beside).specimens : 1);
-  const peaks = data.cases.filter((design) => design.scene === asked.scene).filter((design) => design.peak > 0).map((design) => count(design) * design.peak);
+  const known = data.cases.filter((design) => design.scene === asked.scene && design.peak > 0);
+  const peaks = known.map((design) => count(design) * design.peak);
   return peaks.length ? { low: 0.5 * Math.min(...peaks), high: 1.05 * Math.max(...peaks) } : ANY_FORCE;
 }
 
