@@ -66,6 +66,7 @@ from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import (
     EQUAL,
     TIED,
+    UNKNOWN,
     densification_notes,
     front,
     meanings,
@@ -78,6 +79,7 @@ from sweep.report.tables.requirement_notes import (
     ONE_BY_ONE,
     STRUCK_PANEL,
     TOLERATED,
+    WHOLE_PANEL,
 )
 from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.report.tables.size_notes import narrow_note, size_note
@@ -188,6 +190,9 @@ def page_data(
         "one_by_one": ONE_BY_ONE,
         "tolerated": TOLERATED,
         "unequal": UNEQUAL,
+        "unknown_error": UNKNOWN,
+        "largest": _largest(whole),
+        "whole_panel": WHOLE_PANEL,
         "ties": {"errors": TIED, "values": EQUAL},
         "cases": list(cases.values()),
         "unfinished": list(unfinished.values()),
@@ -218,6 +223,14 @@ def _prints(ids: Sequence[str], files_of: FilesOf) -> dict[str, str]:
                 prints[case_id] = text
                 room -= len(text)
     return prints
+
+
+def _largest(rows: DataFrame) -> list[dict[str, Any]]:
+    """The greatest width and depth (m) of specimens with each gap, stopped cases included: a panel
+    that is too small for one of them is refused.
+    """
+    sides = rows[["outer_width_m", "depth_m"]].groupby(gap_behind(rows)).max().dropna()
+    return [{"outer": list(row), "gap": gap} for gap, *row in sides.itertuples(name=None)]
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
@@ -457,7 +470,7 @@ class _Stored:
         self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
         travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
         way = stair_strokes(force, travel)[kept]
-        return [numbers(column, 7) for column in (highest[kept], done[kept], way)]
+        return [numbers(column, 9) for column in (highest[kept], done[kept], way)]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which an earlier case may share."""

@@ -15,6 +15,8 @@ const PER_SECOND = 12; // frames
 const WORDS = new Intl.Collator("en", { numeric: true }); // "6 x 2" before "12 x 4"
 const ANY_FORCE = { low: 1, high: 1e4 }; // N, where no peak is known
 const LENGTH = { low: 10, high: 1000 }; // mm, of a panel
+const SIDE = 100; // mm, of a panel until another is asked for
+const MOST = 1e12; // below every greatest number of the terminal
 
 const asked = { scene: 0, budget: null, panel: null, force: null, require: {}, per: "specimen" };
 const view = { sort: null, up: true, all: false, chosen: null, current: null, frame: 0, timer: null };
@@ -56,32 +58,27 @@ function three(value) {
   return Number(value.toPrecision(3));
 }
 
+// The number of an input, null unless the terminal takes it for a mass, a length or a force.
+function numberIn(input) {
+  const value = Number(input.value);
+  return value > 0 && value < MOST ? value : null;
+}
+
 // A slider, its number and its check box. `on` tells the wish, null if the box is off.
 function wish(name, range, unit, on) {
   const [slider, number, box] = [$(`${name}-slide`), $(name), $(`${name}-on`)];
+  const typed = () => times(numberIn(number), unit());
   const tell = (value) => {
-    if (!(value > 0)) return;
+    if (value === null && !box) return;
     on(value);
     refresh();
   };
   slider.addEventListener("input", () => {
     number.value = three(slide.value(Number(slider.value), range()) / unit());
-    if (box) box.checked = true;
-    tell(Number(number.value) * unit());
+    tell(typed());
   });
-  number.addEventListener("input", () => {
-    const value = Number(number.value) * unit();
-    if (box) box.checked = value > 0;
-    if (box && !(value > 0)) {
-      on(null);
-      refresh();
-    } else tell(value);
-  });
-  if (box)
-    box.addEventListener("change", () => {
-      on(box.checked ? Number(number.value) * unit() : null);
-      refresh();
-    });
+  number.addEventListener("input", () => tell(typed()));
+  if (box) box.addEventListener("change", () => tell(box.checked ? (typed() ?? slide.value(Number(slider.value), range())) : null));
   return (value) => {
     const { low, high } = range();
     slider.value = slide.place(Math.min(Math.max(value, low), high), { low, high });
@@ -100,11 +97,9 @@ function unitOf(budgets) {
 
 const showBudget = wish("budget", massRange, gramsPerUnit, (grams) => (asked.budget = grams));
 const showForce = wish("force", forceRange, () => 1, (newtons) => (asked.force = newtons));
+const sidesOf = () => ["width", "height"].map((name, k) => asked.panel?.[k] ?? toSI(numberIn($(name)) ?? SIDE, "mm"));
 const setSide = (side) => (mm) => {
-  const sides = ["width", "height"].map((name) => toSI(Number($(name).value), "mm"));
-  sides[side] = toSI(mm, "mm");
-  asked.panel = sides;
-  $("panel-on").checked = true;
+  asked.panel = sidesOf().map((other, k) => (k === side ? toSI(mm, "mm") : other));
 };
 const showWidth = wish("width", () => LENGTH, () => 1, setSide(0));
 const showHeight = wish("height", () => LENGTH, () => 1, setSide(1));
@@ -135,10 +130,11 @@ function settle() {
   const unpaneled = !asked.panel && designs.some(isPeriod);
   $("panel-box").hidden = !sized;
   $("budget-box").hidden = unpaneled;
-  $("force-box").hidden = !crushed();
+  const forced = crushed() && (asked.panel || asked.per !== "panel"); // no panel has no force
+  $("force-box").hidden = !forced;
   if (!sized) asked.panel = null;
   if (unpaneled) asked.budget = null; // the mass of a period says nothing about that of a part
-  if (!crushed()) asked.force = null;
+  if (!forced) asked.force = null;
   $("per-box").hidden = !asked.panel && asked.per !== "panel";
 }
 
@@ -161,8 +157,8 @@ function makeRequired() {
     const box = element("input", { type: "checkbox", id: `${name}-on` });
     const number = element("input", { type: "number", id: name, min: 0, step: "any", "aria-label": `${words}, ${shown}` });
     const tell = () => {
-      const value = Number(number.value);
-      if (box.checked && value > 0) asked.require[name] = toSI(value, shown);
+      const value = numberIn(number);
+      if (box.checked && value !== null) asked.require[name] = toSI(value, shown);
       else delete asked.require[name];
       Object.assign(view, { chosen: null, current: null });
       refresh();
@@ -215,8 +211,10 @@ function fulfilText({ designs, fulfil, doubtful: marked, failed }) {
 }
 
 // Which of these counts are not certain.
-function* uncertainText({ coarse, unknown, close, open }) {
-  if (coarse) yield `Of these, ${coarse} ${coarse === 1 ? "is" : "are"} marked i: with shorter steps ${coarse === 1 ? "it" : "they"} may fail.`;
+function* uncertainText({ fulfil, coarse, unknown, close, open }) {
+  const one = coarse === 1;
+  const some = coarse < fulfil ? `${coarse} of those that do ${one ? "is" : "are"}` : one ? "It is" : "All of these are";
+  if (coarse) yield `${some} marked i: with shorter steps ${one ? "it" : "they"} may fail.`;
   for (const [name, n] of counted(unknown)) yield `${n} without a value for ${data.measures[name].noun}: ${data.measures[name].unknown}.`;
   for (const [name, n] of counted(close))
     yield `${n} ${n === 1 ? "meets or misses" : "meet or miss"} the limit of ${data.measures[name].noun} by less than the uncertainty of the value.`;
@@ -254,6 +252,24 @@ function* nearestText() {
   const row = now.nearest;
   const doubt = doubtful(row) ? ` (marked ${row.beyond ? "!" : ""}${row.design.crossed ? "x" : ""}: do not trust it)` : "";
   yield `Nearest: ${row.design.label}${doubt}: ${missText(row)}.`;
+  yield* noneText(row);
+}
+
+// The requirements that no design within the budget fulfils, with the best value, if the nearest design does not have it.
+function* noneText(nearest) {
+  const part = now.rows.filter((row) => row.mass <= greatestMass(data, asked));
+  const trusted = (name) => part.filter((row) => !doubtful(row) && row.misses[name] < Infinity);
+  for (const [name, limit] of Object.entries(askedOf(data, asked))) {
+    if (part.some((row) => row.misses[name] === 0)) continue;
+    const { least, none } = data.measures[name];
+    const sound = trusted(name);
+    const known = sound.length ? sound : part.filter((row) => row.misses[name] < Infinity);
+    const values = known.map((row) => required(data, row, asked)[name]);
+    const best = least ? Math.max(...values) : Math.min(...values);
+    if (!values.length || required(data, nearest, asked)[name] === best) continue;
+    const unsure = sound.length ? "" : " (marked ! or x: do not trust it)";
+    yield `${[limit, best].reduce((words, value) => words.replace("{}", limitText(name, value)), none)}${unsure}.`;
+  }
 }
 
 function showAsked() {
@@ -265,9 +281,9 @@ function showAsked() {
   $("force-on").checked = asked.force !== null;
   for (const name of ["budget", "panel", "force"])
     $(`${name}-box`).classList.toggle("off", asked[name] === null);
-  showBudget(asked.budget ?? (Number($("budget").value) * gramsPerUnit() || Math.sqrt(low * high)));
-  if (crushed()) showForce(asked.force ?? (Number($("force").value) || three(Math.sqrt(forceRange().low * forceRange().high))));
-  const [width, height] = asked.panel ?? ["width", "height"].map((name) => toSI(Number($(name).value), "mm") || 0.1);
+  showBudget(asked.budget ?? (times(numberIn($("budget")), gramsPerUnit()) ?? Math.sqrt(low * high)));
+  if (crushed()) showForce(asked.force ?? (numberIn($("force")) ?? three(Math.sqrt(forceRange().low * forceRange().high))));
+  const [width, height] = sidesOf();
   showWidth(inUnits(width, "mm"));
   showHeight(inUnits(height, "mm"));
   picks($("budgets"), data.question.budgets_g, (grams) => inUnit(grams), "budget", asked.budget);
@@ -293,6 +309,7 @@ function percentOf(row) {
 
 function share(row) {
   const percent = inUnits(row.error / Math.abs(row.value), "%");
+  if (percent > 0 && percent < 0.05) return "< 0.1";
   return percent < 9.95 ? percent.toFixed(1) : percent.toFixed(0);
 }
 
@@ -314,15 +331,17 @@ function isPeriod(design) {
   return design.gap === null;
 }
 
-function allPeriods() {
-  return data.cases.every((design) => design.scene !== asked.scene || isPeriod(design));
+// To what masses and forces of the scene refer: `of_one` of requirement_notes.py.
+function oneOf(part) {
+  const designs = data.cases.filter((design) => design.scene === asked.scene);
+  if (designs.every(isPeriod)) return "one period";
+  return designs.some(isPeriod) ? `${part} or one period` : part;
 }
 
 // What an allowed force and requirements are of.
 function ofOne() {
   if (ofPanel(asked)) return "the panel";
-  if (allPeriods()) return "one period";
-  return asked.panel ? "a specimen" : "the part";
+  return oneOf(asked.panel ? "a specimen" : "the part");
 }
 
 function until() {
@@ -414,8 +433,14 @@ function* words(best) {
     yield `Tied${now.bar ? " within the estimated errors" : ""}: ${shown}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}.`;
 }
 
+// Whether something is required that no design to be trusted fulfils within the budget.
+function unmet() {
+  const limits = Object.keys(askedOf(data, asked)).length > 0;
+  return limits && !now.placed.some((row) => !doubtful(row));
+}
+
 function detail(best) {
-  return [...words(best), requiredText(), ...(now.nearest ? [...nearestText(), ...instead()] : []), ...lackText(), ...stoppedText()].filter(Boolean);
+  return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...(unmet() ? instead() : []), ...lackText(), ...stoppedText()].filter(Boolean);
 }
 
 // Whether the page leaves designs of the scene out.
@@ -451,14 +476,15 @@ function* stoppedText() {
   }
   const more = stopped.length - NAMED;
   const others = scene().stopped ? `, and so could ${scene().stopped} that this page leaves out` : "";
-  if (more > 0) yield `${more} more unfinished cases could have had a place${others}: see the failed cases below.`;
+  if (more > 0) yield `${more} more unfinished case${more > 1 ? "s" : ""} could have had a place${others}: see the failed cases below.`;
 }
 
 // The command that prints the same ranking, if there is one.
 function showCommand() {
   if (asked.per === "panel" && !asked.panel) return;
-  if (data.scenes.some((_, scene) => incomparable(data, { ...asked, scene }))) return; // rank refuses for all scenes
-  if (asked.budget !== null && !asked.panel && data.cases.some(isPeriod)) return;
+  const unweighed = asked.budget !== null && !asked.panel && data.cases.some(isPeriod);
+  if (unweighed || data.scenes.some((_, scene) => incomparable(data, { ...asked, scene })))
+    return $("command").append("crumple rank refuses this question, as another scene of this file has periods of wide panels.");
   const budgeted = asked.budget !== null || !data.question.budgets_g.length;
   const paneled = asked.panel !== null || !data.question.panel;
   if (!(budgeted && paneled)) return;
@@ -558,7 +584,7 @@ function sorted(shown) {
 // On a phone what is compared comes first: place, infill, energy, energy per gram, mass.
 function arranged(shown) {
   if (window.innerWidth > NARROW) return shown;
-  const noun = asked.panel ? "panel" : "usable";
+  const noun = asked.panel ? "panel" : crushed() ? "usable" : "absorbed";
   const heads = ["#", "pattern", scene().shown?.head, `${noun} J`, `${noun} mJ`, "J/g", asked.panel ? "panel g" : data.printed ? "print g" : "mass g"];
   const early = heads.flatMap((head) => shown.filter((column) => column.head === head));
   return [...early, ...shown.filter((column) => !early.includes(column))];
@@ -608,8 +634,9 @@ function near(id, on) {
 
 // What separate specimens of a panel leave open, and how it differs from the one of the question: `panel_note` of requirement_notes.py.
 function* panelNotes() {
-  const rows = now.placed.filter((row) => row.panel && !isPeriod(row.design));
-  if (!rows.length || scene().dead) return;
+  if (!asked.panel || !now.placed.length || !(crushed() || scene().struck)) return;
+  const rows = now.placed.filter((row) => !isPeriod(row.design));
+  if (!rows.length) return yield data.whole_panel.replace("{}", panelText(now.placed[0]));
   const counts = rows.map((row) => row.panel.specimens);
   if (Math.max(...counts) > 1) yield data.one_by_one;
   if (Math.min(...counts) < Math.max(...counts)) yield `The number of specimens differs, so that places depend on it: compare J/g, or choose sides that all fill.`;
@@ -619,7 +646,7 @@ function* panelNotes() {
 }
 
 function notes() {
-  const lines = [`*: on the Pareto front: no lighter design ${scene().front}. mass: of ${now.rows.every((row) => isPeriod(row.design)) ? "one period" : asked.panel ? "one specimen" : "the part"}.`];
+  const lines = [`*: on the Pareto front: no lighter design ${scene().front}. mass: of ${oneOf(asked.panel ? "one specimen" : "the part")}.`];
   const rows = now.placed;
   lines.unshift(...partText());
   if (data.printed) lines.push(data.printed);
@@ -632,11 +659,13 @@ function notes() {
   lines.push(...requiredColumns().map(([head]) => data.column_notes[head]));
   if (storedEnergy(data, asked) < 0)
     lines.push(
-      `These energies are read from curves of at most ${data.points} points: their error is at most ` +
-        `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if they exceed 1 % of the energy of the whole crush. ` +
-        (data.energies.length > 1 ? "At the forces below the slider they are exact." : ""),
+      `These energies and strokes are read from curves of at most ${data.points} points: the error of an energy is at most ` +
+        `${Math.max(inUnits(data.doubt, "%"), 0.1).toFixed(1)} %, if it exceeds 1 % of that of the whole crush. ` +
+        "The terminal may decide otherwise where a limit is met or missed by less. " +
+        (data.energies.length > 1 && !ofPanel(asked) ? "At the forces below the slider they are exact." : ""),
     );
   if (now.bar) lines.push("±: estimated error from mesh and steps, not a bound.");
+  if (now.bar && rows.some((row) => !percentOf(row))) lines.push(data.unknown_error);
   if (rows.some((row) => row.sharing > 1))
     lines.push(now.bar ? data.ties.errors : data.ties.values);
   if (rows.some((row) => row.early)) lines.push(">: at least: the crush ended before that force was reached.");
@@ -976,8 +1005,7 @@ function start() {
   });
   $("unit").addEventListener("change", refresh);
   $("panel-on").addEventListener("change", () => {
-    const sides = [Number($("width").value), Number($("height").value)];
-    asked.panel = $("panel-on").checked ? sides.map((mm) => toSI(mm, "mm")) : null;
+    asked.panel = $("panel-on").checked ? sidesOf() : null;
     refresh();
   });
   $("all").addEventListener("click", () => {

@@ -62,7 +62,7 @@ function askedOf(data, question) {
 
 // Whether forces, energies or masses of periods of unequal area would be compared: merit.py.
 function incomparable(data, question) {
-  if (!data.scenes[question.scene].unequal || question.per === "panel") return false;
+  if (!data.scenes[question.scene].unequal || ofPanel(question)) return false;
   const shared = Object.keys(askedOf(data, question)).some((name) => data.measures[name].shared);
   return shared || question.force !== null;
 }
@@ -70,8 +70,8 @@ function incomparable(data, question) {
 // Whether a panel is smaller than half of some specimen: panel_in of merit.py.
 function isTooSmall(data, { panel }) {
   const fits = (side, one, gap) => side + gap >= (one + gap) / 2;
-  const holds = ({ outer, gap }) => gap === null || (fits(panel[0], outer[0], data.beside) && fits(panel[1], outer[1], gap));
-  return Boolean(panel) && !data.cases.every(holds);
+  const holds = ({ outer, gap }) => fits(panel[0], outer[0], data.beside) && fits(panel[1], outer[1], gap);
+  return Boolean(panel) && !data.largest.every(holds);
 }
 
 // The value (SI) of a row for each requirement, of a specimen or of the panel.

@@ -122,7 +122,8 @@ def densification_notes(rows: DataFrame) -> list[str]:
 def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     """The meaning of the columns of a table for one kind of loading, whatever the question."""
     period = [ONE_PERIOD] if is_period(rows).any() else []
-    period += [UNEQUAL_PERIODS] if unequal_periods(rows) else []
+    scenes = [part for _, part in rows.groupby("scene")] if "scene" in rows else [rows]
+    period += [UNEQUAL_PERIODS] * any(map(unequal_periods, scenes))
     shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
     return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
 

@@ -64,3 +64,32 @@ def test_every_question_is_answered(tmp_path, seed, sides):
     assert all("periods of wide panels differ in area" in words for words in refused)
     assert bool(refused) == (sides == "tied")
     assert any(looks)
+
+
+TYPE = """
+(() => {{
+  for (const name of ["budget", "force", "max_force", "width"]) {{
+    $(name).value = "{text}";
+    $(name).dispatch("input");
+  }}
+  return [asked.budget, asked.force, asked.panel, asked.require.max_force ?? null];
+}})()
+"""
+
+
+@pytest.mark.parametrize("text", ["", "-5", "0", "1e300"])
+def test_a_number_that_cannot_be_asked_for_asks_for_nothing(tmp_path, text):
+    table, factors = random_sweep(np.random.default_rng(0), OTHERS[0])
+    with opened(page_of(tmp_path, table, factors)) as run:
+        assert run(TYPE.format(text="50")) == [50.0, 50.0, [0.05, 0.1], 50.0]
+        assert run(TYPE.format(text=text)) == [None, None, [0.05, 0.1], None]
+
+
+def test_a_force_of_no_panel_is_asked_of_nothing(tmp_path):
+    table, factors = random_sweep(np.random.default_rng(0), OTHERS[0])
+    question = {"panel": [0.1, 0.05], "per": "panel", "force": 500.0}
+    with opened(page_of(tmp_path, table, factors)) as run:
+        run(ASK.format(question=json.dumps(question)))
+        assert run("asked.force") == 500.0
+        run(ASK.format(question=json.dumps({"panel": None})))
+        assert run("[asked.force, $('force-box').hidden]") == [None, True]

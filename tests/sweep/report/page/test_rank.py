@@ -230,12 +230,12 @@ SAYS = "Required of the part: force at most 60 N."
         (
             "{ coarse: 1 }",
             "3 of 5 designs fulfil this; the others fail: force (2). "
-            "Of these, 1 is marked i: with shorter steps it may fail.",
+            "1 of those that do is marked i: with shorter steps it may fail.",
         ),
         (
             "{ coarse: 2, failed: {}, fulfil: 5, doubtful: 3 }",
             "5 of 5 designs fulfil this, 3 of them marked ! or x. "
-            "Of these, 2 are marked i: with shorter steps they may fail.",
+            "2 of those that do are marked i: with shorter steps they may fail.",
         ),
         (
             "{ close: { max_force: 1 }, unknown: { max_force: 2 } }",
