@@ -159,8 +159,8 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("peak_force_N", nan, "time steps", "the greatest force (–)"),
                 keys="solver.time_step",
-                effect="Densification, and energies until then\n"
-                "or up to a force, may err by a tenth or more.",
+                effect="Densification, and energies until\n"
+                "then or up to a force, may err by a tenth or more.",
             ),
         ),
         turn="reversal",
@@ -199,7 +199,7 @@ MODES: Mapping[str, Mode] = {
             Coarse(
                 *("peak_deceleration_filtered_m_per_s2", nan, "time steps", "peaks of the force"),
                 keys="solver.time_step",
-                effect="The greatest force may be a quarter higher.",
+                effect="The greatest may be a quarter more than shown.",
             ),
         ),
         total="brought by the striker",

@@ -120,10 +120,10 @@ def _show_best(search: Search) -> int:
     ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
     ranking = answer(summary, question._replace(top=None))
     corners = with_allowed(beside, read_summary(beside), question)
-    (spread,) = spreads(ranking, corners, ids, question)
-    print_sheets([finalist_sheet(spread, summary)])
+    parts = spreads(ranking, corners, ids, question)
+    print_sheets([finalist_sheet(part, summary, several=len(parts) > 1) for part in parts])
     say_all(unfinished_notes(ranking.unfinished, partial(named_case, among=summary)))
-    return spread.failed
+    return sum(part.failed for part in parts)
 
 
 def _show_nearest(search: Search) -> None:

@@ -240,13 +240,17 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     of the estimate of its load steps, of its error bar, and of its range where two strains of
     densification are as good. 0 where none is known.
 
-    The efficiency energy / greatest force is the same at both strains, but for `SAME_EFFICIENCY`,
-    so that their forces differ as their energies do.
+    The efficiency energy / greatest force is nearly the same at both strains, so that their forces
+    lie between the lower energy / efficiency and the higher one / (1 - `SAME_EFFICIENCY`) of it.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
     of_energy = np.fmax(rows[names.energy] - low, high - rows[names.energy]) / rows[names.energy]
-    of_force = ((1.0 + of_energy) / (1.0 - SAME_EFFICIENCY) - 1.0).where(
+    count = rows["panel_specimens"] if names.energy == "panel_energy_J" else 1.0
+    force = rows["passed_on_N"] * count
+    efficiency = rows["absorbed_energy_at_densification_J"] / rows["peak_force_at_densification_N"]
+    most = high / ((1.0 - SAME_EFFICIENCY) * efficiency)
+    of_force = (np.fmax(force - low / efficiency, most - force) / force).where(
         high > low * (1.0 + ROUND_OFF)
     )
     whole = _bar(rows, "peak_force_N")

@@ -56,16 +56,17 @@ def test_each_trait_row_by_row():
 
 @pytest.mark.parametrize("much", [False, True])
 def test_steps_are_long_by_the_measure_of_the_mode(much):
-    shares = {each.column: 0.0 for mode in MODES.values() for each in mode.coarse}
-    del shares["peak_force_N"]
+    measures = [each for mode in MODES.values() for each in mode.coarse]
+    shares = {each.column: 0.0 for each in measures if not isnan(each.most)}
+    peaks = {each.column: 1.0 for each in measures if isnan(each.most)}
     for name, coarse in ((name, each) for name, mode in MODES.items() for each in mode.coarse):
-        rows, own = ROWS.assign(**shares, peak_force_N=1.0), ROWS["loading_mode"] == name
+        rows, own = ROWS.assign(**shares, **peaks), ROWS["loading_mode"] == name
         if isnan(coarse.most):
             rows.loc[own & much, coarse.column] = float("nan")
         else:
             rows.loc[own, coarse.column] = coarse.most * (1.01 if much else 0.99)
         assert list(is_coarse(rows)) == list(own & much)
-    unknown = ROWS.assign(**dict.fromkeys(shares, float("nan")), peak_force_N=1.0)
+    unknown = ROWS.assign(**dict.fromkeys(shares, float("nan")), **peaks)
     assert not is_coarse(unknown).any()
 
 

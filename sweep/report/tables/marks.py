@@ -18,7 +18,8 @@ COARSE = """\
 i: {} are long: their estimated error is above {} % of {}, here up to {} %
 ({}). {} Shorter steps help ({})."""
 NO_PEAK = """\
-i: {} are too long for {}. {} Shorter steps help ({})."""
+i: {} are too long for {}. {}
+Shorter steps help ({})."""
 MEANINGS = {
     "!": """\
 !: do not trust this result, which is beyond the model: an element in the plane is shorter than 0.7

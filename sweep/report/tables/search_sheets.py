@@ -24,10 +24,11 @@ From the best design on, a row is left out if both of its values are within {:.0
 row that was kept last."""
 
 
-def finalist_sheet(spread: Spread, summary: DataFrame) -> Sheet:
+def finalist_sheet(spread: Spread, summary: DataFrame, several: bool = False) -> Sheet:
     """The finalists with their values on a fine mesh and with other geometry.
 
-    summary: all designs, among which they are described.
+    summary: all designs, among which they are described. several: they are of one scene among
+    others, which the title names.
     """
     rows, mass = spread.rows, "panel g" if "panel_mass_g" in spread.rows else "mass g"
     columns = {
@@ -38,8 +39,9 @@ def finalist_sheet(spread: Spread, summary: DataFrame) -> Sheet:
     }
     texts = [list(row) for row in zip(*columns.values(), strict=True)]
     again = [_again(values) for _, values in spread.at_corners.iterrows()]
+    where = f"; {rows['scene'].iloc[0]}" if several else ""
     return Sheet(
-        f"Best designs, simulated again: {spread.column}",
+        f"Best designs, simulated again: {spread.column}{where}",
         [*columns, FINE, "lowest", "at", "highest", "at"],
         [text + more for text, more in zip(texts, again, strict=True)],
         notes=(AGAIN.format(mass), *mark_notes(rows), *_verdict(spread)),

@@ -13,6 +13,7 @@ from sweep.config.grid import Config
 from sweep.config.kinds.crush import Crush
 from sweep.config.load import Source, load_config
 from sweep.ranking.assessment import check_column, check_searched
+from sweep.ranking.merit import SAME_AREA
 from sweep.ranking.question import Quantity, Question, check_units, in_si
 from sweep.ranking.requirements import limits
 from sweep.results import Results
@@ -139,11 +140,11 @@ def check_start(question: Question, start: Sequence[Case]) -> None:
     if sheet := next((case.lattice.sheet for case in start if case.lattice.sheet), ""):
         allowed = "lattices that are drawn with lines; sheets are compared in a [grid]"
         raise OptimizeError(f"{sheet} in [search]; allowed: {allowed}")
-    periods = [case for case in start if case.lattice.tied_sides]
-    areas = {prod(case.footprint) for case in periods if not isinstance(case.loading, Crush)}
-    if len(areas) > 1:
-        allowed = "periods of one area, as the load or the striker acts on each of them"
-        raise OptimizeError(f'lattice.sides = "periodic" in [search]; allowed: {allowed}')
+    loaded = [case for case in start if not isinstance(case.loading, Crush)]
+    areas = [prod(case.footprint) if case.lattice.tied_sides else 0.0 for case in loaded]
+    if max(areas, default=0.0) > (1.0 + SAME_AREA) * min(areas, default=0.0):
+        allowed = "periods of one area alone, as the load or the striker acts on each of them"
+        raise OptimizeError(f'lattice.sides = "periodic"; allowed in a search: {allowed}')
 
 
 def check_found(search: Search) -> None:

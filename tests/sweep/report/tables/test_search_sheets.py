@@ -70,6 +70,13 @@ def test_front_has_both_columns():
     assert front_sheet(rows.head(0), OWN, "mass_g").rows == []
 
 
+def test_a_sheet_of_one_scene_among_others_names_it():
+    rows = ranked(OWN, by=ENERGY).table
+    table = DataFrame({AS_GIVEN: rows[ENERGY]})
+    found = finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0), OWN, several=True)
+    assert found.title.endswith(f"{ENERGY}; crushed to 50 %, glued platens")
+
+
 def test_masses_that_prints_change_are_a_range():
     rows = ranked(OWN, by=ENERGY).table
     table = DataFrame({AS_GIVEN: rows[ENERGY], "walls +5 %": rows[ENERGY]})

@@ -19,6 +19,13 @@ PERIODS = {
         "lattice.wall_thickness": {"from": "0.4 mm", "to": "0.8 mm"},
     },
 }
+MIXED = PERIODS | {
+    "lattice": {"kind": "square", "cells": 2},
+    "search": {
+        "lattice.sides": ["periodic", "free"],
+        "lattice.wall_thickness": {"from": "0.4 mm", "to": "0.8 mm"},
+    },
+}
 
 
 @pytest.fixture
@@ -76,7 +83,8 @@ def test_what_is_asked_is_what_the_ranking_answers(tables):
         ({}, {"require": {"max_mass": 1}}, RankError, "a bare number"),
         ({}, {"require": {"max_weight": "1 g"}}, RankError, "max_weight = .1 g.: unknown req"),
         ({}, {"evaluations": 0}, OptimizeError, "evaluations = 0; allowed: 1 or more"),
-        (PERIODS, {}, OptimizeError, "periods of one area, as the load"),
+        (PERIODS, {}, OptimizeError, "periods of one area alone"),
+        (MIXED, {}, OptimizeError, "periods of one area alone"),
     ],
 )
 def test_what_cannot_be_sought_is_refused(tables, changed, asked, error, told):
