@@ -98,13 +98,10 @@ def _error_notes(table: DataFrame) -> list[str]:
 def _notes(ranking: Ranking) -> list[str]:
     """Explanations that only some tables need: of another mass, and of marks."""
     table = ranking.table
-    crushed = table[has(table, "driven")]
-    densified, twice = crushed["densification_strain"].notna(), densifies_twice(crushed)
     notes = {
         printed_note(table): "counted_mass_g" in table,
         **dict.fromkeys(mark_notes(table), True),
-        UNSURE: (is_unsure(crushed) & densified & ~twice).any() and not ranking.limited,
-        TWICE: twice.any() and not ranking.limited,
+        **dict.fromkeys(densification_notes(table), not ranking.limited),
         EQUAL: table["tied"].any() and "ranked_error" not in table,
         EARLY: ranking.limited and table["ends_early"].any(),
     }
