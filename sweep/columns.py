@@ -33,7 +33,9 @@ SAME_EFFICIENCY = 0.02
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
-    "status": Column("", "converged, stopped, slipped, timed_out, unresolved or worker_died"),
+    "status": Column(
+        "", "converged, stopped, slipped, bottomed_out, timed_out, unresolved or worker_died"
+    ),
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),

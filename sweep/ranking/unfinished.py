@@ -46,6 +46,10 @@ FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
 """The first columns of `could_place`."""
 
 
+WITHOUT_PLACE = Status.SLIPPED, Status.BOTTOMED_OUT
+"""Answers that give a design no place."""
+
+
 class Ends(NamedTuple):
     """The least and the greatest final value of each row."""
 
@@ -64,8 +68,10 @@ def ended_early(rows: DataFrame, by: str) -> Series:
 
 
 def interrupted(rows: DataFrame) -> Series:
-    """True for cases whose loading was not completed, except those that lost their lattice."""
-    return (rows["loaded"] != 1) & (rows["status"] != Status.SLIPPED)
+    """True for cases whose loading was not completed, except those that lost their lattice or
+    closed its voids.
+    """
+    return (rows["loaded"] != 1) & ~rows["status"].isin(WITHOUT_PLACE)
 
 
 def unloaded(rows: DataFrame) -> Series:

@@ -161,8 +161,7 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
     Where nothing moves they grow with the largest force so far, by `LOADED`; in a motion what is
     left over is momentum, which adds up from step to step.
     """
-    coordinates, size = scene.terms.coordinates, scene.size
-    force = max(scene.force_scale, np.abs(coordinates.load * coordinates.lever).max(initial=0.0))
+    force, size = _typical_force(scene), scene.size
     allowed = max(case.solver.tolerance * force, ROUND_OFF * scene.largest_force(stage))
     return Tolerance(
         force=allowed,
@@ -172,3 +171,16 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
         iterations=case.solver.max_iterations,
         share=0.0 if stage.dynamic else LOADED * case.solver.tolerance,
     )
+
+
+def round_off_decides(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> bool:
+    """Whether the admissible residual is that of round-off, as steps are short or loads small."""
+    own = case.solver.tolerance * _typical_force(scene)
+    return ROUND_OFF * scene.largest_force(stage) > own
+
+
+def _typical_force(scene: Scene | PlateScene) -> float:
+    """The greater of a force that bends a wall and the load, N."""
+    coordinates = scene.terms.coordinates
+    load = np.abs(coordinates.load * coordinates.lever).max(initial=0.0)
+    return max(scene.force_scale, float(load))

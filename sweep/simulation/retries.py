@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.kinds.crush import Crush, steps_in
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
@@ -23,6 +24,7 @@ from sweep.config.kinds.solver import MAX_STEPS, TIME_STEP, Arcs, InTime
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status
+from sweep.simulation.bottoming import bottoms_out
 from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import EXPIRED, simulate
 from sweep.simulation.time_resolution import resolving_step
@@ -57,7 +59,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         attempts.append(words)
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
-    return _final_result(case, best, attempts, spent)
+    return _final_result(case, best, attempts, spent, stop[0] not in (0, EXPIRED))
 
 
 def _is_final(best: Result) -> bool:
@@ -69,7 +71,7 @@ def _is_coarse(case: Case) -> bool:
     """Whether a motion that may be retried has steps far longer than usual.
 
     The solver takes hundreds of shares of each of them: the usual steps of an impact, and backward
-    Euler under a dead load, finish sooner.
+    Euler in a crush or under a dead load, finish sooner.
     """
     if not (isinstance(case.solver, InTime) and case.solver.retry):
         return False
@@ -78,6 +80,8 @@ def _is_coarse(case: Case) -> bool:
             usual = resolving_step(case)
         case DeadLoad() if case.solver.integrator != ROBUST:
             usual = TIME_STEP
+        case Crush(stroke=stroke, speed=float(speed)) if case.solver.integrator != ROBUST:
+            usual = stroke / speed / steps_in(stroke / speed, None)
         case _:
             return False
     return SHORTER * usual < case.solver.time_step
@@ -92,26 +96,34 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
 
 
 def _reach(result: Result) -> tuple[bool, bool, bool]:
-    """How far a run came: whether it converged, completed its loading, or lost its striker."""
+    """How far a run came: whether it converged, completed its loading, or lost its striker or all
+    voids.
+    """
     converged, slipped = (result.status is status for status in ENDED)
-    return converged, result.summary["loaded"] == 1, slipped
+    return converged, result.summary["loaded"] == 1, slipped or bottoms_out(result) != ""
 
 
-def _final_result(case: Case, best: Result, attempts: list[str], spent: float) -> Result:
+def _final_result(
+    case: Case, best: Result, attempts: list[str], spent: float, interrupted: bool
+) -> Result:
     """The best result under the id of ``case``, with the processor time of all attempts (s).
 
     Its message says what was tried without success, instead of advising it.
     """
-    message = best.message
+    status, message = best.status, best.message
+    if status not in ENDED and not interrupted:
+        closed = bottoms_out(best)
+        status, message = (Status.BOTTOMED_OUT, closed) if closed else (status, message)
     attempts = [words for words in attempts if words != best.summary["retry"]]
     if attempts and best.status is not Status.CONVERGED:
         what, _, advice = message.partition("; try ")
         repeats = any(words.split(" = ")[0] in advice for words in attempts)
         message = f"{what if repeats else message} (tried without success: {'; '.join(attempts)})"
-    if best.status is not Status.CONVERGED:
+    if status not in (Status.CONVERGED, Status.BOTTOMED_OUT):
         message += faster_than_sound(case)
-    own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
-    return replace(best, case=case, message=message, summary={**best.summary, **own})
+    own: dict[str, float | str] = {"case_id": case.case_id, "status": str(status)}
+    own |= {"message": message, "cpu_s": spent}
+    return replace(best, case=case, status=status, message=message, summary={**best.summary, **own})
 
 
 def _changes(result: Result) -> Iterator[tuple[str, Case]]:

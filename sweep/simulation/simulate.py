@@ -25,14 +25,14 @@ from sweep.result import Result, Status, failed_result
 from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
-from sweep.scene.loading import CycleRows, cycle_rows, stages, tolerances
+from sweep.scene.loading import CycleRows, Phase, cycle_rows, round_off_decides, stages, tolerances
 from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.law import UnstableMaterialError
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.plates.scene import build_scene as build_plates
 from sweep.scene.profiles import outlines
-from sweep.scene.scene import Scene, striker_of
+from sweep.scene.scene import Scene, damp_of, striker_of
 from sweep.scene.sides import build_tied
 from sweep.simulation.base_load import patch_width
 from sweep.simulation.custom_history import structure_columns
@@ -54,7 +54,7 @@ from sweep.simulation.failures import (
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
-from sweep.simulation.striker import closing_speed, rests, second_stop
+from sweep.simulation.striker import closing_speed, rests, second_stop, spent
 from sweep.simulation.summary import (
     BOOK_COLUMNS,
     OF_THE_WHOLE_RUN,
@@ -156,7 +156,8 @@ def _of_impact(
         return Status.CONVERGED, ""
     if _removes_energy(case, summary, curves):
         return energy_unresolved(case, summary["integrator_share"])
-    if (share := momentum_share(case.loading, curves, to_si(summary["mass_g"], "g"))) > MOST_LOST:
+    mass, alpha = to_si(summary["mass_g"], "g"), damp_of(case).alpha_m
+    if (share := momentum_share(case.loading, curves, mass, alpha)) > MOST_LOST:
         return momentum_unresolved(case, share)
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
@@ -275,12 +276,13 @@ class _Run:
                     self.curable = True
                     return energy_gained(self.case)
                 if outcome != outcomes.CONVERGED:
-                    return self._failed(outcome, phase.name)
+                    return self._failed(outcome, phase)
                 if self.struck and (self._is_over() or self._has_passed()):
                     break
         if not self._balances(self.done):
-            if self._residual(self.done) <= self.done * self.noise:
-                return self._failed(outcomes.UNRESOLVED, phase.name)
+            noisy = self._residual(self.done) <= self.done * self.noise
+            if noisy or round_off_decides(self.case, self.scene, phase.stage):
+                return self._failed(outcomes.UNRESOLVED, phase)
             self.curable = True
             return unbalanced(self.where())
         return Status.CONVERGED, ""
@@ -317,14 +319,16 @@ class _Run:
         return float(np.abs(self.rows["residual"][:count]).max())
 
     def _is_over(self) -> bool:
-        """Whether the striker is back where it started, or has stopped again under its weight.
+        """Whether the striker is back where it started, has stopped again under its weight, or has
+        no energy left.
 
         Later rows are dropped.
         """
-        heights = self.rows["height"][: self.done]
+        rows = self.rows[: self.done]
+        heights = rows["height"]
         back = np.flatnonzero(heights[1:] >= heights[0]) + 1
-        again = second_stop(heights) if striker_of(self.case.loading).weight else None
-        last = back[0] if len(back) else again
+        weighs = striker_of(self.case.loading).weight > 0.0
+        last = back[0] if len(back) else second_stop(heights) if weighs else spent(rows)
         self.done = self.done if last is None else int(last) + 1
         return last is not None
 
@@ -395,10 +399,13 @@ class _Run:
             self.stages[number] = phase._replace(stage=stage._replace(steps=len(there)))
         return outcome
 
-    def _failed(self, outcome: int, stage: str) -> Failure:
-        where = f"while {stage}, {self.where()}"
+    def _failed(self, outcome: int, phase: Phase) -> Failure:
+        where = f"while {phase.name}, {self.where()}"
         if self.expired:
             return timed_out(self.case, where)
+        unbalanced = outcome == outcomes.UNBALANCED
+        if unbalanced and round_off_decides(self.case, self.scene, phase.stage):
+            outcome = outcomes.UNRESOLVED
         self.curable = outcome in CURABLE
         return stopped(self.case, outcome, where, driven=self.scene.terms.coordinates.driven >= 0)
 

@@ -10,8 +10,10 @@ striker and base after the hit is neither absorbed nor returned.
 
 The striker stops at its lowest point. Its rebound ends when the lattice no longer pushes it: its
 mechanical energy, m v^2 / 2 - m g s after a descent s, is then greatest on the way up. Later a
-glued platen would hold it back. A run ends when the striker is back where it met the lattice, or
-when its weight has brought it down again and it has stopped at a smaller depth than before.
+glued platen would hold it back. A run ends when the striker is back where it met the lattice, when
+its weight has brought it down again and it has stopped at a smaller depth than before, or when
+without weight all energy is spent: walls that are damped far more than critically would take
+thousands of times as long to push it back.
 """
 
 from collections.abc import Mapping
@@ -41,6 +43,7 @@ MEASURES = (
 
 
 SWING = 0.1  # share of the stroke by which a striker comes down again
+SPENT = 1e-4  # share of the energy of a striker that may be left when the impact is over
 STILL = 1e-3  # of the stroke; a stopping striker moves by 1 % in the last tenth of its way down
 
 
@@ -168,6 +171,18 @@ def second_stop(heights: Floats) -> int | None:
     turned = (moves[:-1] < 0.0) & (moves[1:] >= 0.0)
     stops = np.flatnonzero(turned & (sunk[1:-1] >= SWING * (heights[0] - heights[lowest])))
     return lowest + int(stops[0]) + 1 if len(stops) else None
+
+
+def spent(rows: np.ndarray) -> int | None:
+    """The row at which striker and lattice have no more than a share `SPENT` of the energy left, if
+    they do, while the striker moves up slower than before; rows (rows,) of `rows.ROW`.
+    """
+    left = rows["kinetic"] + rows["stretch"] + rows["bend"] + rows["contact"]
+    fastest = int(rows["speed"].argmax())
+    if rows["speed"][fastest] <= 0.0:
+        return None
+    after = np.flatnonzero(left[fastest + 1 :] <= SPENT * rows["work"].max())
+    return fastest + 1 + int(after[0]) if len(after) else None
 
 
 def rests(history: Curves) -> bool:

@@ -19,11 +19,12 @@ energy in a half wave of n steps, more if the force has a peak.
 
 Momentum: the momentum of striker and lattice at the start, p = 2 E / v with their kinetic energy E,
 and the impulse of the weight in the time t go into the support: sum F dt = p + m g t - m v' - q,
-with q the momentum of the lattice at the end, q^2 <= 2 m_l K_l.
+with q the momentum of the lattice at the end, q^2 <= 2 m_l K_l. Damping of the mass by the rate
+alpha takes alpha sum q dt of it.
 """
 
 from collections.abc import Mapping
-from math import inf, nan, sqrt
+from math import inf, nan
 
 import numpy as np
 
@@ -95,17 +96,20 @@ def striker_share(history: Curves) -> float:
     return float(np.sum(np.diff(speed) ** 2) / np.max(speed**2))
 
 
-def momentum_share(loading: Impact, history: Curves, mass: float) -> float:
+def momentum_share(loading: Impact, history: Curves, mass: float, alpha: float) -> float:
     """Momentum of an impact that the support has not taken, or has taken in excess / momentum at
     first.
 
-    mass: of the lattice, kg. Momentum that the lattice may still have does not count.
+    mass: of the lattice, kg. alpha: rate by which its mass is damped, 1/s. Momentum that the
+    lattice may still have, or that damping may have taken from it, does not count.
     """
     speed, force = history["striker_speed_m_per_s"], history["reaction_bottom_N"]
     initial = 2.0 * float(history["work_in_J"][0]) / loading.striker_speed
-    impulse = float(np.sum(force[1:] * np.diff(history["time_s"])))
-    swing = float((history["kinetic_J"] - kinetic(loading, history))[-1])
-    of_lattice = sqrt(2.0 * mass * max(swing, 0.0))
+    times = np.diff(history["time_s"])
+    impulse = float(np.sum(force[1:] * times))
+    swing = (history["kinetic_J"] - kinetic(loading, history)).clip(min=0.0)
+    carried = np.sqrt(2.0 * mass * swing)
+    of_lattice = float(carried[-1] + alpha * np.sum(carried[1:] * times))
     total = initial + loading.weight * float(history["time_s"][-1])
     missing = abs(total - loading.striker_mass * float(speed[-1]) - impulse)
     return max(missing - of_lattice, 0.0) / initial

@@ -8,8 +8,9 @@ only.
 Three kinds of scenes have no answer, and fail with a sentence about it. The load is less than
 positions resolve: nothing moves by more than round-off. No contact keeps walls apart under a dead
 load that would press a solid of their mass, of linear law, to less than half its height: they fold
-flat, to no length. Or a striker is faster than sound in the walls: its wave front would press a
-wall of linear law to no length. Shares refer to all scenes and to the scenes with an answer.
+flat, to no length. Or a striker or a platen is faster than sound in the walls: its wave front would
+press a wall of linear law to no length. Shares refer to all scenes and to the scenes with an
+answer. Lattices that tip over or bottom out have one.
 """
 
 import csv
@@ -26,7 +27,6 @@ from rich.progress import track
 from sweep.config.grid import expand
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.kinds.dead_load import DeadLoad
-from sweep.config.kinds.impact import Impact
 from sweep.config.load import load_config
 from sweep.design.lattice import build_network
 from sweep.design.network import mass
@@ -45,7 +45,8 @@ SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of seco
 WIDE = 64  # panels of up to 48 cells side by side
 RETRIED = "converged in a retry"
 TIPPED = "slipped"  # in a scene with flat platens: the lattice tipped over
-DONE = "converged", RETRIED, TIPPED
+CLOSED = "bottomed out"
+DONE = "converged", RETRIED, TIPPED, CLOSED
 UNANSWERED = "have no answer, of these"
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 ROUND_OFF = "exceed round-off"  # in the message of a load that is too small
@@ -85,10 +86,10 @@ def outcome(found):
 
 def has_no_answer(case, found):
     """Whether a scene that failed has no equilibrium or motion that could be resolved."""
-    if found.status == "stopped" and (ROUND_OFF in found.message or _folds_flat(case)):
-        return True
-    struck = isinstance(case.loading, Impact)
-    return struck and found.status not in DONE and faster_than_sound(case) != ""
+    if outcome(found) in DONE:
+        return False
+    small = found.status == "stopped" and ROUND_OFF in found.message
+    return small or _folds_flat(case) or faster_than_sound(case) != ""
 
 
 def _folds_flat(case):

@@ -231,6 +231,23 @@ def test_a_run_ends_when_the_striker_is_back():
     assert travel[-1] <= 0.0 < travel[1:-1].min()
 
 
+def test_a_run_ends_when_all_energy_is_spent(monkeypatch):
+    """Walls that are damped far more than critically push it back long after."""
+    thick = dict(model="rayleigh", mass=0.0, stiffness=0.1)
+    hit = dict(striker_speed=2.0, striker_mass=0.05)
+    case = struck(damping=thick, steps=2000, integrator="bdf2", **hit)
+    ended = simulate(case)
+    monkeypatch.setattr("sweep.simulation.simulate.spent", lambda rows: None)
+    whole = simulate(case)
+    assert ended.status == whole.status == "converged"
+    assert ended.history["time_s"][-1] < 0.5 * whole.history["time_s"][-1]
+    left = sum(ended.history[name] for name in ("kinetic_J", *RECOVERABLE))
+    assert left[-1] <= 1e-4 * left[0] < left[-2]
+    for name in ("peak_force_N", "peak_strain", "absorbed_energy_J"):
+        assert ended.summary[name] == pytest.approx(whole.summary[name], rel=1e-6)
+    assert ended.summary["rebound_share"] == pytest.approx(whole.summary["rebound_share"], abs=1e-4)
+
+
 def test_a_striker_that_still_sinks_is_a_failure():
     result = simulate(struck(striker_mass=1.0, striker_speed=2.0, duration=2e-3))
     assert result.status == "stopped"

@@ -9,12 +9,14 @@ from sweep.result import Status
 from sweep.simulation.simulate import simulate
 from sweep.simulation.time_resolution import (
     LOCAL,
+    MOST_LOST,
     integrator_share,
     momentum_share,
     path_error,
     peak_row,
     striker_share,
 )
+from tests.studies.stability.draw import scene
 from tests.support.converged import converged
 from tests.support.designs.scenes import is_sound, pressed
 
@@ -107,7 +109,18 @@ def test_the_support_bears_what_striker_and_row_bring(platen):
     """The glued row has no small part of the momentum of so light a striker."""
     case = struck(platen=platen, striker_mass=5e-4, striker_speed=3.0, time_step=2e-6)
     result = simulate(case)
-    assert momentum_share(case.loading, result.history, 1e-3 * result.summary["mass_g"]) < 0.01
+    assert momentum_share(case.loading, result.history, 1e-3 * result.summary["mass_g"], 0.0) < 0.01
+
+
+def test_what_damping_takes_from_the_mass_is_not_missing():
+    """A light striker bounces off hexagons that are damped to rest before their base notices."""
+    case = scene(41)[1]
+    result = converged(case)
+    mass = 1e-3 * result.summary["mass_g"]
+    shares = [
+        momentum_share(case.loading, result.history, mass, a) for a in (0.0, case.damping.mass)
+    ]
+    assert shares[0] > 1.0 > MOST_LOST > shares[1]
 
 
 def half_wave(rows, share=1.0):
@@ -127,14 +140,14 @@ def half_wave(rows, share=1.0):
 
 def test_shares_of_a_half_wave():
     loading = struck().loading
-    assert momentum_share(loading, half_wave(1001), 0.0) == pytest.approx(0.0, abs=1e-5)
-    assert momentum_share(loading, half_wave(1001, 0.9), 0.0) == pytest.approx(0.2, rel=1e-4)
-    assert momentum_share(loading, half_wave(2), 0.0) == pytest.approx(2.0)
+    assert momentum_share(loading, half_wave(1001), 0.0, 0.0) == pytest.approx(0.0, abs=1e-5)
+    assert momentum_share(loading, half_wave(1001, 0.9), 0.0, 0.0) == pytest.approx(0.2, rel=1e-4)
+    assert momentum_share(loading, half_wave(2), 0.0, 0.0) == pytest.approx(2.0)
     assert integrator_share(loading, half_wave(1001)) == pytest.approx(0.3)
     assert striker_share(half_wave(1001)) == pytest.approx(np.pi**2 / 2000, rel=1e-5)
     swings = half_wave(1001, 0.9)
     swings["kinetic_J"] = swings["kinetic_J"] + 0.1
-    assert momentum_share(loading, swings, 5e-4) == pytest.approx(0.1, rel=1e-3)
+    assert momentum_share(loading, swings, 5e-4, 0.0) == pytest.approx(0.1, rel=1e-3)
 
 
 def loaded(**solver):
