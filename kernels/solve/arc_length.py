@@ -109,14 +109,16 @@ def _combine(r, share, v, coordinates, dx):
 
 
 @jit_exact
-def _load_increment(u, r, v, arc, progress):
-    """Return dlambda of the linearised constraint, and whether the constraint is satisfied."""
+def _load_increment(u, r, v, arc, resolution, progress):
+    """Return dlambda of the linearised constraint, and whether positions satisfy the constraint as
+    far as their ``resolution`` (m) allows.
+    """
     if progress.length == 0.0:
         return progress.target_load - progress.load, progress.target_load == progress.load
     square = progress.length * progress.length
     gap = _inner(u, u, arc.weight) - square
     increment = -(0.5 * gap + _inner(u, r, arc.weight)) / _inner(u, v, arc.weight)
-    return increment, abs(gap) <= ARC_TOLERANCE * square
+    return increment, abs(gap) <= max(ARC_TOLERANCE * square, 2.0 * progress.length * resolution)
 
 
 @jit_exact
@@ -168,7 +170,9 @@ def _correct(x, problem, tolerance, stage, workspace, arc, progress):
             r[i], v[i] = -evaluation.g[i], coordinates.load[i]
         problem.solve(r)
         problem.solve(v)
-        increment, on_constraint = _load_increment(evaluation.u, r, v, arc, progress)
+        increment, on_constraint = _load_increment(
+            evaluation.u, r, v, arc, tolerance.resolution, progress
+        )
         if on_constraint and size <= tolerance.force:
             progress.decrement = abs(0.5 * dot(evaluation.g, r))
             if progress.decrement <= tolerance.decrement:
