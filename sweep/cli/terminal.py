@@ -83,7 +83,10 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         some = f"{ranking.unloaded} of {ranking.cases} cases stopped after the loading"
         yield f"{some}, which ranks them: crumple status {file} says why"
     if ranking.failed:
-        yield f"{ranking.failed} of {ranking.cases} cases failed: crumple status {file} says why"
+        closed = sum(ranking.bottomed.values())
+        some = f", {closed} of them by bottoming out" if closed else ""
+        failed = f"{ranking.failed} of {ranking.cases} cases failed{some}"
+        yield f"{failed}: crumple status {file} says why"
 
 
 def next_commands(file: str, ranking: Ranking) -> Iterator[str]:

@@ -182,7 +182,7 @@ def is_period(frame: DataFrame) -> Series:
 
 def gap_behind(frame: DataFrame) -> Series:
     """Gap (m) between specimens one behind the other in a panel; NaN for periods."""
-    return frame["direction"].map(BEHIND).where(~is_period(frame))
+    return frame["direction"].map(BEHIND).astype(float).where(~is_period(frame))
 
 
 def pressed_area(frame: DataFrame) -> Series:

@@ -44,6 +44,7 @@ from sweep.ranking.requirements import Outcome, check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import (
     FIRST,
+    bottomed,
     could_place,
     ended_early,
     interrupted,
@@ -241,6 +242,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             if len(rows)
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
+        bottomed=labels[bottomed(summary)].value_counts(sort=False).to_dict(),
         lost=labels[~labels.isin(list(scene_rows))].value_counts(sort=False).to_dict(),
         panel=tuple(in_si(side, "m") for side in panel or ()),
         per=per,

@@ -74,6 +74,11 @@ def interrupted(rows: DataFrame) -> Series:
     return (rows["loaded"] != 1) & ~rows["status"].isin(WITHOUT_PLACE)
 
 
+def bottomed(rows: DataFrame) -> Series:
+    """True for cases whose loading was not completed, as they bottom out."""
+    return (rows["loaded"] != 1) & (rows["status"] == Status.BOTTOMED_OUT)
+
+
 def unloaded(rows: DataFrame) -> Series:
     """True for rows that are ranked although their case stopped after the loading."""
     return (rows["loaded"] == 1) & (rows["status"] != Status.CONVERGED)

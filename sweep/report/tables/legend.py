@@ -23,8 +23,7 @@ SECOND = (
     "cycle 2: energy absorbed in the second cycle / in the first; other columns: the first cycle."
 )
 ELASTIC = """\
-Walls are elastic: the rest is lost to friction, in the material (by damping), in snap-through or in
-time integration."""
+Walls are elastic: the rest is lost to friction, damping, snap-through or time integration."""
 PLASTIC = "The rest is lost in the material, to friction and in snap-through."
 LOSSY = """\
 The rest is lost in the material (dissipated_material_J), to friction and in snap-through, or is

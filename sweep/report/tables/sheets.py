@@ -35,7 +35,7 @@ from sweep.report.tables.unfinished_notes import unfinished_notes
 
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
-LOST = "No design is ranked here: all cases failed ({})."
+LOST = "No design is ranked here: all cases {}."
 OPEN = """\
 The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
 PASSED_OVER = "{} value alone, {} marked ! or x would stand before the first."
@@ -109,7 +109,16 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             cases=tuple(rows["case_id"]),
         )
     for scene, count in ranking.lost.items():
-        yield Sheet(scene, [], [], notes=(LOST.format(count),))
+        yield Sheet(
+            scene, [], [], notes=(LOST.format(_ended(count, ranking.bottomed.get(scene, 0))),)
+        )
+
+
+def _ended(count: int, closed: int) -> str:
+    """How all cases of a scene ended, in words. closed: number of those that bottom out."""
+    if closed == count:
+        return f"bottom out ({count})"
+    return f"failed ({count}{f', {closed} by bottoming out' if closed else ''})"
 
 
 def _open(placed: DataFrame) -> Iterator[str]:

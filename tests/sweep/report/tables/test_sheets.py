@@ -21,14 +21,22 @@ def test_a_first_place_is_open_if_a_longer_crush_may_change_it(energy, is_open):
     assert (OPEN in sheet.notes) == is_open
 
 
-def test_a_scene_in_which_nothing_has_a_place_is_named():
-    stopped = {"status": "stopped", "loaded": 0, "platen": "contact"}
-    table = summary(CRUSHED_SOLID, stopped, stopped, {"platen": "x", "densification_strain": NAN})
+@pytest.mark.parametrize(
+    ("statuses", "ended"),
+    [
+        (("stopped", "stopped"), "failed (2)"),
+        (("stopped", "bottomed_out"), "failed (2, 1 by bottoming out)"),
+        (("bottomed_out", "bottomed_out"), "bottom out (2)"),
+    ],
+)
+def test_a_scene_in_which_nothing_has_a_place_is_named(statuses, ended):
+    failed = [{"status": status, "loaded": 0, "platen": "contact"} for status in statuses]
+    table = summary(CRUSHED_SOLID, *failed, {"platen": "x", "densification_strain": NAN})
     first, unmeasured, lost = ranking_sheets(ranked(table, by="densification_strain"), table)
     assert (len(first.rows), unmeasured.heads, lost.rows) == (1, [], [])
     assert unmeasured.notes == ("No design is ranked here.",)
     assert "contact platens" in lost.title
-    assert lost.notes == ("No design is ranked here: all cases failed (2).",)
+    assert lost.notes == (f"No design is ranked here: all cases {ended}.",)
 
 
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
