@@ -32,7 +32,8 @@ def bottoms_out(result: Result) -> str:
             why = _struck(result)
         case DeadLoad() if not isinstance(result.case.lattice, CustomStructure):
             filled = float(result.summary["relative_density"])
-            why = _pressed(result, filled) or _overloaded(result.case, filled)
+            has_voids = 0.0 < filled < 1.0
+            why = _pressed(result, filled) or _overloaded(result.case, filled) if has_voids else ""
         case _:
             why = ""
     return f"{why}: {ADVICE}" if why else ""
@@ -61,7 +62,7 @@ def _pressed(result: Result, filled: float) -> str:
 def _overloaded(case: Case, filled: float) -> str:
     loading = case.loading
     assert isinstance(loading, DeadLoad)
-    if case.shells or not 0.0 < filled < 1.0:
+    if case.shells:
         return ""
     stress = -float(stress_law(case.material).at(np.array([filled - 1.0]))[0])
     section = filled * case.lattice.outer_size[0] * case.lattice.depth
