@@ -361,13 +361,14 @@ COLUMNS: dict[str, Column] = {
     ),
     "stroke_left_m": Column(
         "m",
-        "stroke that closes all voids - greatest stroke of the striker; NaN if a platen crushes",
+        "stroke that closes all voids - greatest stroke of the striker or of a dead load on a "
+        "platen; NaN if a platen crushes",
         "more",
     ),
     "bottomed_out": Column(
         "1",
-        "1 if the striker closes all voids below it, so that stroke_left_m is not positive; else "
-        "0; NaN if a platen crushes",
+        "1 if all voids below the striker or a loaded platen are closed, so that stroke_left_m is "
+        "not positive; else 0; NaN if a platen crushes",
         "less",
     ),
     "rebound_speed_m_per_s": Column(

@@ -36,7 +36,7 @@ class Status(StrEnum):
 
     `slipped` is an answer too: the striker has lost the lattice, or the lattice has tipped
     over, so that the design has no place. So is `bottomed_out`: a striker or a dead load that could
-    not be followed has closed all voids of the lattice.
+    not be followed is far beyond the lattice, so that the design is behind those that hold.
     """
 
     CONVERGED = "converged"

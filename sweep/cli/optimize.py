@@ -14,6 +14,7 @@ from sweep.loading_modes import MODES
 from sweep.numbers import text_in
 from sweep.ranking.assessment import check_column, front, thinned
 from sweep.ranking.curves import with_allowed
+from sweep.ranking.merit import bottomed
 from sweep.ranking.question import Question, in_si
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
@@ -106,7 +107,7 @@ def _show_best(search: Search) -> int:
     assessment, question = search.assessment, search.question
     check_found(search)
     if assessment is None or not (assessment.by_id or assessment.missed):
-        say(f"None of {len(search.cases)} designs can be ranked.")
+        say(_none_ranked(search))
         return max(1, len(search.cases))
     if assessment.doubtful:
         say(f"Excluded: {assessment.doubtful} designs whose results rank marks with ! or x.")
@@ -124,6 +125,21 @@ def _show_best(search: Search) -> int:
     print_sheets([finalist_sheet(part, summary, several=len(parts) > 1) for part in parts])
     say_all(unfinished_notes(ranking.unfinished, partial(named_case, among=summary)))
     return sum(part.failed for part in parts)
+
+
+def _none_ranked(search: Search) -> str:
+    """That no design can be ranked, and why."""
+    rows = search.rows()
+    failed, closed = int((rows["loaded"] != 1).sum()), int(bottomed(rows).sum())
+    doubtful = search.assessment.doubtful if search.assessment else 0
+    reasons = []
+    if failed:
+        some = f", {closed} of them by bottoming out" if closed else ""
+        reasons.append(f"{failed} failed{some}: crumple status {quoted(str(search.out))} says why")
+    if doubtful:
+        reasons.append(f"rank marks {doubtful} with ! or x")
+    why = f" ({'; '.join(reasons)})" if reasons else ""
+    return f"None of {len(search.cases)} designs can be ranked{why}."
 
 
 def _show_nearest(search: Search) -> None:

@@ -27,6 +27,7 @@ from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     Compared,
+    bottomed,
     check_areas,
     check_budgets,
     doubtful,
@@ -44,7 +45,6 @@ from sweep.ranking.requirements import Outcome, check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import (
     FIRST,
-    bottomed,
     could_place,
     ended_early,
     interrupted,

@@ -242,6 +242,7 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
 
     The efficiency energy / greatest force is nearly the same at both strains, so that their forces
     lie between the lower energy / efficiency and the higher one / (1 - `SAME_EFFICIENCY`) of it.
+    The stroke is that of one of the strains.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))
@@ -250,9 +251,11 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     force = rows["passed_on_N"] * count
     efficiency = rows["absorbed_energy_at_densification_J"] / rows["peak_force_at_densification_N"]
     most = high / ((1.0 - SAME_EFFICIENCY) * efficiency)
-    of_force = (np.fmax(force - low / efficiency, most - force) / force).where(
-        high > low * (1.0 + ROUND_OFF)
-    )
+    twice = high > low * (1.0 + ROUND_OFF)
+    of_force = (np.fmax(force - low / efficiency, most - force) / force).where(twice)
+    packed = rows["packing_strain"]
+    first, last = (rows.get(f"{end}_densification_strain", packed) for end in ("lowest", "highest"))
+    of_stroke = (np.fmax(packed - first, last - packed) / packed).where(twice)
     whole = _bar(rows, "peak_force_N")
     none = Series(0.0, index=rows.index)
     errors = {
@@ -260,7 +263,10 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
         "max_deceleration": [_bar(rows, "peak_deceleration_filtered_m_per_s2")],
         "max_target_acceleration": [whole],  # force / mass
         "min_absorbed": [_bar(rows, names.energy), of_energy],
-        "max_stroke": [_bar(rows, "packing_strain").where(crushed, _bar(rows, "peak_strain"))],
+        "max_stroke": [
+            _bar(rows, "packing_strain").where(crushed, _bar(rows, "peak_strain")),
+            of_stroke,
+        ],
     }
     of_steps = {name: rows.get(one.step_error, none) for name, one in MEASURES.items()}
     return {

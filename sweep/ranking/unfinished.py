@@ -11,8 +11,8 @@ infinite:
   its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
-the place that it has at least; doubtful designs follow all others. A requirement that it already
-misses, or its mass, excludes it.
+the place that it has at least; doubtful designs, as are those that bottom out, follow all others. A
+requirement that it already misses, or its mass, excludes it.
 """
 
 import re
@@ -46,10 +46,6 @@ FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
 """The first columns of `could_place`."""
 
 
-WITHOUT_PLACE = Status.SLIPPED, Status.BOTTOMED_OUT
-"""Answers that give a design no place."""
-
-
 class Ends(NamedTuple):
     """The least and the greatest final value of each row."""
 
@@ -68,15 +64,8 @@ def ended_early(rows: DataFrame, by: str) -> Series:
 
 
 def interrupted(rows: DataFrame) -> Series:
-    """True for cases whose loading was not completed, except those that lost their lattice or
-    closed its voids.
-    """
-    return (rows["loaded"] != 1) & ~rows["status"].isin(WITHOUT_PLACE)
-
-
-def bottomed(rows: DataFrame) -> Series:
-    """True for cases whose loading was not completed, as they bottom out."""
-    return (rows["loaded"] != 1) & (rows["status"] == Status.BOTTOMED_OUT)
+    """True for cases whose loading was not completed, except those that lost their lattice."""
+    return (rows["loaded"] != 1) & (rows["status"] != Status.SLIPPED)
 
 
 def unloaded(rows: DataFrame) -> Series:

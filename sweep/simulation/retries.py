@@ -96,8 +96,8 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
 
 
 def _reach(result: Result) -> tuple[bool, bool, bool]:
-    """How far a run came: whether it converged, completed its loading, or lost its striker or all
-    voids.
+    """How far a run came: whether it converged, completed its loading, or lost its striker or
+    bottomed out.
     """
     converged, slipped = (result.status is status for status in ENDED)
     return converged, result.summary["loaded"] == 1, slipped or bottoms_out(result) != ""
@@ -106,24 +106,29 @@ def _reach(result: Result) -> tuple[bool, bool, bool]:
 def _final_result(
     case: Case, best: Result, attempts: list[str], spent: float, interrupted: bool
 ) -> Result:
-    """The best result under the id of ``case``, with the processor time of all attempts (s).
+    """The best result under the id of ``case``, with the processor time of all attempts (s)."""
+    failed = best.status not in ENDED and best.summary["loaded"] != 1 and not interrupted
+    beyond = bottoms_out(best) if failed else ""
+    status = Status.BOTTOMED_OUT if beyond else best.status
+    message = beyond or _message(case, best, attempts)
+    own: dict[str, float | str] = {"case_id": case.case_id, "status": str(status)}
+    own |= {"message": message, "cpu_s": spent}
+    return replace(best, case=case, status=status, message=message, summary={**best.summary, **own})
 
-    Its message says what was tried without success, instead of advising it.
+
+def _message(case: Case, best: Result, attempts: list[str]) -> str:
+    """The message of the best result; it says what was tried without success, instead of advising
+    it.
     """
-    status, message = best.status, best.message
-    if status not in ENDED and not interrupted:
-        closed = bottoms_out(best)
-        status, message = (Status.BOTTOMED_OUT, closed) if closed else (status, message)
+    message = best.message
     attempts = [words for words in attempts if words != best.summary["retry"]]
     if attempts and best.status is not Status.CONVERGED:
         what, _, advice = message.partition("; try ")
         repeats = any(words.split(" = ")[0] in advice for words in attempts)
         message = f"{what if repeats else message} (tried without success: {'; '.join(attempts)})"
-    if status not in (Status.CONVERGED, Status.BOTTOMED_OUT):
+    if best.status is not Status.CONVERGED:
         message += faster_than_sound(case)
-    own: dict[str, float | str] = {"case_id": case.case_id, "status": str(status)}
-    own |= {"message": message, "cpu_s": spent}
-    return replace(best, case=case, status=status, message=message, summary={**best.summary, **own})
+    return message
 
 
 def _changes(result: Result) -> Iterator[tuple[str, Case]]:

@@ -73,6 +73,7 @@ from sweep.simulation.time_resolution import (
 
 FRAMES = 40
 EARLY_FRAMES = 4 * FRAMES  # most impacts and many paths end within a quarter of their steps
+FEW_FRAMES = 8  # even frames of a run that ends soon
 GAP = 1e-3  # allowed residual, as a share of the greatest energy in the book
 CURABLE = {  # other steps or another imperfection may help
     *(outcomes.ITERATIONS, outcomes.STALLED, outcomes.SINGULAR, outcomes.INACCURATE),
@@ -243,7 +244,8 @@ class _Run:
         self.struck = isinstance(case.loading, Impact)
         early = self.struck or isinstance(case.solver, Arcs)
         count = EARLY_FRAMES if early else FRAMES * case.loading.cycles
-        self.slot_of, kept = _frames(total + 1, count)
+        self.slot_of, kept = _frames(total + 1, count, early)
+        self.even_from = total / count  # row of the first even frame after the start
         self.slots = np.full(total + 1, -1)  # of the rows that are kept
         self.slots[0] = 0
         self.positions = np.tile(scene.x_rest, (kept, 1))
@@ -436,10 +438,15 @@ class _Run:
         return rows
 
     def shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """The rows with a stored shape, up to the last row, and their positions (f, n)."""
+        """The rows with a stored shape, up to the last row, and their positions (f, n).
+
+        The shapes before the first even one are of use only to runs that end soon after it.
+        """
         slots = self.slots[: self.reached]
         last = np.flatnonzero(np.diff(slots, append=-1))  # a later row overwrites its slot
         last = last[last < self.done]
+        even = (last == 0) | (last >= self.even_from)
+        last = last[even] if even.sum() > FEW_FRAMES else last
         return self.rows[last], self.positions[slots[last]]
 
     def frames(self) -> dict[str, np.ndarray]:
@@ -467,10 +474,13 @@ class _Run:
         }
 
 
-def _frames(n_rows: int, frames: int) -> tuple[np.ndarray, int]:
-    """The slot of every row for about ``frames`` even frames, and their number.
+def _frames(n_rows: int, frames: int, early: bool) -> tuple[np.ndarray, int]:
+    """The slot of every row for about ``frames`` even frames, and their number; with ``early`` also
+    frames before the first even one, at growing distances.
 
     The last of the rows with the same slot is kept.
     """
-    kept = np.unique(np.linspace(0, n_rows - 1, min(frames + 1, n_rows)).round().astype(int))
+    even = np.linspace(0, n_rows - 1, min(frames + 1, n_rows))
+    before = np.geomspace(1.0, max(even[-1] / frames, 1.0), FRAMES) if early else even
+    kept = np.unique(np.concatenate([even, before]).round().astype(int))
     return np.searchsorted(kept, np.arange(n_rows)), len(kept)

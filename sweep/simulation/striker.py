@@ -23,6 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sweep.config.case import Case
+from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.striker import WithStriker
 from sweep.scene.mesh import Floats
@@ -102,26 +103,29 @@ def work_on_lattice(case: Case, history: Curves) -> Floats:
     return history["work_in_J"]
 
 
-def striker_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
-    """The columns `MEASURES`: the stroke left for any striker but a platen, the others for an
-    impact; NaN for the rest.
+def striker_columns(
+    case: Case, scene: Scene | PlateScene, history: Curves, stroke: float
+) -> dict[str, float]:
+    """The columns `MEASURES`: the stroke left for a dead load between platens and for any striker
+    but a platen, the others for an impact; NaN for the rest. stroke: the greatest, m.
     """
     loading = case.loading
     columns = dict.fromkeys(MEASURES, nan)
     shaped = isinstance(loading, WithStriker) and loading.striker != "flat"
-    if shaped or isinstance(loading, Impact):
-        columns |= stroke_columns(case, scene, history)
+    pressed = isinstance(loading, DeadLoad) and loading.platen != "none"
+    if shaped or pressed or isinstance(loading, Impact):
+        columns |= stroke_columns(case, scene, stroke)
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
 
 
-def stroke_columns(case: Case, scene: Scene | PlateScene, history: Curves) -> dict[str, float]:
+def stroke_columns(case: Case, scene: Scene | PlateScene, stroke: float) -> dict[str, float]:
     """stroke_left_m: the stroke that closes all voids, minus the greatest stroke; bottomed_out:
     whether no stroke is left.
     """
     outer = case.lattice.outer_size
     height = case.height if case.shells else outer[1]
     voids = (1.0 - filled(case, scene)) * height
-    left = float(voids - history["top_displacement_m"].max())
+    left = float(voids - stroke)
     return {"stroke_left_m": left, "bottomed_out": float(left <= 0.0)}
 
 

@@ -194,7 +194,7 @@ def summarise(  # noqa: PLR0913  of one case each
         "min_gap_m": float(gaps.min()) if len(gaps) else np.nan,
         "touched": int(any(np.any(history[name] != 0.0) for name in TOUCHING)),
         **columns_of_cycles(cycles, history["work_in_J"], force),
-        **striker_columns(case, scene, history),
+        **striker_columns(case, scene, history, strain * case.height),
         **base_columns(case, history),
         **crush_columns(case, loading),
         **(dict.fromkeys(PEAKS, peak) if is_whole else {}),

@@ -14,19 +14,20 @@ from sweep.simulation.simulate import simulate
 CELLS = {"cells_x": 2, "cells_y": 2, "nodes_per_wall": 2}
 STIFF = {"modulus": 1e7, "density": 1000.0, "poisson": 0.0}
 FEW = {"max_iterations": 1, "retry": False}  # whatever snaps fails
+LONG = {"time_step": 1e-3, "integrator": "backward_euler", "retry": False}
 
 
 def struck(mass, **solver):
-    """A striker at 5 m/s on cells of 2.5 g."""
+    """A striker at 5 m/s on cells of less than a gram."""
     impact = {"mode": "impact", "striker_mass": mass, "striker_speed": 5.0, "duration": 0.02}
     return Case.of(lattice=CELLS, loading=impact, solver=solver)
 
 
-def pressed(force, **solver):
-    """A dead load (N) on cells of a linear law, without contact."""
-    load = {"mode": "force", "force": force, "duration": 5e-3}
-    contact = {"model": "none"}
-    return Case.of(lattice=CELLS, material=STIFF, loading=load, contact=contact, solver=solver)
+def pressed(force, platen="contact", release_time=5e-3, **solver):
+    """A dead load (N) on cells of a linear law."""
+    times = {"duration": 5e-3, "release_time": release_time}
+    load = {"mode": "force", "force": force, "platen": platen} | times
+    return Case.of(lattice=CELLS, material=STIFF, loading=load, solver=solver)
 
 
 def column(case):
@@ -38,35 +39,38 @@ def column(case):
     return STIFF["modulus"] * (1.0 - filled) * filled * width * depth
 
 
-def test_an_unresolved_striker_that_has_closed_all_voids_is_an_answer():
-    case = struck(5.0, time_step=1e-3, integrator="backward_euler", retry=False)
+def test_an_unresolved_striker_with_twice_the_energy_is_an_answer():
+    case = struck(5.0, **LONG)
     assert simulate(case).status == Status.UNRESOLVED
     result = simulate_again(case)
     assert result.status == result.summary["status"] == Status.BOTTOMED_OUT
     assert (result.summary["loaded"], result.summary["bottomed_out"]) == (0, 1.0)
-    closed = float(result.message.split("at strain ")[1].split(",")[0])
-    voids = result.summary["stroke_left_m"] / case.height + result.history["strain"].max()
-    assert voids <= closed < voids + 0.2
     assert "% of its energy left: the lattice bottoms out" in result.message
 
 
 def test_the_energy_left_is_that_of_the_striker_where_the_voids_are_closed():
-    case = struck(5.0, time_step=1e-3, integrator="backward_euler", retry=False)
-    result = simulate(case)
+    """Between two rows, the force of the lattice is taken as constant."""
+    result = simulate(struck(5.0, **LONG))
     depth, speed = (result.history[n] for n in ("top_displacement_m", "striker_speed_m_per_s"))
-    row = np.flatnonzero(depth - depth.max() >= result.summary["stroke_left_m"])[0]
-    assert f"with {100.0 * (speed[row] / 5.0) ** 2:.2g} % of" in bottoms_out(result)
+    voids = depth.max() + result.summary["stroke_left_m"]
+    row = np.flatnonzero(depth > voids)[0]
+    way = (voids - depth[row - 1]) / (depth[row] - depth[row - 1])
+    before, after = speed[row - 1 : row + 1] ** 2
+    left = 100.0 * (before + way * (after - before)) / 25.0
+    said = float(bottoms_out(result).split("with ")[1].split(" %")[0])
+    assert left == pytest.approx(said, abs=0.51)
 
 
-def test_an_unresolved_striker_that_leaves_voids_is_no_answer():
-    case = struck(0.05, time_step=5e-3, integrator="backward_euler", retry=False)
-    result = simulate_again(case)
-    assert result.status == Status.UNRESOLVED
+@pytest.mark.parametrize(("mass", "closes"), [(0.005, 0.0), (0.05, 1.0)])
+def test_an_unresolved_striker_that_may_hold_is_no_answer(mass, closes):
+    """Long steps of backward Euler may close voids that shorter ones leave."""
+    result = simulate_again(struck(mass, **LONG))
+    assert (result.status, result.summary["bottomed_out"]) == (Status.UNRESOLVED, closes)
     assert bottoms_out(result) == ""
 
 
 def test_a_run_that_is_interrupted_is_run_again():
-    case = struck(5.0, time_step=1e-3, integrator="backward_euler")
+    case = struck(5.0, **LONG)
     closed = simulate(case)
 
     def stops(*_):
@@ -78,17 +82,30 @@ def test_a_run_that_is_interrupted_is_run_again():
         assert simulate_again(case, np.array([0, 0])).status == Status.BOTTOMED_OUT
 
 
-@pytest.mark.parametrize(("share", "status"), [(1.05, Status.BOTTOMED_OUT), (0.95, Status.STOPPED)])
-def test_a_load_that_no_lattice_of_this_mass_bears_is_named_as_such(share, status):
+@pytest.mark.parametrize(
+    ("share", "changes", "status"),
+    [
+        (1.05, {}, Status.BOTTOMED_OUT),
+        (0.95, {}, Status.STOPPED),
+        (1.05, {"platen": "none"}, Status.STOPPED),  # may hang below its base
+        (1.05, {"release_time": 1e-4}, Status.STOPPED),  # may not fall far
+    ],
+)
+def test_a_load_that_no_lattice_of_this_mass_bears_is_named_as_such(share, changes, status):
     force = share * column(pressed(1.0))
-    result = simulate_again(pressed(force, **FEW))
+    result = simulate_again(pressed(force, **changes, **FEW))
     assert result.status == status
-    assert result.summary["peak_strain"] < 1.0 - result.summary["relative_density"]
-    assert ("the load is 1.05 times that which presses a column" in result.message) == (share > 1.0)
+    known = "the load is 1.05 times what a solid column" in result.message
+    assert known == (status == Status.BOTTOMED_OUT)
 
 
-def test_a_load_that_has_closed_all_voids_before_it_failed_is_an_answer():
-    result = simulate(pressed(0.95 * column(pressed(1.0)), **FEW))
-    assert bottoms_out(result) == ""
-    deep = {**result.summary, "peak_strain": 1.001 - result.summary["relative_density"]}
-    assert "the load has closed all voids (strain 0." in bottoms_out(replace(result, summary=deep))
+@pytest.mark.parametrize(("newton", "closes"), [(1.0, 0.0), (200.0, 1.0)])
+def test_a_dead_load_on_a_platen_has_a_stroke_left(newton, closes):
+    """The height of walls, not of their centre lines, is that of the voids."""
+    case = pressed(newton)
+    summary = simulate(case).summary
+    voids = (1.0 - summary["relative_density"]) * case.lattice.outer_size[1]
+    assert summary["stroke_left_m"] == pytest.approx(voids - summary["peak_strain"] * case.height)
+    assert summary["bottomed_out"] == closes == float(summary["stroke_left_m"] <= 0.0)
+    free = simulate(pressed(newton, platen="none", **FEW)).summary
+    assert np.isnan(free["stroke_left_m"])

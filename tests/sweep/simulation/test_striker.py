@@ -241,6 +241,9 @@ def test_a_run_ends_when_all_energy_is_spent(monkeypatch):
     whole = simulate(case)
     assert ended.status == whole.status == "converged"
     assert ended.history["time_s"][-1] < 0.5 * whole.history["time_s"][-1]
+    strains = ended.frames["strain"]
+    assert len(strains) > 8
+    assert strains.max() > 0.9 * ended.summary["peak_strain"]
     left = sum(ended.history[name] for name in ("kinetic_J", *RECOVERABLE))
     assert left[-1] <= 1e-4 * left[0] < left[-2]
     for name in ("peak_force_N", "peak_strain", "absorbed_energy_J"):
