@@ -242,7 +242,7 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
 
     The efficiency energy / greatest force is nearly the same at both strains, so that their forces
     lie between the lower energy / efficiency and the higher one / (1 - `SAME_EFFICIENCY`) of it.
-    The stroke is that of one of the strains.
+    The stroke follows from one of the strains.
     """
     crushed = has(rows, "driven")
     low, high = (rows.get(name, rows[names.energy]) for name in end_columns(names.energy))

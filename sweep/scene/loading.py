@@ -174,7 +174,7 @@ def tolerances(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> Tol
 
 
 def round_off_decides(case: Case, scene: Scene | PlateScene, stage: march.Stage) -> bool:
-    """Whether the admissible residual is that of round-off, as steps are short or loads small."""
+    """Whether round-off sets the admissible residual, as steps are short or loads are small."""
     own = case.solver.tolerance * _typical_force(scene)
     return ROUND_OFF * scene.largest_force(stage) > own
 

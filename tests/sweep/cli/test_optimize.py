@@ -145,7 +145,11 @@ def test_force_of_the_panel_is_looked_up_in_the_curves(capsys, config):
 @pytest.mark.parametrize(
     ("text", "status", "told"),
     [
-        (TOML.replace('["square", "hex", "diamond"]', '["brick"]'), 1, "None of 8 designs can be"),
+        (
+            TOML.replace('["square", "hex", "diamond"]', '["brick"]'),
+            1,
+            "None of 8 designs can be ranked (8 failed: crumple status results/sought.h5 says",
+        ),
         (f'{SHEET}cell_size" = ["5 mm", "7 mm"]', 2, "gyroid in [search]; allowed: lattices that"),
         (f'{SHEET}wall_thickness" = ["0.3 mm", "0.6 mm"]', 2, "gyroid in [search]; allowed: latt"),
         ("[grid]\nlattice.cells = [2, 3]", 2, "has no [search] "),

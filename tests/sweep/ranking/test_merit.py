@@ -56,8 +56,11 @@ def test_what_is_pressed_into_less_than_its_solid_is_marked():
     table = summary(struck | {"stroke_left_m": -1e-4}, struck | {"stroke_left_m": 1e-4})
     ranking = rank(table)
     assert (ids(ranking), list(ranking["beyond_model"])) == ([1, 0], [False, True])
-    held = {"loading_mode": "force", "force_N": 5.0, "stroke_left_m": NAN}
-    table = summary(held | {"peak_strain": 0.99}, held | {"peak_strain": 1.03})
+    held = {"loading_mode": "force", "force_N": 5.0}
+    free = held | {"stroke_left_m": NAN}
+    table = summary(free | {"peak_strain": 0.99}, free | {"peak_strain": 1.03})
+    assert list(rank(table)["beyond_model"]) == [False, True]
+    table = summary(held | {"stroke_left_m": -1e-4}, held | {"stroke_left_m": 1e-4})
     assert list(rank(table)["beyond_model"]) == [False, True]
 
 

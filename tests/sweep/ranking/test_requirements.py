@@ -287,7 +287,7 @@ def test_errors_of_a_panel_are_those_of_its_specimens():
 
 def test_a_range_of_the_energy_makes_its_limits_uncertain():
     """180 mJ at 30 N are means. At the greatest efficiency 180 mJ are absorbed at 29 N, so that
-    150 mJ are at 24 N and 210 mJ below 34.5 N.
+    150 mJ are at 24 N and 210 mJ below 34.5 N. The strokes of 4.27 and 5.49 mm are as good.
     """
     ends = {"lowest": [0.1, 0.15, 0.4], "highest": [0.1, 0.21, 0.4]}
     ranges = {f"{k}_absorbed_energy_at_densification_J": v for k, v in ends.items()}
@@ -295,16 +295,22 @@ def test_a_range_of_the_energy_makes_its_limits_uncertain():
         "absorbed_energy_at_densification_J": [0.1, 0.18, 0.4],
         "peak_force_at_densification_N": [20.0, 29.0, 60.0],
     }
+    strains = {"lowest": [0.5, 0.35, 0.3], "highest": [0.5, 0.45, 0.3]}
+    ranges |= {f"{k}_densification_strain": v for k, v in strains.items()}
     table = CRUSHED.assign(**ranges, **densest, peak_force_N=90.0)
     for asked, meets in (
         ({"min_absorbed": "0.16 J"}, True),
         ({"min_absorbed": "0.2 J"}, False),
         ({"max_force": "34 N"}, True),
         ({"max_force": "25 N"}, False),
+        ({"max_stroke": "5.4 mm"}, True),
+        ({"max_stroke": "4.4 mm"}, False),
     ):
         (rows,) = the_outcome(table, require=asked).close.values()
         assert (ids(rows), list(rows["meets"])) == ([1], [meets])
     for name, limit in (("min_absorbed", "0.22 J"), ("max_force", "36 N"), ("max_force", "23 N")):
+        assert the_outcome(table, require={name: limit}).close[name].empty
+    for name, limit in (("max_stroke", "5.6 mm"), ("max_stroke", "4.2 mm")):
         assert the_outcome(table, require={name: limit}).close[name].empty
 
 
