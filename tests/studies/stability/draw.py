@@ -31,7 +31,7 @@ RECORDS = (
     "polymaker_tpu90",
     "ultimaker_tpu95a",
 )
-ALIKE = {"solver.time_limit": 120.0, "solver.max_iterations": 500}
+ALIKE = {"solver.max_iterations": 500}
 HEAD = """\
 # Five hundred stiff and extreme scenes, for `make stability`.
 #
@@ -39,7 +39,6 @@ HEAD = """\
 name = "extreme"
 
 [solver]
-time_limit = "120 s"
 max_iterations = 500
 
 [[zip]]

@@ -14,7 +14,7 @@ from tests.studies.stability.draw import Draws
 
 COUNT, SEED = 300, 43
 IN_TIME = "backward_euler", "bdf2", "newmark"
-ALIKE = {"time_limit": 120.0, "max_iterations": 500}
+ALIKE = {"max_iterations": 500}
 CLAMPED = ["x", "y", "rotation"]
 
 

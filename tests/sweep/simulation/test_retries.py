@@ -152,7 +152,7 @@ def test_the_switch_is_no_part_of_the_id():
 
 
 def test_a_lattice_that_tips_over_in_long_steps_is_retried_in_shorter_ones():
-    case = scene(404)[1].changed(solver={"time_limit": 300.0})
+    case = scene(404)[1]
     assert simulate(case).status == Status.SLIPPED
     result = simulate_again(case)
     assert (result.status, result.summary["retry"]) == (Status.CONVERGED, "solver.load_steps = 168")
@@ -160,7 +160,7 @@ def test_a_lattice_that_tips_over_in_long_steps_is_retried_in_shorter_ones():
 
 
 def test_a_drawn_scene_that_gained_energy_in_few_steps_takes_shares_of_them():
-    case = scene(269)[1].changed(solver={"time_limit": 300.0})  # compilation may be part of it
+    case = scene(269)[1]
     result = simulate_again(case)
     assert (result.status, result.summary["retry"]) == (Status.SLIPPED, "")  # it tips over
     assert result.summary["steps"] > case.solver.load_steps
