@@ -8,7 +8,8 @@ A run that fails there has an answer nevertheless, if nothing in it is close:
   to absorb twice what it has absorbed until then, or more.
 - The load would press a solid column of the mass of the lattice, the stiffest of all shapes (W.
   Voigt, Lehrbuch der Kristallphysik, 1910), until it is as low as the lattice without voids, and
-  acts for several times as long as a free fall through the height takes.
+  acts for several times as long as a free fall through the height takes. Without platens the top
+  may also swing below its base, and hang there.
 """
 
 from math import sqrt
@@ -27,21 +28,23 @@ from sweep.simulation.striker import closing_speed
 
 LEFT = 0.5  # least share of the energy of a striker where it closes all voids
 FALLS = 4.0  # least time of a dead load, in free falls under it through the height of the lattice
-ENDS = "the lattice bottoms out, and what follows is beyond the model"
+ENDS = "the lattice {}, and what follows is beyond the model"
+CLOSED, FREE = "bottoms out", "bottoms out or swings below its base"
 
 
 def bottoms_out(result: Result) -> str:
     """Why the lattice of a failed case bottoms out, in words; empty if that is not certain."""
-    case = result.case
+    case, ends = result.case, CLOSED
     match case.loading:
         case Impact():
             why = _struck(result)
-        case DeadLoad(platen=platen) if platen != "none" and not case.shells:
+        case DeadLoad(platen=platen) if not case.shells:
+            ends = FREE if platen == "none" else CLOSED
             filled, grams = (float(result.summary[n]) for n in ("relative_density", "mass_g"))
             why = _pressed(case, filled, to_si(grams, "g"))
         case _:
             why = ""
-    return f"{why}: {ENDS}" if why else ""
+    return f"{why}: {ENDS.format(ends)}" if why else ""
 
 
 def _struck(result: Result) -> str:
