@@ -55,7 +55,7 @@ def _struck(result: Result) -> str:
     energy = 0.5 * loading.reduced_mass * closing_speed(result.history) ** 2
     stroke = float(result.summary["peak_strain"]) * result.case.height
     voids = stroke + float(result.summary["stroke_left_m"])
-    if depth.max() < voids:  # closed between two rows: it turns there
+    if not 0.0 < voids <= depth.max():  # a solid, or closed between two rows: it turns there
         return ""
     row = int(np.argmax(depth >= voids))
     left = float(np.interp(voids, depth[row - 1 : row + 1], energy[row - 1 : row + 1]))

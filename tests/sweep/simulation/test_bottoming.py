@@ -69,6 +69,15 @@ def test_an_unresolved_striker_that_may_hold_is_no_answer(mass, closes):
     assert bottoms_out(result) == ""
 
 
+@pytest.mark.parametrize("voids", [0.0, 2.0])
+def test_voids_that_no_row_closes_are_no_answer(voids):
+    """A solid has none; others may be closed for a moment between two rows. voids: strokes."""
+    result = simulate(struck(5.0, **LONG))
+    stroke = result.summary["peak_strain"] * result.case.height
+    changed = {**result.summary, "stroke_left_m": (voids - 1.0) * stroke}
+    assert bottoms_out(replace(result, summary=changed)) == ""
+
+
 def test_a_run_that_is_interrupted_is_run_again():
     case = struck(5.0, **LONG)
     closed = simulate(case)
