@@ -4,8 +4,8 @@ A lattice that is as low as a solid of its mass and width bottoms out: its walls
 pressed against each other, which is beyond the model, and often takes steps a thousandth as long.
 A run that fails there has an answer nevertheless, if nothing in it is close:
 
-- The striker closed all voids while it had at least half of its energy left: the lattice would have
-  to absorb twice what it has absorbed until then, or more.
+- A flat striker closed all voids while it had at least half of its energy left, and of the work of
+  its weight until then: the lattice would have to absorb twice what it has absorbed, or more.
 - The load would press a solid column of the mass of the lattice, the stiffest of all shapes (W.
   Voigt, Lehrbuch der Kristallphysik, 1910), until it is as low as the lattice without voids, and
   acts for several times as long as a free fall through the height takes. Without platens the top
@@ -36,7 +36,7 @@ def bottoms_out(result: Result) -> str:
     """Why the lattice of a failed case bottoms out, in words; empty if that is not certain."""
     case, ends = result.case, CLOSED
     match case.loading:
-        case Impact():
+        case Impact(striker="flat"):
             why = _struck(result)
         case DeadLoad(platen=platen) if not case.shells:
             ends = FREE if platen == "none" else CLOSED
@@ -59,7 +59,7 @@ def _struck(result: Result) -> str:
         return ""
     row = int(np.argmax(depth >= voids))
     left = float(np.interp(voids, depth[row - 1 : row + 1], energy[row - 1 : row + 1]))
-    share = left / loading.relative_energy
+    share = left / (loading.relative_energy + loading.weight * voids)
     if share < LEFT:
         return ""
     return f"the striker closes all voids with {percent(share)} % of its energy left"

@@ -110,7 +110,8 @@ def _final_result(
     failed = best.status not in ENDED and best.summary["loaded"] != 1 and not interrupted
     beyond = bottoms_out(best) if failed else ""
     status = Status.BOTTOMED_OUT if beyond else best.status
-    message = beyond or _message(case, best, attempts)
+    why = _message(case, best, [] if beyond else attempts)
+    message = f"{beyond} ({why})" if beyond else why
     own: dict[str, float | str] = {"case_id": case.case_id, "status": str(status)}
     own |= {"message": message, "cpu_s": spent}
     return replace(best, case=case, status=status, message=message, summary={**best.summary, **own})
