@@ -23,7 +23,7 @@ from sweep.ranking.spread import spreads
 from sweep.report.tables.design_text import named_case
 from sweep.report.tables.search_sheets import finalist_sheet, front_sheet, nearest_sheet
 from sweep.report.tables.sheets import ranking_sheets
-from sweep.report.tables.unfinished_notes import unfinished_notes
+from sweep.report.tables.unfinished_notes import failures, unfinished_notes
 from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.spread import run_corners
 from sweep.running.searching.finalists import finalists, perturbed
@@ -134,8 +134,8 @@ def _none_ranked(search: Search) -> str:
     doubtful = search.assessment.doubtful if search.assessment else 0
     reasons = []
     if failed:
-        some = f", {closed} of them by bottoming out" if closed else ""
-        reasons.append(f"{failed} failed{some}: crumple status {quoted(str(search.out))} says why")
+        some = failures(f"{failed} failed", closed)
+        reasons.append(f"{some}: crumple status {quoted(str(search.out))} says why")
     if doubtful:
         reasons.append(f"rank marks {doubtful} with ! or x")
     why = f" ({'; '.join(reasons)})" if reasons else ""

@@ -58,6 +58,7 @@ def version_counts(counts: Mapping[int, int]) -> str:
 def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     """Warnings about cases for a reader of the ranking."""
     from sweep.report.tables.missing_notes import incomplete
+    from sweep.report.tables.unfinished_notes import failures
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
@@ -83,10 +84,8 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         some = f"{ranking.unloaded} of {ranking.cases} cases stopped after the loading"
         yield f"{some}, which ranks them: crumple status {file} says why"
     if ranking.failed:
-        closed = sum(ranking.bottomed.values())
-        some = f", {closed} of them by bottoming out" if closed else ""
-        failed = f"{ranking.failed} of {ranking.cases} cases failed{some}"
-        yield f"{failed}: crumple status {file} says why"
+        some = f"{ranking.failed} of {ranking.cases} cases failed"
+        yield f"{failures(some, sum(ranking.bottomed.values()))}: crumple status {file} says why"
 
 
 def next_commands(file: str, ranking: Ranking) -> Iterator[str]:

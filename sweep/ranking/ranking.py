@@ -33,7 +33,7 @@ class Ranking:
     budgets_g: the budgets (g), each once.
     lightest_g: the least mass (g) of each scene. lightest: the row of that design.
     lost: number of cases of each scene in which no case completed its loading. bottomed: number of
-        cases without a place, as they bottom out, of each scene.
+        cases of each scene that bottom out.
     narrow: patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
     panel: the two lengths (m) of the panel in the question; none without one.
     per: to which the allowed force and the requirements apply, "specimen" or "panel".
