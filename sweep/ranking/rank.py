@@ -209,13 +209,13 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
     leading = [name for name in LEADING if name in parts[0]]
+    ranked = dict(zip(scene_rows, scenes, strict=True))
     stopped_rows = by_scene(whole[interrupted(whole) | unloaded(whole)], labels)
     stopped = [
         part.assign(scene=label)
-        for label, (rows, order) in zip(scene_rows, scenes, strict=True)
-        for part in could_place(
-            *(rows, stopped_rows.get(label, whole[:0]), order, masses, names, question, required)
-        )
+        for label, cases in stopped_rows.items()
+        for rows, order in [ranked.get(label, (whole[:0], _order(cases, by, usual)))]
+        for part in could_place(rows, cases, order, masses, names, question, required)
     ]
     return Ranking(
         table=widened(pd.concat(parts), summary, leading).reset_index(drop=True),

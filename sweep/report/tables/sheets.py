@@ -71,8 +71,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
         placed = rows = table[table["scene"] == scene]
         missed = _missed(scene, ranking, named)
         requirements = tuple(requirement_notes(scene, ranking, named))
-        stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
-        unfinished = tuple(unfinished_notes(stopped, named))
+        unfinished = _unfinished(scene, ranking, named)
         if rows.empty:
             notes = (*(missed or (NO_PLACE,)), *unfinished, *requirements)
             yield Sheet(scene, [], [], notes=notes)
@@ -109,9 +108,16 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             cases=tuple(rows["case_id"]),
         )
     for scene, count in ranking.lost.items():
-        yield Sheet(
-            scene, [], [], notes=(LOST.format(_ended(count, ranking.bottomed.get(scene, 0))),)
-        )
+        ended = LOST.format(_ended(count, ranking.bottomed.get(scene, 0)))
+        yield Sheet(scene, [], [], notes=(ended, *_unfinished(scene, ranking, named)))
+
+
+def _unfinished(
+    scene: str, ranking: Ranking, named: Callable[[DataFrame], str]
+) -> tuple[str, ...]:
+    """A sentence for each unfinished case of a scene that could have had a place."""
+    stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
+    return tuple(unfinished_notes(stopped, named))
 
 
 def _ended(count: int, closed: int) -> str:

@@ -119,8 +119,21 @@ def test_nothing_finished_is_an_empty_ranking():
     ranking = ranked(table)
     assert ranking.table.empty
     assert {"place", "scene", "pareto", "budget_g"} <= set(ranking.table)
+    assert ids(ranking.with_unfinished) == [0]
     (sheet,) = ranking_sheets(ranking, table)
-    assert (sheet.rows, len(sheet.notes)) == ([], 1)
+    assert (sheet.rows, len(sheet.notes)) == ([], 2)
+    assert "Unfinished: " in sheet.notes[1]
+
+
+def test_cases_of_a_scene_without_a_ranked_design_are_named():
+    """Their rows follow the table, as those of any other scene do."""
+    rows = [{"platen": "glued"}, {"platen": "loose", "status": "stopped", "loaded": 0}]
+    table = summary(*rows)
+    ranking = ranked(table)
+    assert ids(ranking.with_unfinished) == [0, 1]
+    assert ranking.unfinished["scene"].tolist() == list(ranking.lost)
+    _, lost = ranking_sheets(ranking, table)
+    assert "Unfinished: " in lost.notes[1]
 
 
 GENTLE = ["peak_force_N", "peak_deceleration_m_per_s2", "rebound_share", "rebound_speed_m_per_s"]

@@ -60,7 +60,7 @@ ENOUGH = {"min_absorbed": "0.25 J"}
         (LIGHT, {"require": ENOUGH, "by": "relative_density"}, [(3, 1, None)]),
         (LIGHT, {"require": ENOUGH, "by": "peak_force_N"}, [(3, 1, None)]),
         # No other case of its scene finished; and a place behind the shown ones.
-        (STOPPED | {"platen": "contact", "absorbed_energy_J": 0.9}, {}, []),
+        (STOPPED | {"platen": "contact", "absorbed_energy_J": 0.9}, {}, [(3, 1, None)]),
         (STOPPED | {"mass_g": 4.0}, {"by": "mass_g", "top": 2}, []),
     ],
 )

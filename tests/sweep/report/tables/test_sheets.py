@@ -36,7 +36,8 @@ def test_a_scene_in_which_nothing_has_a_place_is_named(statuses, ended):
     assert (len(first.rows), unmeasured.heads, lost.rows) == (1, [], [])
     assert unmeasured.notes == ("No design is ranked here.",)
     assert "contact platens" in lost.title
-    assert lost.notes == (f"No design is ranked here: all cases {ended}.",)
+    assert lost.notes[0] == f"No design is ranked here: all cases {ended}."
+    assert [note.split(":")[0] for note in lost.notes[1:]] == ["Unfinished", "Unfinished"]
 
 
 def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
