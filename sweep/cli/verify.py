@@ -58,7 +58,7 @@ def _different(file: str, rows: DataFrame) -> Iterator[str]:
     simulate = real_simulate(cases)
     for case in cases:
         case_id, row = case.case_id, rows.loc[case.case_id]
-        result = simulate(case, np.zeros(2, np.int64))
+        result = simulate(case, np.zeros(3, np.int64))
         new = result.summary
         others = [
             name

@@ -154,7 +154,7 @@ def answer(end: int, parent: int) -> None:
             simulate, case = channel.recv()
             channel.send(BEGUN)
             with limited_memory():
-                channel.send(attempt(simulate, case, np.zeros(2, np.int64)))
+                channel.send(attempt(simulate, case, np.zeros(3, np.int64)))
 
 
 def _end_with(parent: int) -> None:

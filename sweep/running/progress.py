@@ -79,10 +79,11 @@ class Progress:
     once it is over. waiting: number of waiting cases. work: total weight of the waiting cases, by
     their kind; `weight` is the weight of one case. done: number of cases of the sweep that were
     finished before. part: these cases are a part of a search, which reports the end of each part
-    itself: lines appear only if a part takes long.
+    itself: lines appear only if a part takes long. running: returns the share of its steps that
+    each long case has done.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  what there is to do, and how it is shown
         self,
         waiting: int,
         work: Mapping[Kind, float],
@@ -90,10 +91,12 @@ class Progress:
         console: Console | None = None,
         part: bool = False,
         weight: Callable[[Case], float] = cost,
+        running: Callable[[], Sequence[float]] = list,
     ) -> None:
         self.console = console or Stderr()
         self.part = part
         self.weight = weight
+        self.running = running
         self.total = done + waiting
         self.done, self.failed = done, 0
         self._left = dict(work)
@@ -152,12 +155,23 @@ class Progress:
         self._recent.append((now, self.done, sum(self._cpu.values())))
         while len(self._recent) > 2 and now - self._recent[0][0] > RECENT:
             self._recent.popleft()
+        self._show(now)
+
+    def tick(self) -> None:
+        """Show how far long cases are, while none ends; a terminal's bar does so by itself."""
+        if self.running():
+            self._show(time.monotonic())
+
+    def _show(self, now: float) -> None:
+        """Print the state of the sweep, unless it was printed a moment ago."""
         if not self.console.is_terminal and now - self._printed > self._period:
             self._printed, self._counts = now, (self.done, self.failed)
             self._update(self._line())
 
     def _line(self) -> str:
         parts = [f"{self.done}/{self.total} cases", *self._pace()]
+        if shares := self.running():
+            parts.append(f"running: {' and '.join(f'{100.0 * share:.0f} %' for share in shares)}")
         return ", ".join([*parts, f"{self.failed} failed"] if self.failed else parts)
 
     def _pace(self) -> list[str]:

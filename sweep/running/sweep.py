@@ -84,7 +84,9 @@ def run_sweep(  # noqa: PLR0913  what, where, how
         work = _work(simulate, to_run, place) if to_run else None
         with interruptible(stop):
             if work:
-                show = partial(Progress, len(to_run), done=len(done), part=part)
+                show = partial(
+                    Progress, len(to_run), done=len(done), part=part, running=stop.shares
+                )
                 _run_missing(to_run, work, workers, place, writer, show, stop)
             else:
                 with writer_thread() as thread:
@@ -141,7 +143,7 @@ def _run_missing(  # noqa: PLR0913  what, where, how
             first = partial(_sort_out, again, sink)
             in_place = place.runs(work.simulate) if place else work.simulate
             with nullcontext() if place else limited_memory():
-                run_on_threads(plan, journal.watched(in_place), first, stop)
+                run_on_threads(plan, journal.watched(in_place), first, stop, progress.tick)
             _run_alone(work.simulate, again, sink, stop)
 
 

@@ -14,6 +14,7 @@ from sweep.running.batches import Plan
 from sweep.running.child_process import MOMENT, Simulate, attempt
 
 MOST_THREADS = 8  # a short case holds Python's lock for 2 ms
+LONG = 10.0  # seconds after which the progress shows how far a case is
 
 Sink = Callable[[list[Result]], None]
 
@@ -28,37 +29,53 @@ def usual_workers() -> int:
 class Stop:
     """A request to stop, which also ends running simulations.
 
-    Each running case has its own array `control`, int64 (2,): control[0] = 1 ends the case.
+    Each running case has its own array `control`, int64 (3,): control[0] = 1 ends the case;
+    control[1] counts its steps, of control[2] that are planned.
     """
 
     def __init__(self) -> None:
         self.flag = False
-        self._running: dict[int, np.ndarray] = {}
+        self._running: dict[int, tuple[float, np.ndarray]] = {}  # start, s, and `control`
 
     def ask(self) -> None:
         """End all running cases and start no further ones."""
         self.flag = True
-        for control in list(self._running.values()):
+        for _, control in list(self._running.values()):
             control[0] = 1
 
     @contextmanager
     def control(self) -> Iterator[np.ndarray]:
         """The array `control` of one case, while the case runs."""
-        control = np.zeros(2, dtype=np.int64)
-        self._running[id(control)] = control
+        control = np.zeros(3, dtype=np.int64)
+        self._running[id(control)] = time.monotonic(), control
         control[0] = self.flag
         try:
             yield control
         finally:
             del self._running[id(control)]
 
+    def shares(self) -> list[float]:
+        """Share of its steps that each case has done which runs for more than `LONG`."""
+        before = time.monotonic() - LONG
+        return [
+            done / steps
+            for begun, (_, done, steps) in list(self._running.values())
+            if steps and begun < before
+        ]
 
-def run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> None:
+
+def run_on_threads(
+    plan: Plan,
+    simulate: Simulate,
+    sink: Sink,
+    stop: Stop,
+    tick: Callable[[], object] = lambda: None,
+) -> None:
     """Run all cases of a plan on `plan.workers` threads, and pass each finished batch to `sink`,
     one at a time.
 
     `simulate` should release the GIL. A `stop` ends the run early; interrupted cases do not reach
-    the sink.
+    the sink. tick: is called every `MOMENT`.
     """
     one_at_a_time = Lock()
 
@@ -77,6 +94,7 @@ def run_on_threads(plan: Plan, simulate: Simulate, sink: Sink, stop: Stop) -> No
             running = {pool.submit(work) for _ in range(plan.workers)}
             while running:  # Windows delivers no Ctrl-C while the main thread waits without a limit
                 ended, running = wait(running, MOMENT, FIRST_COMPLETED)
+                tick()
                 for thread in ended:
                     thread.result()
         except BaseException:  # of the sink, or a second Ctrl-C: the other threads end too

@@ -43,7 +43,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
 
     All attempts together may take `solver.time_limit`. stop: as in `simulate`.
     """
-    stop = np.zeros(2, np.int64) if stop is None else stop
+    stop = np.zeros(3, np.int64) if stop is None else stop
     due, coarse = time.monotonic() + case.solver.time_limit, _is_coarse(case)
     best = last = simulate(case, stop, case.solver.time_limit * (FIRST if coarse else 1.0))
     if coarse and best.status is Status.TIMED_OUT:

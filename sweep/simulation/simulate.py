@@ -92,14 +92,15 @@ def simulate(
     """Simulate ``case`` and return its `Result`; a numerical failure is a status, not an exception.
 
     case: a `Case`, or the tables of a config, as `crumple.case` takes them; `ConfigError` reports
-    their faults. stop: int64 (2,). Another thread sets stop[0] to 1 to interrupt, the time limit to
-    `EXPIRED`; stop[1] counts steps. seconds: time left of `solver.time_limit`; all of it if None.
+    their faults. stop: int64 (3,). Another thread sets stop[0] to 1 to interrupt, the time limit to
+    `EXPIRED`; stop[1] counts steps, of stop[2] that are planned. seconds: time left of
+    `solver.time_limit`; all of it if None.
     """
     case = case_of(case)
     started = time.thread_time()
     left = case.solver.time_limit if seconds is None else seconds
     try:
-        result = _simulated(case, np.zeros(2, np.int64) if stop is None else stop, left)
+        result = _simulated(case, np.zeros(3, np.int64) if stop is None else stop, left)
     except UnstableMaterialError as error:
         return failed_result(case, Status.STOPPED, str(error))
     spent = time.thread_time() - started  # includes the time to free the memory of the run
@@ -234,6 +235,7 @@ class _Run:
         self.blind = isinstance(case.loading, CustomLoading)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
+        control[2] = control[1] + total
         self.state = scene.at_rest()
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
@@ -387,7 +389,7 @@ class _Run:
             self.state.totals[0].last = 0.0  # loads jump between stages: do not extrapolate
         tolerance = tolerances(self.case, self.scene, stage)
         self.noise = tolerance.noise
-        arguments = self.scene.terms, tolerance, stage, self.state, out, self.control
+        arguments = self.scene.terms, tolerance, stage, self.state, out, self.control[:2]
         outcome, passed = (
             march.march(*arguments) if self.arc is None else arc_length.follow(*arguments, self.arc)
         )

@@ -112,9 +112,7 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
         yield Sheet(scene, [], [], notes=(ended, *_unfinished(scene, ranking, named)))
 
 
-def _unfinished(
-    scene: str, ranking: Ranking, named: Callable[[DataFrame], str]
-) -> tuple[str, ...]:
+def _unfinished(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> tuple[str, ...]:
     """A sentence for each unfinished case of a scene that could have had a place."""
     stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
     return tuple(unfinished_notes(stopped, named))

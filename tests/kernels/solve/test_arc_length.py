@@ -172,7 +172,7 @@ def test_keys_without_effect_are_refused(tmp_path, table, refused):
 
 
 def test_an_interruption_and_a_lost_path_are_told(monkeypatch):
-    interrupted = simulate(arcs_of(lee(8)), np.array([1, 0]))
+    interrupted = simulate(arcs_of(lee(8)), np.array([1, 0, 0]))
     monkeypatch.setattr("kernels.solve.arc_length.follow", lambda *_: (outcomes.STALLED, 0))
     lost = simulate(arcs_of(lee(8)))
     assert interrupted.status == lost.status == "stopped"

@@ -56,7 +56,7 @@ def test_running_cases_are_written_down_and_ended_ones_are_not(tmp_path):
             return simulate(case)
 
         for case in (one, other):
-            journal.watched(look)(case, np.zeros(2, np.int64))
+            journal.watched(look)(case, np.zeros(3, np.int64))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -66,7 +66,7 @@ def test_a_case_that_raises_has_ended(tmp_path):
 
     with Journal(tmp_path / "armor.h5") as journal:
         with pytest.raises(MemoryError):
-            journal.watched(broken)(cases(1)[0], np.zeros(2, np.int64))
+            journal.watched(broken)(cases(1)[0], np.zeros(3, np.int64))
         os.rename(tmp_path / ".armor.h5.running", tmp_path / ".b.h5.running")
     with Journal(tmp_path / "b.h5") as left:
         assert left.suspects == []
@@ -96,7 +96,7 @@ def test_a_full_disk_costs_no_result(tmp_path, monkeypatch):
 
     with Journal(tmp_path / "armor.h5") as journal:
         monkeypatch.setattr(os, "write", full)
-        result = journal.watched(simulate)(cases(1)[0], np.zeros(2, np.int64))
+        result = journal.watched(simulate)(cases(1)[0], np.zeros(3, np.int64))
     assert result.status == "converged"
 
 

@@ -68,6 +68,21 @@ def test_time_left_is_that_of_the_kinds_that_wait(clock):
         assert "left" not in told._line()
 
 
+def test_long_cases_show_how_far_they_are(clock):
+    """While none ends, a line every few seconds; a terminal's bar draws itself."""
+    shares, out = [], io.StringIO()
+    with Progress(8, ONE, console=Console(file=out), running=lambda: shares) as told:
+        told.tick()
+        assert out.getvalue() == ""  # no case is long yet
+        shares += [0.345, 0.02]
+        for _ in range(60):
+            clock.now += 0.2
+            told.tick()
+        lines = out.getvalue().splitlines()
+        shares.clear()
+    assert lines == ["0/8 cases, running: 34 % and 2 %"] * 3
+
+
 def test_plain_lines_are_few(clock):
     """The last one is not repeated if time passes after it."""
     batch, out = cases(100), io.StringIO()

@@ -43,6 +43,21 @@ def test_batches_are_handed_over_one_at_a_time_while_others_run():
     assert not any(clashes)
 
 
+def test_a_long_case_tells_how_far_it_is(monkeypatch):
+    monkeypatch.setattr("sweep.running.threads.LONG", 0.01)
+    stop, seen = Stop(), []
+
+    def works(case, control):
+        control[1:] = 1, 4
+        time.sleep(0.5)
+        return simulate(case)
+
+    plan = Plan(cases(1), 1)
+    run_on_threads(plan, works, Kept(), stop, tick=lambda: seen.append(stop.shares()))
+    assert seen[0] == [0.25]
+    assert stop.shares() == []
+
+
 def test_the_main_thread_never_waits_without_a_limit(monkeypatch):
     """On Windows it would hear no Ctrl-C (https://github.com/python/cpython/issues/74157)."""
     limits, usual = [], threading.Event.wait

@@ -111,7 +111,7 @@ def test_a_run_that_is_interrupted_is_run_again():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("sweep.simulation.retries.simulate", stops)
-        assert simulate_again(case, np.array([1, 0])).status == Status.STOPPED
+        assert simulate_again(case, np.array([1, 0, 0])).status == Status.STOPPED
         assert simulate_again(case, np.array([0, 0])).status == Status.BOTTOMED_OUT
 
 

@@ -58,14 +58,14 @@ def test_limit_of_iterations():
 
 
 def test_stop_that_is_asked_for_before_the_start():
-    result = simulate(LONG, np.array([1, 0]))
+    result = simulate(LONG, np.array([1, 0, 0]))
     assert result.status == Status.STOPPED
     assert result.message.startswith("interrupted while loading, at strain 0 after 0 steps")
     assert check_kept(result) == 1
 
 
 def test_stop_that_is_asked_for_in_the_middle():
-    control, results = np.zeros(2, dtype=np.int64), []
+    control, results = np.zeros(3, dtype=np.int64), []
     worker = threading.Thread(target=lambda: results.append(simulate(LONG, control)))
     worker.start()
     limit = time.monotonic() + 30
@@ -77,6 +77,7 @@ def test_stop_that_is_asked_for_in_the_middle():
     assert results[0].status == Status.STOPPED
     assert results[0].message.startswith("interrupted while loading")
     assert 3 < check_kept(results[0]) == control[1] + 1 < 2001
+    assert control[2] == 2000
     strains = 0.6 * np.arange(control[1] + 1) / 2000
     np.testing.assert_allclose(results[0].history["strain"], strains, atol=1e-12)
 
