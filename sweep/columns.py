@@ -33,9 +33,7 @@ SAME_EFFICIENCY = 0.02
 
 COLUMNS: dict[str, Column] = {
     "case_id": Column("", "hash of all parameters of the case"),
-    "status": Column(
-        "", "converged, stopped, slipped, bottomed_out, timed_out, unresolved or worker_died"
-    ),
+    "status": Column("", "converged, stopped, slipped, timed_out, unresolved or worker_died"),
     "message": Column(
         "", "why the case did not converge and what to try, or where it broke; else empty"
     ),
@@ -362,13 +360,13 @@ COLUMNS: dict[str, Column] = {
     "stroke_left_m": Column(
         "m",
         "stroke that closes all voids - greatest stroke of the striker or of a dead load on a "
-        "platen; NaN if a platen crushes",
+        "platen; NaN if a platen crushes, and on ribs",
         "more",
     ),
     "bottomed_out": Column(
         "1",
         "1 if all voids below the striker or a loaded platen are closed, so that stroke_left_m is "
-        "not positive; else 0; NaN if a platen crushes",
+        "not positive; else 0; NaN without it",
         "less",
     ),
     "rebound_speed_m_per_s": Column(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sweep.config.case import Case
 
 
-MODEL_VERSION = 25
+MODEL_VERSION = 26
 """Version of the model: raised by every change of the numbers that a case gives."""
 
 LOADED = [name for name in COLUMNS if any(name in mode.columns for mode in MODES.values())]
@@ -35,14 +35,12 @@ class Status(StrEnum):
     """How a case ended. Only `converged` means that it ran to its end, in steps that resolve it.
 
     `slipped` is an answer too: the striker has lost the lattice, or the lattice has tipped
-    over, so that the design has no place. So is `bottomed_out`: a striker or a dead load that could
-    not be followed is far beyond the lattice, so that the design is behind those that hold.
+    over, so that the design has no place.
     """
 
     CONVERGED = "converged"
     STOPPED = "stopped"
     SLIPPED = "slipped"
-    BOTTOMED_OUT = "bottomed_out"
     TIMED_OUT = "timed_out"
     UNRESOLVED = "unresolved"
     WORKER_DIED = "worker_died"

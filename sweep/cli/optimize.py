@@ -14,7 +14,6 @@ from sweep.loading_modes import MODES
 from sweep.numbers import text_in
 from sweep.ranking.assessment import check_column, front, thinned
 from sweep.ranking.curves import with_allowed
-from sweep.ranking.merit import bottomed
 from sweep.ranking.question import Question, in_si
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
@@ -23,7 +22,7 @@ from sweep.ranking.spread import spreads
 from sweep.report.tables.design_text import named_case
 from sweep.report.tables.search_sheets import finalist_sheet, front_sheet, nearest_sheet
 from sweep.report.tables.sheets import ranking_sheets
-from sweep.report.tables.unfinished_notes import failures, unfinished_notes
+from sweep.report.tables.unfinished_notes import unfinished_notes
 from sweep.running.beside.run_beside import How, file_beside
 from sweep.running.beside.spread import run_corners
 from sweep.running.searching.finalists import finalists, perturbed
@@ -130,12 +129,11 @@ def _show_best(search: Search) -> int:
 def _none_ranked(search: Search) -> str:
     """That no design can be ranked, and why."""
     rows = search.rows()
-    failed, closed = int((rows["loaded"] != 1).sum()), int(bottomed(rows).sum())
+    failed = int((rows["loaded"] != 1).sum())
     doubtful = search.assessment.doubtful if search.assessment else 0
     reasons = []
     if failed:
-        some = failures(f"{failed} failed", closed)
-        reasons.append(f"{some}: crumple status {quoted(str(search.out))} says why")
+        reasons.append(f"{failed} failed: crumple status {quoted(str(search.out))} says why")
     if doubtful:
         reasons.append(f"rank marks {doubtful} with ! or x")
     why = f" ({'; '.join(reasons)})" if reasons else ""

@@ -58,7 +58,6 @@ def version_counts(counts: Mapping[int, int]) -> str:
 def warnings(file: str, ranking: Ranking) -> Iterator[str]:
     """Warnings about cases for a reader of the ranking."""
     from sweep.report.tables.missing_notes import incomplete
-    from sweep.report.tables.unfinished_notes import failures
     from sweep.result import HOW_TO_RENEW
     from sweep.store.read import read_attributes
 
@@ -85,7 +84,7 @@ def warnings(file: str, ranking: Ranking) -> Iterator[str]:
         yield f"{some}, which ranks them: crumple status {file} says why"
     if ranking.failed:
         some = f"{ranking.failed} of {ranking.cases} cases failed"
-        yield f"{failures(some, sum(ranking.bottomed.values()))}: crumple status {file} says why"
+        yield f"{some}: crumple status {file} says why"
 
 
 def next_commands(file: str, ranking: Ranking) -> Iterator[str]:

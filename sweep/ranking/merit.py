@@ -30,7 +30,7 @@ from sweep.numbers import text_in
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import Quantity, Question, RankError, in_si
 from sweep.ranking.requirement_table import MEASURES
-from sweep.result import Status, sides_of
+from sweep.result import sides_of
 
 if TYPE_CHECKING:
     from sweep.config.case import Case
@@ -157,12 +157,7 @@ def doubtful(ranked: DataFrame) -> Series:
 def through_solid(finished: DataFrame) -> Series:
     """True for lattices compressed below their solid height, or below zero height."""
     sunk = has(finished, "dead") & (finished["peak_strain"] >= 1.0)  # also without platens
-    return sunk | (finished["stroke_left_m"] < -ROUND_OFF) | bottomed(finished)
-
-
-def bottomed(rows: DataFrame) -> Series:
-    """True for cases that did not complete their loading, as they bottom out."""
-    return rows["status"] == Status.BOTTOMED_OUT
+    return sunk | (finished["stroke_left_m"] < -ROUND_OFF)
 
 
 def panel_in(frame: DataFrame, panel: Sequence[Quantity]) -> Panel:

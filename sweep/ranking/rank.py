@@ -27,7 +27,6 @@ from sweep.ranking.budget import within_budget
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import (
     Compared,
-    bottomed,
     check_areas,
     check_budgets,
     doubtful,
@@ -242,7 +241,6 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
             if len(rows)
         },
         narrow={label: narrow_patterns(rows) for label, rows in scene_rows.items()},
-        bottomed=labels[bottomed(summary)].value_counts(sort=False).to_dict(),
         lost=labels[~labels.isin(list(scene_rows))].value_counts(sort=False).to_dict(),
         panel=tuple(in_si(side, "m") for side in panel or ()),
         per=per,

@@ -32,8 +32,7 @@ class Ranking:
     versions: number of loaded cases of each version of the model, the oldest first.
     budgets_g: the budgets (g), each once.
     lightest_g: the least mass (g) of each scene. lightest: the row of that design.
-    lost: number of cases of each scene in which no case completed its loading. bottomed: number of
-        cases of each scene that bottom out.
+    lost: number of cases of each scene in which no case completed its loading.
     narrow: patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
     panel: the two lengths (m) of the panel in the question; none without one.
     per: to which the allowed force and the requirements apply, "specimen" or "panel".
@@ -60,7 +59,6 @@ class Ranking:
     lightest_g: Mapping[str, float]
     lightest: Mapping[str, DataFrame]
     lost: Mapping[str, int] = field(default_factory=dict)
-    bottomed: Mapping[str, int] = field(default_factory=dict)
     narrow: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     panel: tuple[float, ...] = ()
     per: str = "specimen"

@@ -16,6 +16,7 @@ from rich.progress import Progress as Bar
 from rich.text import Text
 
 from sweep.config.case import Case
+from sweep.numbers import percent
 from sweep.plain_text import plain
 from sweep.result import Result, Status
 from sweep.running.batches import Kind, cost, kind
@@ -171,7 +172,7 @@ class Progress:
     def _line(self) -> str:
         parts = [f"{self.done}/{self.total} cases", *self._pace()]
         if shares := self.running():
-            parts.append(f"running: {' and '.join(f'{100.0 * share:.0f} %' for share in shares)}")
+            parts.append(f"running: {' and '.join(f'{percent(share)} %' for share in shares)}")
         return ", ".join([*parts, f"{self.failed} failed"] if self.failed else parts)
 
     def _pace(self) -> list[str]:

@@ -32,6 +32,10 @@ SAFER = {
 }
 """By whether walls are shells, without damping, and whether the integrator is backward Euler."""
 FINER = "try more solver.load_steps"
+PASSED = """\
+the striker has passed the lattice: it misses it, slips off, or both fall off the base, {}; \
+try another loading.striker_at or loading.base_span"""
+BELOW = 'the striker has pressed the lattice below its base, {}; try a contact.model of "barrier"'
 SOUNDER = "try a smaller solver.tolerance, and check for values of the wrong order of magnitude"
 ADVICE = {
     outcomes.ITERATIONS: "no equilibrium within {limit} Newton iterations; try {further}",
@@ -108,10 +112,10 @@ def still_moving_down(where: str) -> Failure:
     return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
 
 
-def missed(where: str) -> Failure:
+def passed_lattice(case: Case, where: str) -> Failure:
     """The striker of a case that has finished is below the base."""
-    why = "the striker has passed the lattice: it misses it, slips off, or both fall off the base"
-    return Status.SLIPPED, f"{why}, {where}; try another loading.striker_at or loading.base_span"
+    is_flat = isinstance(case.loading, Impact) and not case.loading.is_shaped
+    return Status.SLIPPED, (BELOW if is_flat else PASSED).format(where)
 
 
 def slipped_off() -> Failure:

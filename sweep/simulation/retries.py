@@ -24,7 +24,6 @@ from sweep.config.kinds.solver import MAX_STEPS, TIME_STEP, Arcs, InTime
 from sweep.config.kinds.table import RefusedError
 from sweep.numbers import with_unit
 from sweep.result import Result, Status
-from sweep.simulation.bottoming import bottoms_out
 from sweep.simulation.failures import faster_than_sound
 from sweep.simulation.simulate import EXPIRED, simulate
 from sweep.simulation.time_resolution import resolving_step
@@ -59,7 +58,7 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         attempts.append(words)
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
-    return _final_result(case, best, attempts, spent, stop[0] not in (0, EXPIRED))
+    return _final_result(case, best, attempts, spent)
 
 
 def _is_final(best: Result) -> bool:
@@ -95,31 +94,19 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
     return followed < case.loading.duration and retry.history["time_s"][-1] >= ALMOST * followed
 
 
-def _reach(result: Result) -> tuple[bool, bool, bool]:
-    """How far a run came: whether it converged, completed its loading, or lost its striker or
-    bottomed out.
+def _reach(result: Result) -> tuple[bool, bool, bool, bool]:
+    """How far a run came: whether it converged, completed its loading, lost its striker, or at
+    least had steps that resolve what it followed.
     """
     converged, slipped = (result.status is status for status in ENDED)
-    return converged, result.summary["loaded"] == 1, slipped or bottoms_out(result) != ""
+    resolved = result.status is not Status.UNRESOLVED
+    return converged, result.summary["loaded"] == 1, slipped, resolved
 
 
-def _final_result(
-    case: Case, best: Result, attempts: list[str], spent: float, interrupted: bool
-) -> Result:
-    """The best result under the id of ``case``, with the processor time of all attempts (s)."""
-    failed = best.status not in ENDED and best.summary["loaded"] != 1 and not interrupted
-    beyond = bottoms_out(best) if failed else ""
-    status = Status.BOTTOMED_OUT if beyond else best.status
-    why = _message(case, best, [] if beyond else attempts)
-    message = f"{beyond} ({why})" if beyond else why
-    own: dict[str, float | str] = {"case_id": case.case_id, "status": str(status)}
-    own |= {"message": message, "cpu_s": spent}
-    return replace(best, case=case, status=status, message=message, summary={**best.summary, **own})
+def _final_result(case: Case, best: Result, attempts: list[str], spent: float) -> Result:
+    """The best result under the id of ``case``, with the processor time of all attempts (s).
 
-
-def _message(case: Case, best: Result, attempts: list[str]) -> str:
-    """The message of the best result; it says what was tried without success, instead of advising
-    it.
+    Its message says what was tried without success, instead of advising it.
     """
     message = best.message
     attempts = [words for words in attempts if words != best.summary["retry"]]
@@ -129,7 +116,8 @@ def _message(case: Case, best: Result, attempts: list[str]) -> str:
         message = f"{what if repeats else message} (tried without success: {'; '.join(attempts)})"
     if best.status is not Status.CONVERGED:
         message += faster_than_sound(case)
-    return message
+    own: dict[str, float | str] = {"case_id": case.case_id, "message": message, "cpu_s": spent}
+    return replace(best, case=case, message=message, summary={**best.summary, **own})
 
 
 def _changes(result: Result) -> Iterator[tuple[str, Case]]:

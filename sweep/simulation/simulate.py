@@ -42,8 +42,8 @@ from sweep.simulation.failures import (
     broke,
     energy_gained,
     energy_unresolved,
-    missed,
     momentum_unresolved,
+    passed_lattice,
     slipped_off,
     still_moving_down,
     still_pushed_back,
@@ -164,7 +164,7 @@ def _of_impact(
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
         gone = travel[last] > case.height and not case.shells
-        return missed(where) if gone else still_moving_down(where)
+        return passed_lattice(case, where) if gone else still_moving_down(where)
     speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
         return still_pushed_back(where)

@@ -107,13 +107,15 @@ def striker_columns(
     case: Case, scene: Scene | PlateScene, history: Curves, stroke: float
 ) -> dict[str, float]:
     """The columns `MEASURES`: the stroke left for a dead load between platens and for any striker
-    but a platen, the others for an impact; NaN for the rest. stroke: the greatest, m.
+    but a platen, on a flat base, as a lattice also bends between ribs; the others for an impact;
+    NaN for the rest. stroke: the greatest, m.
     """
     loading = case.loading
     columns = dict.fromkeys(MEASURES, nan)
+    on_ribs = isinstance(loading, WithStriker) and loading.base == "ribs"
     shaped = isinstance(loading, WithStriker) and loading.striker != "flat"
     pressed = isinstance(loading, DeadLoad) and loading.platen != "none"
-    if shaped or pressed or isinstance(loading, Impact):
+    if not on_ribs and (shaped or pressed or isinstance(loading, Impact)):
         columns |= stroke_columns(case, scene, stroke)
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
 

@@ -35,7 +35,7 @@ from sweep.report.tables.unfinished_notes import unfinished_notes
 
 FIRST = {"peak_strain": ": smallest strain first", "peak_force_N": ": least force first"}
 NO_PLACE = "No design is ranked here."
-LOST = "No design is ranked here: all cases {}."
+LOST = "No design is ranked here: all cases failed ({})."
 OPEN = """\
 The first place is not certain: in a longer crush (loading.strain) a design with > may lead."""
 PASSED_OVER = "{} value alone, {} marked ! or x would stand before the first."
@@ -108,21 +108,14 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             cases=tuple(rows["case_id"]),
         )
     for scene, count in ranking.lost.items():
-        ended = LOST.format(_ended(count, ranking.bottomed.get(scene, 0)))
-        yield Sheet(scene, [], [], notes=(ended, *_unfinished(scene, ranking, named)))
+        notes = (LOST.format(count), *_unfinished(scene, ranking, named))
+        yield Sheet(scene, [], [], notes=notes)
 
 
 def _unfinished(scene: str, ranking: Ranking, named: Callable[[DataFrame], str]) -> tuple[str, ...]:
     """A sentence for each unfinished case of a scene that could have had a place."""
     stopped = ranking.unfinished[ranking.unfinished["scene"] == scene]
     return tuple(unfinished_notes(stopped, named))
-
-
-def _ended(count: int, closed: int) -> str:
-    """How all cases of a scene ended, in words. closed: number of those that bottom out."""
-    if closed == count:
-        return f"bottom out ({count})"
-    return f"failed ({count}{f', {closed} by bottoming out' if closed else ''})"
 
 
 def _open(placed: DataFrame) -> Iterator[str]:

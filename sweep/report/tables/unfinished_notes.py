@@ -15,11 +15,6 @@ MOST = 5  # most cases that are named for each scene
 MORE = "{} more unfinished cases could have had a place: crumple status lists them."
 
 
-def failures(failed: str, bottomed: int) -> str:
-    """How many cases failed, and how many of them by bottoming out, in words."""
-    return failed + (f", {bottomed} of them by bottoming out" if bottomed else "")
-
-
 def unfinished_notes(rows: DataFrame, named: Callable[[DataFrame], str]) -> Iterator[str]:
     """A sentence for each of the first `MOST` cases, and one with the number of the others.
 

@@ -10,7 +10,7 @@ positions resolve: nothing moves by more than round-off. No contact keeps walls 
 load that would press a solid of their mass, of linear law, to less than half its height: they fold
 flat, to no length. Or a striker or a platen is faster than sound in the walls: its wave front would
 press a wall of linear law to no length. Shares refer to all scenes and to the scenes with an
-answer. Lattices that tip over or bottom out have one.
+answer. Lattices that tip over have one.
 """
 
 import csv
@@ -45,8 +45,7 @@ SECOND_ORDER = 100  # numbers of lattices that are drawn for integrators of seco
 WIDE = 64  # panels of up to 48 cells side by side
 RETRIED = "converged in a retry"
 TIPPED = "slipped"  # in a scene with flat platens: the lattice tipped over
-CLOSED = "bottomed out"
-DONE = "converged", RETRIED, TIPPED, CLOSED
+DONE = "converged", RETRIED, TIPPED
 UNANSWERED = "have no answer, of these"
 ALL, VIOLATED, BALANCED = "all", "violated something", "steps balanced anew"
 ROUND_OFF = "exceed round-off"  # in the message of a load that is too small

@@ -17,7 +17,7 @@ from tests.support.kernels.solving import at_rest, ramp, whole
 from tests.support.kernels.states import STATES, driven, loaded
 
 FEW, SOLVED = 40, 14
-ENDS = "converged", "unresolved", "bottomed_out"  # impacts in far too long steps of backward Euler
+ENDS = "converged", "unresolved"  # impacts in far too long steps of backward Euler
 
 
 @pytest.fixture(scope="module")

@@ -105,7 +105,7 @@ def _row(rng, mass, energy, factor):
         row["loaded"] = int(rng.random() < 0.3)
         row["status"] = "unresolved" if not row["loaded"] and rng.random() < 0.3 else "stopped"
         if not row["loaded"] and apart.random() < 0.2:
-            row["status"] = "slipped" if apart.random() < 0.5 else "bottomed_out"
+            row["status"] = "slipped"
     for force in FORCES:
         share = float(rng.choice([1.0, rng.uniform(0.2, 1.0), np.nan], p=[0.3, 0.6, 0.1]))
         row[absorbed_energy_column(force)] = share * row["absorbed_energy_J"]

@@ -123,6 +123,17 @@ def test_a_retry_that_completes_the_loading_counts_if_none_converges(monkeypatch
     assert result.message.endswith("(tried without success: lattice.imperfection = 0.015)")
 
 
+def test_a_retry_in_steps_that_resolve_it_says_why_the_case_fails(monkeypatch):
+    """Its advice stands, in place of that of steps that resolve nothing."""
+    answers(monkeypatch, COARSE, *[STOPS] * 4, why="moves down; try a longer loading.duration")
+    result = simulate_again(STRIKE)
+    assert result.status == Status.STOPPED
+    assert result.summary["retry"].startswith("solver.time_step = ")
+    assert "; try a longer loading.duration (tried without success: " in result.message
+    answers(monkeypatch, STOPS, *[COARSE] * 5)
+    assert simulate_again(STRIKE).summary["retry"] == ""
+
+
 @pytest.mark.parametrize(
     ("case", "curable", "stop"),
     [

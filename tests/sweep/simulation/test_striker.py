@@ -282,6 +282,16 @@ def test_a_run_ends_when_the_striker_has_passed_the_lattice(shape, monkeypatch):
     assert np.abs(force[rows:]).max() < 1e-6 * np.abs(force).max()  # round-off of m v / dt
 
 
+def test_a_plate_that_presses_the_lattice_below_its_base_has_not_missed_it():
+    """Without contact nothing keeps walls above the base."""
+    hit = dict(mode="impact", striker_mass=0.5, striker_speed=5.0, duration=5e-3)
+    cells = dict(cells_x=2, cells_y=2, nodes_per_wall=2)
+    result = simulate(Case.of(lattice=cells, loading=hit, contact={"model": "none"}))
+    assert result.status == "slipped"
+    assert "pressed the lattice below its base" in result.message
+    assert "contact.model" in result.message
+
+
 def test_a_striker_below_the_base_that_bends_the_lattice_has_not_passed_it():
     """A thin panel between far ribs bends by more than its height, and throws the striker back."""
     panel = dict(kind="square", cells_x=10, cells_y=1, width=0.05, height=2.5e-3)
@@ -292,6 +302,7 @@ def test_a_striker_below_the_base_that_bends_the_lattice_has_not_passed_it():
     assert result.status == "converged"
     assert result.history["top_displacement_m"].max() > 2.5e-3
     assert result.summary["rebound_speed_m_per_s"] > 0.1
+    assert np.isnan(result.summary["stroke_left_m"])  # it bends, and closes no void
 
 
 def test_a_lattice_that_slips_away_from_a_striker_is_not_ranked():
@@ -431,3 +442,23 @@ def test_the_stroke_left_below_a_tooth_is_known_in_a_crush_too():
     assert tooth["bottomed_out"] == 0.0
     assert np.isnan(tooth["rebound_share"])
     assert np.isnan(pressed()[0]["stroke_left_m"])
+
+
+@pytest.mark.parametrize(("newton", "closes"), [(1.0, 0.0), (200.0, 1.0)])
+def test_a_dead_load_on_a_platen_has_a_stroke_left(newton, closes):
+    """The height of walls, not of their centre lines, is that of the voids."""
+
+    def under_load(platen, **solver):
+        times = dict(duration=5e-3, release_time=5e-3)
+        load = dict(mode="force", force=newton, platen=platen, **times)
+        cells = dict(cells_x=2, cells_y=2, nodes_per_wall=2)
+        stiff = dict(modulus=1e7, density=1000.0, poisson=0.0)
+        return Case.of(lattice=cells, material=stiff, loading=load, solver=solver)
+
+    case = under_load("contact")
+    summary = simulate(case).summary
+    voids = (1.0 - summary["relative_density"]) * case.lattice.outer_size[1]
+    assert summary["stroke_left_m"] == pytest.approx(voids - summary["peak_strain"] * case.height)
+    assert summary["bottomed_out"] == closes == float(summary["stroke_left_m"] <= 0.0)
+    free = simulate(under_load("none", max_iterations=1)).summary
+    assert np.isnan(free["stroke_left_m"])
