@@ -247,7 +247,7 @@ class _Run:
         early = self.struck or isinstance(case.solver, Arcs)
         count = EARLY_FRAMES if early else FRAMES * case.loading.cycles
         self.slot_of, kept = _frames(total + 1, count, early)
-        self.even_from = total / count  # row of the first even frame after the start
+        self.even_from = self.slot_of[max(round(total / count), 1)]  # slot of the first even frame
         self.slots = np.full(total + 1, -1)  # of the rows that are kept
         self.slots[0] = 0
         self.positions = np.tile(scene.x_rest, (kept, 1))
@@ -447,7 +447,7 @@ class _Run:
         slots = self.slots[: self.reached]
         last = np.flatnonzero(np.diff(slots, append=-1))  # a later row overwrites its slot
         last = last[last < self.done]
-        even = (last == 0) | (last >= self.even_from)
+        even = (last == 0) | (slots[last] >= self.even_from)
         last = last[even] if even.sum() > FEW_FRAMES else last
         return self.rows[last], self.positions[slots[last]]
 

@@ -1,8 +1,9 @@
-"""The processor time that a case says it took."""
+"""Tables as a case, the stored shapes, and the processor time that a case says it took."""
 
 import time
 from importlib import import_module
 
+import numpy as np
 import pytest
 
 from sweep.config.case import Case
@@ -16,6 +17,20 @@ def test_tables_of_a_config_are_a_case_too():
     assert simulate(tables).case == Case.of(loading=dict(release_time=1e-4, duration=2e-4))
     with pytest.raises(ConfigError, match=r"lattice\.widht"):
         simulate({"lattice": {"widht": "9 mm"}})
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.3])
+@pytest.mark.parametrize("solver", [{}, {"accuracy": 0.01}, {"load_steps": 80}])
+def test_stored_shapes_are_even(loss, solver):
+    """Walls that relax have 32 rows where others have one, most of which their steps leave out."""
+    loading = {"mode": "displacement", "strain": 0.6}
+    material = {"name": "ninjaflex", "loss": loss}
+    result = simulate({"material": material, "loading": loading, "solver": solver})
+    strains = result.frames["strain"]
+    assert strains[0] == strains[-1] == 0.0
+    assert strains.max() == pytest.approx(0.6)
+    assert len(strains) == 41
+    assert abs(np.diff(strains)).max() < 0.06
 
 
 def busy():
