@@ -14,6 +14,8 @@ from sweep.cli.terminal import say, say_all
 from sweep.numbers import counted
 from sweep.result import Result
 from sweep.running.warming import real_simulate
+from sweep.store.damage import RENEWED
+from sweep.store.errors import StoreError
 from sweep.store.read import read_cases, read_frames, read_history, read_summary, unreadable
 
 SEED = 0  # seed for the choice of cases that run again
@@ -32,19 +34,25 @@ def verify(file: str, again: int) -> bool:
     summary = read_summary(file)
     ids = list(summary["case_id"])
     errors = unreadable(file)
-    wrong = [f"case {case_id}: {errors[case_id]}" for case_id in ids if case_id in errors]
+    wrong = [f"case {key}: {_fault(errors[key])}" for key in ids if key in errors]
     say_all(wrong[:SHOWN])
     if len(wrong) > SHOWN:
         say(f"{len(wrong) - SHOWN} more cases cannot be read")
-    say(f"{file}: {len(ids) - len(wrong)} of {counted(len(ids), 'case')} whole")
+    say(f"{file}: {len(ids) - len(wrong)} of {counted(len(ids), 'case')} intact")
     if wrong:
         say("`crumple run CONFIG --renew` computes these again, and keeps the others")
         return False
     chosen = _sample(summary["case_id"].drop(failed_cases(summary).index), again)
     different = list(_different(file, summary.set_index("case_id").loc[chosen]))
     say_all(different)
-    say(f"{len(chosen) - len(different)} of {counted(len(chosen), 'case')} simulated again: same")
+    same = len(chosen) - len(different)
+    say(f"{same} of {counted(len(chosen), 'case')} simulated again: identical")
     return not different
+
+
+def _fault(error: StoreError) -> str:
+    """What is damaged, without the advice to call this verb."""
+    return str(error).partition(RENEWED)[0].rstrip(" :;")
 
 
 def _sample(ids: Sequence[str], count: int) -> list[str]:

@@ -14,7 +14,8 @@ def check_printable(lattice: Specimen) -> None:
     """Refuse walls and gaps that do not print if the lattice must be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:
-        raise RefusedError("lattice.printable", True, f"false, or a design without {wrong}")
+        allowed = f"false, or another design, as {wrong} do not print"
+        raise RefusedError("lattice.printable", True, allowed)
 
 
 def what_does_not_print(lattice: Specimen) -> str:

@@ -22,6 +22,7 @@ from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
     UnknownMaterialError,
+    available,
     locate,
     read_record,
 )
@@ -483,7 +484,8 @@ def _material(name: str, folder: Path) -> str:
         path = locate(name, folder)
     except UnknownMaterialError:
         is_file, file = name.endswith(".csv"), folder / name
-        raise MisfitError(f"there is no {file}" if is_file else "unknown material") from None
+        unknown = f"unknown material{similar(name, available())}"
+        raise MisfitError(f"there is no {file}" if is_file else unknown) from None
     read_record(path)
     return str(path.resolve()) if name.endswith(".csv") else name
 

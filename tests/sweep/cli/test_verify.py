@@ -14,14 +14,14 @@ def test_a_whole_file_whose_numbers_are_made_up(capsys, tmp_path):
     write(tmp_path / "trial.h5", cases(5), fold=True)
     file = str(tmp_path / "trial.h5")
     assert crumple(capsys, "verify", file, "--again", "0")[:2] == (
-        0, f"{file}: 5 of 5 cases whole\n0 of 0 cases simulated again: same\n"
+        0, f"{file}: 5 of 5 cases intact\n0 of 0 cases simulated again: identical\n"
     )  # fmt: skip
     status, said, _ = crumple(capsys, "verify", file, "--again", "2")
     one, other, last = said.splitlines()[1:]
     known = {*read_summary(file)["case_id"]}
     for line in (one, other):
         assert re.match(r"case (\w{16}): \w+ is .*, stored .*model version \d", line)[1] in known
-    assert (status, last) == (1, "0 of 2 cases simulated again: same")
+    assert (status, last) == (1, "0 of 2 cases simulated again: identical")
 
 
 def test_what_cannot_be_read_is_named_and_nothing_is_simulated(capsys, tmp_path):
@@ -30,7 +30,7 @@ def test_what_cannot_be_read_is_named_and_nothing_is_simulated(capsys, tmp_path)
     blank(path)
     status, said, _ = crumple(capsys, "verify", str(path))
     *lines, count, advice = said.splitlines()
-    assert (status, len(lines), count) == (1, 3, f"{path}: 0 of 3 cases whole")
+    assert (status, len(lines), count) == (1, 3, f"{path}: 0 of 3 cases intact")
     assert "--renew" in advice
     ids = [re.match(r"case (\w{16}): .* is damaged", line)[1] for line in lines]
     assert sorted(ids) == sorted(case.case_id for case in cases(3))

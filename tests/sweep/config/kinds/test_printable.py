@@ -54,7 +54,7 @@ def test_what_does_not_print_is_refused_if_nothing_else_is_left(lines):
     assert line.startswith("lattice.printable = true: does not fit; allowed: false")
     assert "1.5 lines of 0.4 mm" in line
     (line,) = lines(KEPT.replace('"0.4 mm", "0.6 mm", "0.8 mm"', '"0.5 mm", "0.6 mm"'))
-    assert line.endswith("walls of 1.25 lines of 0.4 mm (2 of 2 combinations)")
+    assert line.endswith("walls of 1.25 lines of 0.4 mm do not print (2 of 2 combinations)")
 
 
 def test_other_faults_are_not_left_out(load):
