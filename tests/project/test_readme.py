@@ -207,7 +207,8 @@ def test_winners_are_the_first_of_the_rankings():
     first = []
     for _, lines in rankings:
         (row,) = [line.split() for line in lines.splitlines() if line.startswith(("1*", " 1*"))]
-        first.append(f"{names[row[1]]}, {row[5]} mm: {row[7]} N")
+        mark = f" ({row[0][2:]})" if row[0][2:] else ""
+        first.append(f"{names[row[1]]}, {row[5]} mm: {row[7]} N{mark}")
     assert [cell for row in readme.table("front") for cell in row[1:]] == first
     assert [title.rpartition(" lb")[0][-1] for title, _ in rankings] == ["1", "3"] * 3
 
