@@ -534,6 +534,7 @@ CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
 ENDS = re.compile(r"^(lowest|highest)_(.+)")
+UP_TO = re.compile(r"\bat ([\d.]+)N\b")
 UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|Ns|[JNgms])$")
 
 
@@ -627,7 +628,8 @@ def describe_column(name: str) -> Column:
 def in_words(name: str) -> str:
     """A column as words with its unit: "peak_strain" -> "peak strain", "mass_g" -> "mass, in g"."""
     units = describe_column(name).units
-    noun = UNIT.sub("", name).replace("_", " ")
+    noun = UNIT.sub("", name).replace("_", " ").replace("until packed", "until densification")
+    noun = UP_TO.sub(r"up to \1 N", noun)
     return f"{noun}, in {units}" if units not in ("", "1") else noun
 
 

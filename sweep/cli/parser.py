@@ -88,7 +88,11 @@ def _add_run(verbs: Any) -> None:
         "--out", type=results_path, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
     _add_place(run)
-    run.add_argument("--dry-run", action="store_true", help="run a few cases to estimate time and disk, write nothing")
+    run.add_argument(
+        "--dry-run",
+        action="store_true",
+        help="estimate time and disk by running a few cases; write nothing",
+    )
     run.add_argument(
         "--error-bars", action="store_true", help="estimate the error of mesh and steps"
     )
