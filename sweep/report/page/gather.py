@@ -160,7 +160,7 @@ def page_data(
             ends = (min(reached(case.history, force)[1], most) for force in forces)
             design["strokes"] += _exact(ends)
     return {
-        "file": Path(file).name,
+        "file": Path(file).name if Path(file).is_absolute() else Path(file).as_posix(),
         "name": _config(about).get("name") or Path(file).stem,
         "scenes": [
             _scene(label, rows, on_page)

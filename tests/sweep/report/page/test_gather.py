@@ -1,6 +1,7 @@
 """The data of a page: values that rank designs, thin curves, shapes while there is room."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +23,16 @@ from tests.support.results.specimens import (
 
 def gathered(path, table, **question):
     return page_data(write(path / "trial.h5", table, {"config": "{}"}), table, Question(**question))
+
+
+def test_commands_name_the_file_as_it_was_given(tmp_path, monkeypatch):
+    """A page that is sent to others does not tell where its file was."""
+    (tmp_path / "results").mkdir()
+    monkeypatch.chdir(tmp_path)
+    table = summary({})
+    given = write(Path("results/trial.h5"), table, {"config": "{}"})
+    for file, named in (given, "results/trial.h5"), (tmp_path / given, "trial.h5"):
+        assert page_data(file, table, Question())["file"] == named
 
 
 def test_page_has_every_case_once_in_the_scenes_of_the_terminal(tmp_path):
