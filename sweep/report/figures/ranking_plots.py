@@ -42,7 +42,8 @@ HEAVY = {"ls": "", "marker": "o", "ms": 6.0, "color": GREY, "label": "above all 
 COARSE = {
     "ls": "",
     "marker": r"$\mathrm{i}$",
-    "ms": 6.0,
+    "ms": 7.0,
+    "mew": 0.0,  # an edge would hide the dot
     "color": "black",
     "label": "coarse steps",
 }

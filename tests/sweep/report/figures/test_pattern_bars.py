@@ -11,6 +11,12 @@ from sweep.report.figures.pattern_bars import panel_size, pattern_bars
 from tests.support.results.specimens import designs, summary
 
 
+def legend_of(figure):
+    """The words of the legends in the axes of a figure."""
+    keys = filter(None, (ax.get_legend() for ax in figure.axes))
+    return [text.get_text() for key in keys for text in key.get_texts()]
+
+
 def test_several_patterns_are_drawn_side_by_side():
     table = summary(*designs([1.0, 1.0], [0.2, 0.1])).assign(lattice_kind=["hex", "square"])
     ranking = ranked(table.assign(**{"lattice.orientation": ["flat", ""]}), top=None)
@@ -31,8 +37,7 @@ def test_bars_above_all_budgets_are_grey(budgets_g, grey):
     (ax,) = figure.axes
     first, second = (bar.get_facecolor() for bar in ax.patches)
     assert (first != second) == bool(grey)
-    words = [text.get_text() for key in figure.legends for text in key.get_texts()]
-    assert words == ["above all budgets"] * grey
+    assert legend_of(figure) == ["above all budgets"] * grey
 
 
 @pytest.mark.parametrize("aspect", [1.0, 2.5, 8.0])
@@ -76,4 +81,4 @@ def test_bars_of_coarse_steps_are_marked():
     pattern_bars(figure, ranked(summary(*rows), top=None))
     ((mark,),) = (ax.texts for ax in figure.axes)
     assert (mark.get_text(), mark.xy) == ("i", (0.1, 0))
-    assert [key.get_texts()[0].get_text() for key in figure.legends] == ["coarse steps"]
+    assert legend_of(figure) == ["coarse steps"]
