@@ -64,7 +64,7 @@ def pattern_bars(
         ax.set_title(heading(titled(str(scene), ranking)), loc="left", fontsize="medium")
         ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
-    entries = [HEAVY | {"marker": "s"}] * bool(heavy.any())
+    entries: list[dict[str, Any]] = [HEAVY | {"marker": "s"}] * bool(heavy.any())
     entries += [COARSE] * bool(designs["coarse"].any())
     if entries:  # right of the shortest bars
         handles = [Line2D([], [], **entry) for entry in entries]

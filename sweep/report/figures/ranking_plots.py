@@ -39,7 +39,7 @@ WHITE = (1.0, 1.0, 1.0, 1.0)
 FRONT = {"color": "black", "lw": 0.9, "label": "Pareto front; others pale"}
 RING = {"ls": "", "marker": "o", "ms": 10.0, "mfc": "none", "mec": "black", "label": "best"}
 HEAVY = {"ls": "", "marker": "o", "ms": 6.0, "color": GREY, "label": "above all budgets"}
-COARSE = {
+COARSE: dict[str, Any] = {
     "ls": "",
     "marker": r"$\mathrm{i}$",
     "ms": 7.0,
