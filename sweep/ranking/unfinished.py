@@ -11,8 +11,8 @@ infinite:
   its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
-the place that it has at least, if others are ranked; doubtful designs follow
-all others. A requirement that it already misses, or its mass, excludes it.
+the place that it has at least, if others are ranked; doubtful designs follow all others. A
+requirement that it already misses, or its mass, excludes it.
 """
 
 import re
