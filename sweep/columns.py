@@ -534,7 +534,7 @@ CYCLED: dict[str, tuple[str, Literal["more", "less"], str]] = {
 ERROR = re.compile(r"^error_(.+)")
 CORRECTION = re.compile(r"^correction_(.+)")
 ENDS = re.compile(r"^(lowest|highest)_(.+)")
-UP_TO = re.compile(r"\bat ([\d.]+)N\b")
+UP_TO = re.compile(r"\bat ([\d.e-]+)N\b")
 UNIT = re.compile(r"_(J_per_g|J_per_m3|m_per_s2|m_per_s|Pa|Ns|[JNgms])$")
 
 

@@ -41,7 +41,7 @@ def print_ranking(file: str, summary: DataFrame, question: Question, brief: bool
     ranking = answer(summary, question)
     if ranking.failed < ranking.cases:
         say(_heading(question, ranking))
-        print_sheets(ranking_sheets(ranking, summary))
+    print_sheets(ranking_sheets(ranking, summary))
     if not ranking.table.empty and not brief:
         say_all(_wrapped([legend(ranking)], _width()))
     say_all(warnings(file, ranking))

@@ -68,7 +68,7 @@ SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
 SMALLEST, LARGEST = 1e-30, 1e30  # in SI, so that products neither overflow nor vanish
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)
-_POWER = re.compile(r"(.+?)(?:\^(-?\d)|([23]))", re.ASCII)  # m^3, or m3
+_POWER = re.compile(r"(.+)\^(-?\d)|(.*[^\W\d_])([23])")  # m^3, or m3
 
 
 def in_si(text: object, unit: str) -> float:
@@ -130,7 +130,8 @@ def _factors(text: str) -> Iterator[tuple[str, int]]:
     for piece in "*".join(text.split()).split("*"):
         for place, factor in enumerate(piece.split("/")):
             power = _POWER.fullmatch(factor)
-            name, exponent = (power[1], int(power[2] or power[3])) if power else (factor, 1)
+            name, exponent = (power[1] or power[3], power[2] or power[4]) if power else (factor, 1)
+            exponent = int(exponent)
             yield name, -exponent if place else exponent
 
 

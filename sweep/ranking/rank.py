@@ -204,20 +204,19 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
         for label, rows in scene_rows.items()
     ]
-    parts = [
+    placed = [
         part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
-    leading = [name for name in LEADING if name in parts[0]]
+    leading = [name for name in LEADING if name in placed[0]]
     ranked = dict(zip(scene_rows, scenes, strict=True))
-    stopped_rows = by_scene(whole[interrupted(whole) | unloaded(whole)], labels)
-    stopped = [
-        part.assign(scene=label)
-        for label, cases in stopped_rows.items()
-        for rows, order in [ranked.get(label, (whole[:0], _order(cases, by, usual)))]
-        for part in could_place(rows, cases, order, masses, names, question, required)
-    ]
+    stopped = []
+    for label, cases in by_scene(whole[interrupted(whole) | unloaded(whole)], labels).items():
+        rows, order = ranked.get(label, (whole[:0], _order(cases, by, usual)))
+        parts = could_place(rows, cases, order, masses, names, question, required)
+        alone = {} if label in ranked else {"least_place": np.nan}  # beside no ranked design
+        stopped += [part.assign(scene=label, **alone) for part in parts]
     return Ranking(
-        table=widened(pd.concat(parts), summary, leading).reset_index(drop=True),
+        table=widened(pd.concat(placed), summary, leading).reset_index(drop=True),
         unfinished=widened(pd.concat(stopped), summary, FIRST).reset_index(drop=True),
         **names._asdict(),
         limited=allowed_force is not None,

@@ -11,8 +11,8 @@ infinite:
   its steps do not resolve.
 
 The better end gives the best place that the case could have had among those ranked, the worse end
-the place that it has at least, if others are ranked; doubtful designs follow all others. A
-requirement that it already misses, or its mass, excludes it.
+the place that it has at least; doubtful designs follow all others. A requirement that it already
+misses, or its mass, excludes it.
 """
 
 import re
@@ -91,7 +91,7 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     bounds = ends(stopped, by, names, question)
     missed, certain = _judged(stopped, names, question, required)
     better, worse = bounds if less_is_better(by) else bounds[::-1]
-    doubt, certain = doubtful(stopped), certain & np.isfinite(worse) & (len(ranked) > 0)
+    doubt, certain = doubtful(stopped), certain & np.isfinite(worse)
     candidates, mass = ranked.dropna(subset=by), stopped[names.mass]
     parts = []
     for budget_g in budgets_g:

@@ -180,7 +180,7 @@ class Progress:
         if len(self._recent) < 2:
             return []
         (begin, done_then, cpu_then), (now, done, cpu) = self._recent[0], self._recent[-1]
-        if now == begin:
+        if now == begin or done == done_then:
             return []
         pace = f"{(done - done_then) / (now - begin):.3g} a second"
         if self.done == self.total or now - begin < FIRM or cpu <= cpu_then:
@@ -190,9 +190,10 @@ class Progress:
 
     def _time_waiting(self) -> float:
         """Processor time (s) of the waiting cases; a kind none of which ended has the mean pace."""
-        of_all = sum(self._cpu.values()) / sum(self._ended.values())
-        pace = {k: self._cpu[k] / ended for k, ended in self._ended.items()}
-        return sum(left * pace.get(k, of_all) for k, left in self._left.items())
+        cpu, ended, left = (dict(of_kind) for of_kind in (self._cpu, self._ended, self._left))
+        of_all = sum(cpu.values()) / sum(ended.values())
+        pace = {k: cpu[k] / weight for k, weight in ended.items() if k in cpu}
+        return sum(weight * pace.get(k, of_all) for k, weight in left.items())
 
     def _update(self, line: str) -> None:
         """Show the state of the sweep; in a notebook it replaces the previous state."""

@@ -95,12 +95,12 @@ def _is_cut_short(retry: Result, case: Case) -> bool:
 
 
 def _reach(result: Result) -> tuple[bool, bool, bool, bool]:
-    """How far a run came: whether it converged, completed its loading, lost its striker, or at
-    least had steps that resolve what it followed.
+    """How far a run came: whether it converged, completed its loading, lost its striker, or failed
+    for a reason that no other steps cure, as a striker that still moves at the end.
     """
     converged, slipped = (result.status is status for status in ENDED)
-    resolved = result.status is not Status.UNRESOLVED
-    return converged, result.summary["loaded"] == 1, slipped, resolved
+    certain = result.status is Status.STOPPED and not result.curable
+    return converged, result.summary["loaded"] == 1, slipped, certain
 
 
 def _final_result(case: Case, best: Result, attempts: list[str], spent: float) -> Result:

@@ -235,7 +235,6 @@ class _Run:
         self.blind = isinstance(case.loading, CustomLoading)
         self.stages = stages(case, scene)
         total = sum(s.stage.steps for s in self.stages)
-        control[2] = control[1] + total
         self.state = scene.at_rest()
         self.state.v[:] = scene.velocity
         self.rows = np.zeros(total + 1, ROW)
@@ -245,6 +244,7 @@ class _Run:
         self._begin()
         self.struck = isinstance(case.loading, Impact)
         early = self.struck or isinstance(case.solver, Arcs)
+        control[2] = 0 if early else control[1] + total  # they end before all steps are done
         count = EARLY_FRAMES if early else FRAMES * case.loading.cycles
         self.slot_of, kept = _frames(total + 1, count, early)
         self.even_from = self.slot_of[max(round(total / count), 1)]  # slot of the first even frame

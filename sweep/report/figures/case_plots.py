@@ -384,12 +384,16 @@ def _to_scale(scale: float) -> Callable[[Axes, Any], Bbox]:
     return box
 
 
-def legend(fig: Figure, entries: list[dict[str, Any]]) -> None:
-    """One legend for all axes, to the right of them, in as many columns as needed.
+def legend(fig: Figure, entries: list[dict[str, Any]], below: bool = False) -> None:
+    """One legend for all axes, to the right of them, in as many columns as needed, or in a row
+    below them.
 
     Every column after the first widens the figure.
     """
     handles = [Line2D([], [], **entry) for entry in entries]
+    if below and handles:
+        fig.legend(handles=handles, loc="outside lower right", frameon=False, ncols=len(handles))
+        return
     width, height = fig.get_size_inches()
     columns = -(-len(handles) // int(height / ENTRY))
     if handles:

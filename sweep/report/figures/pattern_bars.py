@@ -8,14 +8,13 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.lines import Line2D
 from pandas import DataFrame
 
 from sweep.numbers import in_unit
 from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.ranking import Ranking
-from sweep.report.figures.case_plots import GREY, beside, walls
+from sweep.report.figures.case_plots import GREY, beside, legend, walls
 from sweep.report.figures.design_style import errors_of, until
 from sweep.report.figures.ranking_plots import COARSE, HEAVY, heading, mark_coarse
 from sweep.report.tables.design_text import design_labels
@@ -66,9 +65,7 @@ def pattern_bars(
         ax.spines[["top", "right"]].set_visible(False)
     entries: list[dict[str, Any]] = [HEAVY | {"marker": "s"}] * bool(heavy.any())
     entries += [COARSE] * bool(designs["coarse"].any())
-    if entries:  # right of the shortest bars
-        handles = [Line2D([], [], **entry) for entry in entries]
-        axes[-1].legend(handles=handles, loc="lower right", frameon=False)
+    legend(fig, entries, below=True)
 
 
 def _draw(ax: Axes, shapes: Sequence[Mapping[str, Any]]) -> None:

@@ -62,12 +62,13 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
     """
     budgets, table = ranking.budgets_g, ranking.table
     named = partial(named_case, among=summary)
-    if ranking.lightest_g and ranking.is_above_budgets:
+    scenes = list(ranking.lightest_g)
+    if scenes and ranking.is_above_budgets:
         lightest = _missed(ranking.scenes[0], ranking, named)
-        stopped = unfinished_notes(ranking.unfinished, named)
+        stopped = [note for scene in ranking.scenes for note in _unfinished(scene, ranking, named)]
         yield Sheet("", [], [], notes=(*lightest, *stopped))
-        return
-    for scene in ranking.lightest_g:
+        scenes = []
+    for scene in scenes:
         placed = rows = table[table["scene"] == scene]
         missed = _missed(scene, ranking, named)
         requirements = tuple(requirement_notes(scene, ranking, named))

@@ -167,7 +167,9 @@ def test_ranking_counts_failures_aloud(capsys, file, tmp_path):
     assert [line[:3] for line in table[:3]] == [" 1*", "2=*", "2=*"]
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, {"status": "timed_out"}))
     status, out, _ = crumple(capsys, "rank", file)
-    assert (status, out) == (1, f"2 of 2 cases failed: crumple status {file} says why\n")
+    assert status == 1
+    assert "No design is ranked here: all cases failed (2).\nUnfinished: case " in out
+    assert out.endswith(f"\n\n2 of 2 cases failed: crumple status {file} says why\n")
 
 
 def test_config_speaks_where_the_arguments_are_silent(capsys, tmp_path):

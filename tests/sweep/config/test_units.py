@@ -46,6 +46,12 @@ def test_value_is_the_float_that_is_nearest_to_the_decimals(number):
 NO_MASS = ["gg", "KG", "g^", "g^x", "g*", "*g", "g//s", "%", "((", "1/0", "g^10", "1s", "m1", "%s"]
 
 
+@pytest.mark.parametrize("text", ["1/12 ft", "3/12 in", "1/13 in", "50 12 m", "2 %2", "5 1/12 ft"])
+def test_a_fraction_is_no_power(text):
+    with pytest.raises(ValueError, match=r"unknown unit|another kind"):
+        in_si(text, "m")
+
+
 @pytest.mark.parametrize("unit", [*NO_MASS, "km2"])
 def test_what_is_no_unit_of_mass_is_refused(unit):
     with pytest.raises(ValueError, match=r"unknown unit|of another kind|not a number"):

@@ -80,7 +80,13 @@ def test_long_cases_show_how_far_they_are(clock):
             told.tick()
         lines = out.getvalue().splitlines()
         shares.clear()
+        clock.now += 1.0
+        told.advance([ended(cases(8)[0], 13.0)])
+        clock.now += 1.0
+        told.advance([])
     assert lines == ["0/8 cases, running: 34 % and 2 %"] * 3
+    assert out.getvalue().splitlines()[-1].startswith("1/8 cases")
+    assert "a second" not in out.getvalue()
 
 
 def test_plain_lines_are_few(clock):

@@ -12,9 +12,8 @@ from tests.support.results.specimens import designs, summary
 
 
 def legend_of(figure):
-    """The words of the legends in the axes of a figure."""
-    keys = filter(None, (ax.get_legend() for ax in figure.axes))
-    return [text.get_text() for key in keys for text in key.get_texts()]
+    """The words of the legends of a figure."""
+    return [text.get_text() for key in figure.legends for text in key.get_texts()]
 
 
 def test_several_patterns_are_drawn_side_by_side():
