@@ -49,6 +49,15 @@ def test_a_budget_below_all_designs_is_one_sentence_and_no_table():
     assert loose.notes == (nothing(0.5, 3, 2), nothing(2, 3, 2))
 
 
+def test_unfinished_cases_stand_below_their_scene_if_all_designs_are_too_heavy():
+    lost = {"status": "stopped", "loaded": 0, "platen": "contact", "mass_g": 0.4}
+    table = summary(*designs([1.0, 2.0], [0.4, 0.5]), lost)
+    heavy, failed = ranking_sheets(ranked(table, budget="0.5 g"), table)
+    assert [note[:16] for note in heavy.notes] == ["No design weighs"]
+    assert "contact platens" in failed.title
+    assert [note[:10] for note in failed.notes] == ["No design ", "Unfinished"]
+
+
 def test_what_comes_back_and_what_has_not_packed_is_told():
     nowhere = {"densification_strain": NAN, "packing_strain": NAN, "peak_strain": NAN}
     table = summary(CRUSHED_SOLID, SPARSE, SPARSE | nowhere)
