@@ -15,8 +15,8 @@ $(shell $(PYTHON) -c '' 2>/dev/null || rm -f $(STAMP))
 # Python keeps compiled modules, whatever the environment says: tests and their processes start sooner.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup sweep rank test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
-        bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces gyroid_mesh bench published experiment along figures site lint clean
+.PHONY: help setup sweep rank lint style types types_of_windows test slow stock mutants verify validate elements continuum accuracy mesh steps pictures rammed gyroid \
+        bars spread effort search sides wide memory stability torture scale plates plates_solid surfaces gyroid_mesh bench published experiment along figures site clean
 .DELETE_ON_ERROR:
 
 help:  ## print this list
@@ -43,9 +43,18 @@ site: setup  ## build the documentation as a site that can be searched, into bui
 	@find CHANGELOG.md CONTRIBUTING.md GLOSSARY.md README.md configs docs kernels -name '*.md' -o -name '*.png' -o -name '*.ipynb' | tar cf - -T - | tar xf - -C build/pages
 	@$(PYTHON) -m mkdocs build --strict
 
-lint: setup  ## check style and types, those of Windows too
+lint: setup  ## check style and types, those of Windows too, in two processes
+	@$(MAKE) --no-print-directory --jobs 2 style types types_of_windows
+
+style types types_of_windows: setup
+
+style:
 	$(PYTHON) -m ruff check
+
+types:
 	$(PYTHON) -m mypy
+
+types_of_windows:
 	$(PYTHON) -m mypy --platform win32 --cache-dir .mypy_cache/win32
 
 # Kernels are compiled by the tests of these, once (tests/conftest.py).
