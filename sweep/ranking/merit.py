@@ -1,6 +1,6 @@
 """The merit of a design: its usable energy, in total, per gram, and for a panel of specimens.
 
-Energy is counted until densification, or until the force exceeds the allowed force. A packed
+Energy is counted until densification, or until the force exceeds the allowed force. A denser
 lattice absorbs energy as a solid block does, at a multiple of the force, whatever its infill. If
 the loading sets the energy, `Mode.least` is compared instead.
 

@@ -147,7 +147,7 @@ def rank(  # noqa: PLR0913  every argument is a part of one question
         stroke that this takes.
     returned_share : returned energy / work of the whole crush.
     ends_early : True if a crush ended before the allowed force was exceeded or before the lattice
-        had packed: in a longer one it absorbs more than the usable energy.
+        densified: in a longer one it absorbs more than the usable energy.
     beyond_model : True if an element is too short or a wall breaks while the usable energy is
         absorbed, or if the lattice is compressed to less than its solid height.
     crossed : True if walls crossed one another.

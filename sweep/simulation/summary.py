@@ -308,10 +308,10 @@ def crush_columns(case: Case, loading: dict[str, Floats]) -> dict[str, float]:
 
 
 def ratios(case: Case, loading: dict[str, Floats], columns: dict[str, float]) -> dict[str, float]:
-    """Ideality and cushion factor of a crush until packed (Miltz & Gruenbaum 1981), and mean force
+    """Ideality and cushion factor until densification (Miltz & Gruenbaum 1981), and mean force
     / greatest force of the whole loading; NaN under a dead load, or without any force.
 
-    columns: values until packed; `packing_strain` is NaN unless the mode is displacement.
+    columns: values until densification; `packing_strain` is NaN unless the mode is displacement.
     """
     height = case.height or np.nan
     strain, greatest = loading["strain"].max(), transmitted(case, loading).max()

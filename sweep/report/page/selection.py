@@ -51,7 +51,7 @@ SELECTED_BY = frozenset(
 
 
 class Counted(NamedTuple):
-    """Energy up to an allowed force (N; None: until packed), and the rows with the compared
+    """Energy up to an allowed force (N; None: until densification), and the rows with the compared
     columns.
     """
 
@@ -81,7 +81,7 @@ def select_designs(
 
 
 def on_fronts(counted: Sequence[Counted], scenes: Sequence[DataFrame]) -> list[str]:
-    """Ids of the designs to be trusted that are first within some budget: until packed, then up to
+    """Ids of the trusted designs that are first within some budget: until densification, then up to
     the forces of the columns, of the scenes in turn.
     """
     fronts = []

@@ -37,7 +37,7 @@ def table(summaries, parts=PARTS):
             body.append(row)
     notes = (
         "Spearman's correlation of the order of designs with that of elastic walls, by energy per",
-        "gram until packed (crushes), least strain (dead loads), least force (impacts).",
+        "gram until densification (crushes), least strain (dead loads), least force (impacts).",
         "*: another design is the best.",
     )
     return Sheet("Orders with and without memory", heads, body, notes=notes)

@@ -51,7 +51,7 @@ def by_column(found, title="Errors by column"):
     notes = (
         f"Errors in %, beside {FINEST[-1]} elements a wall: the middle one / that of nine of ten.",
         f"{entering} of {designs} designs enter; the finest meshes of the others failed or part.",
-        "Energies to 60 %, until packed, and up to forces; peak force until packed; ISO plateau.",
+        "Energies to 60 %, until densification, up to forces; peak force until then; ISO plateau.",
         f"Paths part where mean forces over {100 * WINDOW:g} % of strain differ by "
         f"{100 * APART:g} %, {LASTING} times on end.",
         f"Work: iterations x elements. Work and time are medians, {BASE} elements being 1.",

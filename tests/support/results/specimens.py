@@ -72,8 +72,8 @@ SPARSE |= {"peak_strain": 0.5, "peak_force_N": 25.0}
 def summary(*rows):
     """Table with a row for each dict of differences from a 3 x 3 grid crushed to one half.
 
-    Ids count from 0...0; J/g follows from energy and mass; energy and force until packed down, and
-    energy within the model, equal the values of the whole crush; columns not named are 0.
+    Ids count from 0...0; J/g follows from energy and mass; energies until densification and
+    within the model equal the values of the whole crush; columns not named are 0.
     """
     ids = count()
     full = [{"case_id": f"{next(ids):016x}"} | _DEFAULTS | dict(row) for row in rows]

@@ -1,4 +1,4 @@
-"""Counted values: energy up to a force or until packed, of a panel, and force under a striker."""
+"""Counted values: energy up to a force or until densification, of a panel; striker forces."""
 
 import re
 
