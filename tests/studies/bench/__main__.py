@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from sweep.simulation.warm_up import warm_up
-from tests.studies.bench import densify, growth, scenes, starts, sweeps
+from tests.studies.bench import densify, folded, growth, scenes, starts, sweeps
 from tests.studies.tables import tell
 
 SIZES, TWO, COUNT = (3, 5, 10, 20, 40), (3, 20), 7
@@ -22,6 +22,7 @@ def tables():
     yield growth.table(SIZES, 50, COUNT)
     yield scenes.collapse(TWO, COUNT)
     yield densify.table(40, 0.6, 200)
+    yield folded.table({kind: folded.along(kind, 2, 0.3, 50) for kind in ("square", "hex")}, 31)
     yield sweeps.throughput(sweeps.thousand(), 41)
 
 

@@ -146,5 +146,5 @@ def test_opensees_moves_as_we_do():
 
 def test_readme_shows_rows_of_the_bench():
     said = {row[0] for table in readme.tables() for row in table}
-    others = {growth.EACH, growth.PEAK, "with friction", *scenes.LEFT_OUT}
+    others = {growth.EACH, growth.PEAK, "with friction", "hex, CHOLMOD", *scenes.LEFT_OUT}
     assert {scenes.SEED, *scenes.ALLOWED, *scenes.PEERS, *scenes.LARGER, *others} <= said
