@@ -21,8 +21,8 @@ MASSES = (0.6e-3, 1.2e-3, 2.0e-3)  # kg: about 0.1, 0.2 and 0.35 of a solid bloc
 DESIGNS = tuple(product(CELLS, product(("glued", "contact"), MASSES)))
 COLUMNS = {
     "absorbed_energy_J": "energy per gram",
-    "absorbed_energy_until_packed_J": "until densification",
-    "packing_strain": "densification strain",
+    "absorbed_energy_until_packed_J": "usable energy",
+    "packing_strain": "dens. strain",
     "peak_force_until_packed_N": "peak force",
     "plateau_stress_iso_Pa": "plateau stress",
     **{f"absorbed_energy_at_{force:g}N_J": f"up to {force:g} N" for force in ALLOWED},
