@@ -2,7 +2,8 @@
 
 Run by `make steps`: the crushes of `crushes` on their default meshes, elastic and with a loss of 40
 %, against the finest of `EQUAL` steps. Designs that follow different paths in its two numbers of
-steps enter no average. Finished cases are kept in the given folder.
+steps enter no average. Iterations are counted by phase, too, between glued platens. Finished cases
+are kept in the given folder.
 """
 
 import sys
@@ -13,7 +14,7 @@ import numpy as np
 from sweep.loading_modes import MODES
 from sweep.report.tables.sheet import Sheet
 from sweep.running.sweep import run_sweep
-from sweep.store.read import read_summary
+from sweep.store.read import read_history, read_summary
 from tests.studies.mesh.crushes import COLUMNS, DESIGNS, curve, parted, usual
 from tests.studies.rankings.spread import crush, nine_of_ten
 from tests.studies.tables import publish
@@ -23,6 +24,10 @@ SETTINGS = {
     **{str(count): {"load_steps": count} for count in (25, 50, 100, 200, 400)},
 }
 LOSSES = (0.0, 0.4)
+PHASES = ("before buckling", "on the plateau", "in contact", "beyond densification")
+UNIT = 3e-3  # strain of one of 200 equal steps
+BUCKLED = 0.5  # share of the first stiffness, below which a wall has buckled
+TOUCHED = 1e-6  # share of the work, stored in contacts
 EQUAL = {0.0: ("800", "1600"), 0.4: ("6400", "12800")}  # by loss: a fine and the finest number
 
 
@@ -114,6 +119,33 @@ def _errors(values):
     )
 
 
+def by_phase(history, densified):
+    """Iterations of a crush for each `UNIT` of strain in each of `PHASES`; NaN in one that it does
+    not have. densified: densification strain, NaN if none.
+    """
+    strain, force, work = (history[name] for name in ("strain", "reaction_top_N", "work_in_J"))
+    buckled = force < BUCKLED * force[1] / strain[1] * strain
+    begun = [_first(strain, rows) for rows in (buckled, history["contact_J"] > TOUCHED * work)]
+    last = strain.iloc[-1]
+    ends = np.maximum.accumulate([*begun, np.fmin(densified, last), last])
+    spent = np.interp(ends, strain, history["newton_iterations"].cumsum())
+    span = np.diff(ends, prepend=0.0) / UNIT
+    return np.divide(np.diff(spent, prepend=0.0), span, out=np.full(4, np.nan), where=span > 1.0)
+
+
+def _first(strain, rows):
+    """Strain of the first of some rows; the last strain if there is none."""
+    return strain[rows].iloc[0] if rows.any() else strain.iloc[-1]
+
+
+def phase_sheet(iterations):
+    """Medians over crushes: setting -> iterations (crushes, phases)."""
+    medians = [np.nanmedian(each, axis=0) for each in iterations.values()]
+    rows = [[phase, *(f"{m[k]:.2g}" for m in medians)] for k, phase in enumerate(PHASES)]
+    title = f"Iterations for each {UNIT:.1%} of strain, glued platens, elastic"
+    return Sheet(title, ["phase", *iterations], rows)
+
+
 def main(folder):
     """Run the missing cases, and print the tables."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -122,7 +154,14 @@ def main(folder):
     rows = read_summary(file).set_index("case_id")
     curves = {case.case_id: curve(file, case.case_id) for case in cases.values()}
     sheets = [sheet(compare(cases, rows, curves, loss), loss) for loss in LOSSES]
-    publish(sheets, folder / "steps.md")
+    glued = [design for design in DESIGNS if design[1][0] == "glued"]
+    ids = {name: [cases[0.0, design, name].case_id for design in glued] for name in SETTINGS}
+    densified = rows["densification_strain"]
+    phases = {
+        name: [by_phase(read_history(file, one), densified[one]) for one in each]
+        for name, each in ids.items()
+    }
+    publish([*sheets, phase_sheet(phases)], folder / "steps.md")
 
 
 if __name__ == "__main__":

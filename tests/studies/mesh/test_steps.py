@@ -39,3 +39,23 @@ def test_errors_beside_the_finest(monkeypatch):
     again = steps.compare(cases, failed.infer_objects(), curves, 0.0)
     assert np.isnan(again["25"]["absorbed_energy_J"][0])
     assert again["0.3%"]["absorbed_energy_J"][0] == pytest.approx(energy["0.3%"])
+
+
+def test_iterations_belong_to_their_phase():
+    """Buckled at 3 %, touched at 9 %, densified at 15 %: one to four iterations a step of 0.3 %."""
+    strain = np.arange(0.0, 0.3001, 3e-3)
+    ends = np.array([0.03, 0.09, 0.15])
+    history = pd.DataFrame(
+        {
+            "strain": strain,
+            "reaction_top_N": np.where(strain < 0.03, 1e3 * strain, 1e-9),
+            "work_in_J": 1.0,
+            "contact_J": np.where(strain < 0.09, 0.0, 0.1),
+            "newton_iterations": 1.0 + np.searchsorted(ends, strain - 1e-9),
+        }
+    )
+    history.loc[0, "newton_iterations"] = 0.0
+    np.testing.assert_allclose(steps.by_phase(history, 0.15), [1.0, 2.0, 3.0, 4.0])
+    np.testing.assert_allclose(steps.by_phase(history, np.nan), [1.0, 2.0, 3.0 + 5 / 7, np.nan])
+    table = steps.phase_sheet({"25": [[1.0, 2.0, 3.0, np.nan], [3.0, 4.0, 5.0, 6.0]]})
+    assert [row[1] for row in table.rows] == ["2", "3", "4", "6"]
