@@ -112,8 +112,8 @@ def test_a_fifth_of_a_full_page_fits_into_a_megabyte(tmp_path, monkeypatch):
     strain, time = np.linspace(0.0, 0.6, 41), np.linspace(0.0, 1.0, 41)
 
     def ran(*_):
-        history = {name: rng.random(81) for name in there_and_back()}
-        history["strain"] = np.linspace(0.0, 0.6, 81)
+        history = {name: rng.random(201) for name in there_and_back()}
+        history["strain"] = np.linspace(0.0, 0.6, 201)
         frames = {"strain": strain, "time_s": time, "plate_y_m": np.zeros((41, 2))}
         frames |= {"position_m": rng.random((41, 40, 2)) * 0.0125}
         edges = rng.integers(0, 40, (50, 2))
