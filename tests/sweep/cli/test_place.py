@@ -9,7 +9,6 @@ import pytest
 
 from sweep.running.cluster import ClusterError
 from tests.support.command import crumple
-from tests.support.results.standin import simulate
 
 CRUSH = "[lattice]\ncells = 2\n[loading]\nstrain = 0.1\n[solver]\nload_steps = 4\n"
 
@@ -25,7 +24,6 @@ def opened(monkeypatch, tmp_path):
         yield
 
     monkeypatch.setattr("sweep.cli.place.open_place", open_place)
-    monkeypatch.setattr("sweep.simulation.retries.simulate", simulate)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "trial.toml").write_text(CRUSH)
     return calls
