@@ -157,14 +157,17 @@ class Results:
         Without a case: of all designs, such as "absorption" over mass.
         """
         if case is None:
-            figures = dict(ranking_figures(str(self.path), self.table, self.question))
+            figures = ranking_figures(str(self.path), self.table, self.question)
         else:
-            figures = dict(case_figures(str(self.path), self._row(case)))
-        if not figures:
+            figures = case_figures(str(self.path), self._row(case))
+        others = []
+        for name, figure in figures:
+            if what in (None, name):
+                return Picture(figure)
+            others.append(name)
+        if not others:
             raise ValueError("there is nothing to draw")
-        if what is not None and what not in figures:
-            raise ValueError(f'no picture "{what}"; there are {", ".join(figures)}')
-        return Picture(figures[what] if what else next(iter(figures.values())))
+        raise ValueError(f'no picture "{what}"; there are {", ".join(others)}')
 
     def _row(self, case: int | str) -> Series:
         """The row with a number, counted from 0, or with an id."""

@@ -56,9 +56,8 @@ def _about(name: str) -> str:
 
 def widened(rows: DataFrame, summary: DataFrame, first: Collection[str] = ()) -> DataFrame:
     """Rows of `needed_columns` with all columns of the summary, which precede the added ones."""
-    others = [name for name in summary if name not in rows]
+    others = summary.columns.difference(rows.columns, sort=False)
     more = summary.loc[rows.index, others]
-    parts = [part.reset_index(drop=True) for part in (rows, more)]  # a row may be there twice
-    whole = concat(parts, axis=1).set_axis(rows.index)
+    whole = concat([rows, more.set_axis(rows.index)], axis=1)  # a row may be there twice
     leading = [name for name in first if name in whole]
     return whole[[*dict.fromkeys([*leading, *summary, *rows])]]

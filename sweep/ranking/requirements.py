@@ -269,9 +269,8 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
         ],
     }
     of_steps = {name: rows.get(one.step_error, none) for name, one in MEASURES.items()}
-    return {
-        name: DataFrame([none, of_steps[name], *errors.get(name, [])]).max() for name in MEASURES
-    }
+    each = {name: [none, of_steps[name], *errors.get(name, [])] for name in MEASURES}
+    return {name: Series(np.fmax.reduce(some), rows.index) for name, some in each.items()}
 
 
 def _bar(rows: DataFrame, name: str) -> Series:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+import numpy as np
 from pandas import DataFrame, Series, to_numeric
 
 from sweep.columns import describe_column
@@ -90,9 +91,13 @@ def _values(frame: DataFrame) -> DataFrame:
 
 def _alike(values: Series) -> Series:
     """Texts, and the same integer for numbers that differ by round-off; NaN for no value."""
-    numbers = to_numeric(values, errors="coerce").astype(float).sort_values()
-    groups = (numbers.diff() > ROUND_OFF * numbers.shift().abs()).cumsum().astype(object)
-    return groups.where(numbers.notna(), values.astype(object).where(values != ""))
+    numbers = to_numeric(values, errors="coerce").astype(float).to_numpy()
+    order = np.argsort(numbers)
+    lesser, greater = numbers[order[:-1]], numbers[order[1:]]
+    groups = np.zeros(len(numbers), int)
+    groups[order[1:]] = np.cumsum(greater > lesser + ROUND_OFF * abs(lesser))
+    texts = values.astype(object).where(values != "")
+    return texts.where(np.isnan(numbers), groups)
 
 
 def scene_keys(frame: DataFrame) -> list[str]:

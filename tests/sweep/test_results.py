@@ -117,14 +117,14 @@ def test_the_page_is_written_beside_the_results(file, tmp_path):
 
 def test_picture_of_a_case_and_of_all(file, tmp_path):
     results = Results(file)
-    for picture in (results.plot(0), results.plot(0, "shapes"), results.plot()):
+    first, energies = results.plot(0), results.plot(0, "energies")
+    for picture in (first, energies, results.plot(0, "shapes"), results.plot()):
         assert isinstance(picture, Picture)
-        assert picture._repr_png_().startswith(PNG)
-    path = results.plot(0, "energies").save(tmp_path / "energies.png")
+    assert first._repr_png_().startswith(PNG)
+    path = energies.save(tmp_path / "energies.png")
     assert path.read_bytes().startswith(PNG)
-    force, energies = (
-        results.plot(0, what).figure.axes[0].get_ylabel() for what in ("force", "energies")
-    )
-    assert force != energies
+    force, energy = (picture.figure.axes[0].get_ylabel() for picture in (first, energies))
+    assert force != energy
+    assert results.plot(0, "force").figure.axes[0].get_ylabel() == force
     with pytest.raises(ValueError, match='no picture "heat"; there are force, energies, shapes'):
         results.plot(0, "heat")

@@ -120,16 +120,19 @@ def test_rows_are_those_that_rich_prints(limit, capsys, monkeypatch):
     assert capsys.readouterr().out == f"\n{text.get()}\n"
 
 
-def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(tmp_path):
+def test_a_narrow_terminal_shows_whole_numbers_and_says_what_it_leaves_out(
+    capsys, monkeypatch, tmp_path
+):
     names = ("wall_thickness_m", "width_m", "depth_m", "mass_g")
     varied = [dict.fromkeys(names, size) for size in (1.23e-3, 2.34e-3)]
     long = {"material": "a_material_with_a_long_name", "peak_force_N": 12345.0}
     file = write(tmp_path / "trial.h5", summary(*(row | long for row in varied), {}))
-    shown = {
-        columns: started("rank", file, stdout=subprocess.PIPE, env=env).stdout
-        for columns, env in ((200, {"COLUMNS": "200"}), (None, {}), (80, {"COLUMNS": "80"}))
-    }
-    tables = {columns: text.split("\n\n")[1] for columns, text in shown.items()}
+    monkeypatch.delenv("COLUMNS", raising=False)
+    tables = {}
+    for columns in (None, 200, 80):
+        if columns:
+            monkeypatch.setenv("COLUMNS", str(columns))
+        tables[columns] = crumple(capsys, "rank", file)[1].split("\n\n")[1]
     assert "Hidden" not in tables[200] + tables[None]
     assert "Hidden in this narrow terminal: dens. %, returned %. A wider" in tables[80]
     assert max(map(len, tables[80].splitlines())) <= 80
@@ -151,19 +154,19 @@ def test_a_path_is_quoted_as_the_shell_of_the_system_takes_it(monkeypatch, syste
     assert quoted(path) == written
 
 
-@pytest.mark.parametrize(("words", "status"), [(["rank", "--top", "400"], 1), (["show", "999"], 2)])
-def test_output_that_nobody_reads_or_that_is_closed_changes_no_exit_status(
-    tmp_path, nobody, words, status
-):
+def test_output_that_nobody_reads_or_that_is_closed_changes_no_exit_status(tmp_path, nobody):
     cases = [{"case_id": f"{k:016x}"} for k in range(1, 400)]
     file = write(tmp_path / "trial.h5", summary({"status": "stopped"}, *cases))
-    for how in (
-        {"stdout": nobody},
-        {"stdout": nobody, "stderr": nobody},
-        {"preexec_fn": lambda: os.close(1)},
-        {"preexec_fn": lambda: os.close(2)},
+    ranked, refused = (["--top", "400"], 1), (["--by", "nothing"], 2)
+    for (words, status), how in (
+        (ranked, {"stdout": nobody}),
+        (ranked, {"stdout": nobody, "stderr": nobody}),
+        (ranked, {"preexec_fn": lambda: os.close(1)}),
+        (ranked, {"preexec_fn": lambda: os.close(2)}),
+        (refused, {"stdout": nobody, "stderr": nobody}),
+        (refused, {"preexec_fn": lambda: os.close(2)}),
     ):
-        done = started(words[0], file, *words[1:], **how)
+        done = started("rank", file, *words, **how)
         assert done.returncode == status
         assert not re.search("pipe|descriptor|Traceback", done.stderr or "")
 

@@ -29,6 +29,12 @@ def published(tmp_path):
 
 
 @pytest.fixture
+def without_figures(monkeypatch):
+    """Only tables are written."""
+    monkeypatch.setattr("sweep.report.publish._sweep_figures", lambda *_: ())
+
+
+@pytest.fixture
 def pictured(monkeypatch):
     """The rankings of the maps that are drawn."""
     rankings = []
@@ -36,7 +42,7 @@ def pictured(monkeypatch):
     return rankings
 
 
-@pytest.mark.usefixtures("unpainted")
+@pytest.mark.usefixtures("without_figures")
 def test_tables_come_with_their_legend_and_say_that_other_parts_may_have_better(published):
     text = published(about={"part": "1/3"})["ranking.md"].read_text("utf-8")
     assert MARKS.format("absorbs as much or is strained as little", "the part") in text
@@ -44,7 +50,7 @@ def test_tables_come_with_their_legend_and_say_that_other_parts_may_have_better(
     assert "\nThis file has part 1/3 of a sweep: " in text
 
 
-@pytest.mark.usefixtures("unpainted")
+@pytest.mark.usefixtures("without_figures")
 @pytest.mark.parametrize(
     ("question", "masses"),
     [
@@ -100,6 +106,7 @@ def test_cushion_curves_need_a_crush(published, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_plates_are_drawn_whole_and_cut_open(tmp_path):
     table = summary({"direction": "out_of_plane", "solid_strain": 0.7}, {})
     file = write(tmp_path / "f.h5", table)
@@ -111,6 +118,7 @@ def test_plates_are_drawn_whole_and_cut_open(tmp_path):
     assert drawn[1] == drawn[0] - {"inside.png"}
 
 
+@pytest.mark.usefixtures("unpainted")
 def test_patterns_of_both_directions_have_their_drawings(published):
     both = designs([1.0, 1.0], [0.2, 0.4])
     both[0] |= {"direction": "out_of_plane", "lattice_kind": "hex", "solid_strain": 0.7}

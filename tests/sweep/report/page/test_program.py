@@ -43,8 +43,14 @@ def page_of(folder, table, factors):
     return write_page(str(file), table, Question(), folder / "random.html").read_text("utf-8")
 
 
-@pytest.mark.parametrize("sides", ["free", "tied"])
-@pytest.mark.parametrize("seed", range(len(OTHERS)))
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    """A page of two scenes of crushes."""
+    folder = tmp_path_factory.mktemp("page")
+    return page_of(folder, *random_sweep(np.random.default_rng(0), OTHERS[0]))
+
+
+@pytest.mark.parametrize(("seed", "sides"), [(0, "free"), (1, "tied"), (2, "free"), (3, "tied")])
 def test_every_question_is_answered(tmp_path, seed, sides):
     rng = np.random.default_rng(seed)
     table, factors = random_sweep(rng, OTHERS[seed])
@@ -78,17 +84,15 @@ TYPE = """
 
 
 @pytest.mark.parametrize("text", ["", "-5", "0", "1e300"])
-def test_a_number_that_cannot_be_asked_for_asks_for_nothing(tmp_path, text):
-    table, factors = random_sweep(np.random.default_rng(0), OTHERS[0])
-    with opened(page_of(tmp_path, table, factors)) as run:
+def test_a_number_that_cannot_be_asked_for_asks_for_nothing(page, text):
+    with opened(page) as run:
         assert run(TYPE.format(text="50")) == [50.0, 50.0, [0.05, 0.1], 50.0]
         assert run(TYPE.format(text=text)) == [None, None, [0.05, 0.1], None]
 
 
-def test_a_force_of_no_panel_is_asked_of_nothing(tmp_path):
-    table, factors = random_sweep(np.random.default_rng(0), OTHERS[0])
+def test_a_force_of_no_panel_is_asked_of_nothing(page):
     question = {"panel": [0.1, 0.05], "per": "panel", "force": 500.0}
-    with opened(page_of(tmp_path, table, factors)) as run:
+    with opened(page) as run:
         run(ASK.format(question=json.dumps(question)))
         assert run("asked.force") == 500.0
         run(ASK.format(question=json.dumps({"panel": None})))

@@ -182,13 +182,17 @@ def test_verb_writes_the_page_beside_the_file(capsys, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["a.txt", "", "folder.html", "trial.h5/a.html"])
-def test_page_needs_a_place_and_failures_give_status_one(capsys, tmp_path, name):
-    file = write(tmp_path / "trial.h5", summary({}, {"status": "stopped", "message": "no"}))
+def test_page_needs_a_place(capsys, tmp_path, name):
+    file = write(tmp_path / "trial.h5", summary({}))
     (tmp_path / "folder.html").mkdir()
     out = str(tmp_path / name) if name else name
     status, _, err = crumple(capsys, "report", file, "--out", out)
     assert status == 2
     assert err.startswith("crumple report: ")
     assert err.count("\n") <= 2
+
+
+def test_failures_give_status_one(capsys, tmp_path):
+    file = write(tmp_path / "trial.h5", summary({}, {"status": "stopped", "message": "no"}))
     status, _, err = crumple(capsys, "report", file)
     assert (status, err) == (1, "1 of 2 cases failed: the page lists them\n")
