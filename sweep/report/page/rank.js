@@ -292,9 +292,11 @@ function couldPlace(data, row, placed, question) {
   const { unresolved } = row.design;
   const value = unresolved ? null : row.value;
   const low = value === null ? -Infinity : value;
-  const high = value === null || sign < 0 ? Infinity : value + further(data, row, question);
+  const rest = unresolved || sign < 0 ? Infinity : further(data, row, question);
+  const high = value === null ? Infinity : value + rest;
   const [better, worse] = sign < 0 ? [low, high] : [high, low];
-  const sure = (name) => (data.measures[name].least ? low === high : !unresolved || name === "max_mass");
+  const settled = row.energy !== null && rest === 0;
+  const sure = (name) => (data.measures[name].least ? settled : !unresolved || name === "max_mass");
   const missed = ([name, share]) => share > 0 && share < Infinity && sure(name);
   if (Object.entries(row.misses).some(missed)) return null;
   const ahead = (other, end) =>

@@ -22,7 +22,7 @@ from tests.support.results.questions import (
     write_curves,
 )
 
-SEEDS, ASKED = (28, 21, 18, 23), 16
+SEEDS, ASKED = (7, 28, 21, 18, 23), 16
 DIGITS = 1e-3  # relative error of values that the page reads from curves of four digits
 NEEDED = ("energy", "force", "stroke")
 COUNTS = ("designs", "fulfil", "doubtful", "coarse", "failed", "unknown", "open")
