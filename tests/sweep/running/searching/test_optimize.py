@@ -37,9 +37,9 @@ def tables(tmp_path, monkeypatch):
 
 
 def test_the_designs_that_were_tried_and_the_best_are_returned(tables, tmp_path):
-    results = optimize(tables, by=ENERGY, evaluations=16)
+    results = optimize(tables, by=ENERGY, evaluations=18)
     best = results.rank(top=1)
-    assert len(results) == 16
+    assert len(results) == 18
     assert results.path.name == "sought.h5"
     assert best["lattice_kind"].item() == BEST[0]
     assert best[ENERGY].item() == results.table[ENERGY].max()
