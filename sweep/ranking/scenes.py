@@ -90,7 +90,12 @@ def _values(frame: DataFrame) -> DataFrame:
 
 
 def _alike(values: Series) -> Series:
-    """Texts, and the same integer for numbers that differ by round-off; NaN for no value."""
+    """Texts, and the same integer for numbers that differ by round-off; NaN for no value.
+
+    A column whose values are all the same stays as it is.
+    """
+    if len(values.unique()) == 1:
+        return values
     numbers = to_numeric(values, errors="coerce").astype(float).to_numpy()
     order = np.argsort(numbers)
     lesser, greater = numbers[order[:-1]], numbers[order[1:]]

@@ -32,7 +32,7 @@ def test_mutants_of_terms_differ_in_one_sign():
     found = [mutant for path in TERMS for mutant in mutants(path)]
     without = {f"kernels/terms/{name}.py" for name in ("__init__", "rayleigh")}
     assert {mutant.path for mutant in found} == set(TERMS) - without
-    for mutant in found[::5]:
+    for mutant in found[::15]:
         source = (ROOT / mutant.path).read_text("utf-8")
         pairs = zip(operators(source), operators(mutated(source, mutant)), strict=True)
         ((before, after),) = [pair for pair in pairs if pair[0] is not pair[1]]
@@ -65,14 +65,13 @@ def copy(tmp_path_factory):
     return Copy(tmp_path_factory.mktemp("mutants") / "copy")
 
 
-@pytest.mark.parametrize("mutant", [ENERGY, named(SPRING, "d - ")], ids=["inertia", "spring"])
-def test_a_mutant_turns_a_test_red_in_a_copy(mutant, copy):
-    source = (ROOT / mutant.path).read_text("utf-8")
-    verdict = copy.tried(mutant)
-    assert verdict.red.startswith(f"{mutant.own_tests}::test_")
+def test_a_mutant_turns_a_test_red_in_a_copy(copy):
+    source = (ROOT / INERTIA).read_text("utf-8")
+    verdict = copy.tried(ENERGY)
+    assert verdict.red.startswith(f"{ENERGY.own_tests}::test_")
     assert not verdict.compiled
-    assert (copy.folder / mutant.path).read_text("utf-8") == source
-    assert (ROOT / mutant.path).read_text("utf-8") == source
+    assert (copy.folder / INERTIA).read_text("utf-8") == source
+    assert (ROOT / INERTIA).read_text("utf-8") == source
 
 
 def test_a_test_that_is_red_anyway_kills_nothing(copy, monkeypatch):

@@ -69,10 +69,10 @@ def test_a_file_that_is_there_gets_more_rows(array, capsys):
 def test_a_merged_file_knows_which_parts_it_has(array, capsys):
     for number in ("1", "2", "3"):
         part(capsys, f"{number}/3", f"{number}.h5")
-    shown = ["rank"], ["export", "1", "--to", "part.stl"], ["report"]
-    for parts, told, said in (
-        (["3.h5", "1.h5"], "have 1/3, 3/3 of a sweep of 3 parts", "has parts 1/3, 3/3 of a sweep"),
-        (["2.h5"], "", ""),
+    every = ["rank"], ["export", "1", "--to", "part.stl"], ["report"]
+    for parts, told, said, shown in (
+        (["3.h5", "1.h5"], "have 1/3, 3/3 of a sweep of 3", "has parts 1/3, 3/3 of a sweep", every),
+        (["2.h5"], "", "", every[:1]),
     ):
         _, _, err = crumple(capsys, "merge", "few.h5", *parts)
         assert (told in err, "of a sweep of 3" in err) == (True, bool(told))

@@ -16,9 +16,10 @@ from sweep.config.load import load_config
 from sweep.running.sweep import run_sweep
 from sweep.simulation.warm_up import warm_up
 from sweep.store.read import finished_ids, read_history, read_summary
+from tests.support.command import crumple
 
 ROOT = Path(__file__).parents[3]
-CASES = 24
+CASES = 12
 CONFIG = """
 name = "killed"
 [material]
@@ -43,34 +44,30 @@ def config(tmp_path):
     return path
 
 
-def command(config, out):
-    return [sys.executable, "-W", "error", "-m", "sweep", "run", str(config), "--out", str(out)]
-
-
-def complete(config, out):
-    return subprocess.run(
-        command(config, out), cwd=ROOT, capture_output=True, text=True, timeout=120, check=False
-    )
+def words(config, out):
+    """The command, on one thread: the next run has one suspect."""
+    return ["run", str(config), "--out", str(out), "--workers", "1"]
 
 
 def killed(config, out, least):
     """Run until ``least`` cases are finished, then kill -9."""
+    command = [sys.executable, "-W", "error", "-m", "sweep", *words(config, out)]
     pipe = subprocess.DEVNULL
-    with subprocess.Popen(command(config, out), cwd=ROOT, stdout=pipe, stderr=pipe) as process:
+    with subprocess.Popen(command, cwd=ROOT, stdout=pipe, stderr=pipe) as process:
         limit = time.monotonic() + 60
         while len(finished_ids(out)) < least and time.monotonic() < limit:
-            time.sleep(0.05)
+            time.sleep(0.02)
         process.kill()
     return read_summary(out)
 
 
-def test_killed_run_is_completed_to_the_same_table(config, tmp_path):
+def test_killed_run_is_completed_to_the_same_table(config, tmp_path, capsys):
     out, reference = tmp_path / "killed.h5", tmp_path / "reference.h5"
     before = killed(config, out, least=1)
     assert 1 <= len(before) < CASES
     assert not out.exists()  # only sealed parts: the run was in its middle
-    again = complete(config, out)
-    assert again.returncode == 0, again.stderr
+    status, _, told = crumple(capsys, *words(config, out))
+    assert status == 0, told
     assert run_sweep(expand(load_config(config)), reference) == 0
 
     after, expected = read_summary(out), read_summary(reference)

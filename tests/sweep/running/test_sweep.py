@@ -35,24 +35,24 @@ from tests.support.results.standin import cases, slow
 from sweep.running.sweep import run_sweep
 
 if __name__ == "__main__":
-    run_sweep(cases(80), {out!r}, simulate=slow)
+    run_sweep(cases(40), {out!r}, simulate=slow)
 """
 
 
 def test_kill_in_the_middle_loses_only_batches_in_flight(tmp_path, executions):
     out, reference = tmp_path / "killed.h5", tmp_path / "reference.h5"
-    killed(SWEEP.format(out=str(out)), executions, 40)
+    killed(SWEEP.format(out=str(out)), executions, 20)
     finished = set(read_summary(out)["case_id"])
     before = executions.read_text().split()
-    assert 0 < len(finished) < 80
+    assert 0 < len(finished) < 40
     assert not out.exists()
 
-    assert run_sweep(cases(80), out, simulate=slow) == 1
+    assert run_sweep(cases(40), out, simulate=slow) == 1
     after = executions.read_text().split()[len(before) :]
-    assert sorted(after) == sorted({case.case_id for case in cases(80)} - finished)
-    run_sweep(cases(80), reference, simulate=simulate)
+    assert sorted(after) == sorted({case.case_id for case in cases(40)} - finished)
+    run_sweep(cases(40), reference, simulate=simulate)
     pd.testing.assert_frame_equal(read_summary(out), read_summary(reference))
-    for case_id in read_summary(out)["case_id"][::17]:
+    for case_id in read_summary(out)["case_id"][::9]:
         one, other = (read_history(path, case_id) for path in (out, reference))
         pd.testing.assert_frame_equal(one, other)
         one, other = (read_frames(path, case_id) for path in (out, reference))
@@ -84,8 +84,8 @@ def test_interruption_in_this_process(tmp_path):
         return simulate(case)
 
     out, usual = tmp_path / "sweep.h5", signal.getsignal(signal.SIGINT)
-    with pytest.raises(Interrupted, match="of 200 cases, and the same command runs the") as stop:
-        run_sweep(cases(200), out, simulate=pressed)
+    with pytest.raises(Interrupted, match="of 100 cases, and the same command runs the") as stop:
+        run_sweep(cases(100), out, simulate=pressed)
     assert f"; {out} keeps {len(read_summary(out))} of" in str(stop.value)
     assert out.exists()
     assert signal.getsignal(signal.SIGINT) is usual

@@ -1,7 +1,7 @@
 """Infill joined to the outline: the frame stays, whatever the density and the perimeters."""
 
 from collections import Counter
-from itertools import product
+from itertools import islice, product
 
 import numpy as np
 import pytest
@@ -49,18 +49,19 @@ def check_frame(network, box, least):
 
 
 def test_no_drawing_loses_its_frame():
-    """All slicers and patterns, 10 to 80 %, 1 to 6 perimeters. Infills with cells less than twice
-    as wide as their walls are refused.
+    """All slicers and patterns, 10 to 80 %, 1 to 6 perimeters: every fifth combination. Infills
+    with cells less than twice as wide as their walls are refused.
     """
     patterns = [(slicer, own) for slicer, patterns in SLICERS.items() for own in patterns]
     outcome = Counter()
-    for size, names, infill, perimeters in product(SIZES, patterns, SHARES, range(1, 7)):
+    combinations = islice(product(SIZES, patterns, SHARES, range(1, 7)), 0, None, 5)
+    for size, names, infill, perimeters in combinations:
         lattice = laid(size, *names, infill, perimeters)
         outcome[lattice if isinstance(lattice, str) else "drawn"] += 1
         if not isinstance(lattice, str):
             least = lattice.line + 0.5 * lattice.outline[0]
             check_frame(build_network(lattice.geometry), size, least)
-    assert outcome == {"drawn": 1152, "lattice.infill": 288}
+    assert outcome == {"drawn": 234, "lattice.infill": 54}
 
 
 @pytest.mark.parametrize(
