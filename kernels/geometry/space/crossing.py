@@ -61,21 +61,20 @@ def relation(a, b, c, p, q):
 
 
 @jit_exact
-def _extent(points, nodes, axis):
-    """Return the least and the largest coordinate of ``nodes`` along an axis."""
-    low, high = np.inf, -np.inf
-    for p in nodes:
-        low, high = min(low, points[p, axis]), max(high, points[p, axis])
-    return low, high
+def _bound(points, nodes, box):
+    """Write the bounding box of ``nodes`` into ``box`` (6,): least, then largest coordinates."""
+    for axis in range(3):
+        box[axis], box[axis + 3] = np.inf, -np.inf
+        for p in nodes:
+            box[axis] = min(box[axis], points[p, axis])
+            box[axis + 3] = max(box[axis + 3], points[p, axis])
 
 
 @jit_exact
-def _overlap(points, triangle, edge):
-    """Return whether the bounding boxes of a triangle and an edge overlap."""
+def _overlap(box, boxes, i):
+    """Return whether a bounding box overlaps box ``i`` of ``boxes``."""
     for axis in range(3):
-        low, high = _extent(points, triangle, axis)
-        begin, end = _extent(points, edge, axis)
-        if begin > high or end < low:
+        if boxes[i, axis] > box[axis + 3] or boxes[i, axis + 3] < box[axis]:
             return False
     return True
 
@@ -91,19 +90,21 @@ def _share_a_node(triangle, edge):
 
 @jit_owning
 def _by_position(points, edges):
-    """Return (start, order, low, width, longest): edges sorted into strips by their left ends along
-    x.
+    """Return (start, order, boxes, low, width, longest): edges sorted into strips by their left
+    ends along x, and their bounding boxes (l, 6) in this order.
     """
+    boxes = np.empty((edges.shape[0], 6))
     low, high, longest = np.inf, -np.inf, 0.0
     for e in range(edges.shape[0]):
-        left, right = _extent(points, edges[e], 0)
+        _bound(points, edges[e], boxes[e])
+        left, right = boxes[e, 0], boxes[e, 3]
         low, high, longest = min(low, left), max(high, left), max(longest, right - left)
     width = max((high - low) / (STRIPS - 1), 1e-300)
     strip = np.empty(edges.shape[0], np.int64)
     for e in range(edges.shape[0]):
-        strip[e] = int((_extent(points, edges[e], 0)[0] - low) / width)
+        strip[e] = int((boxes[e, 0] - low) / width)
     start, order = grouped(strip, STRIPS)
-    return start, order, low, width, longest
+    return start, order, boxes[order], low, width, longest
 
 
 @jit_owning
@@ -114,18 +115,17 @@ def count(points, triangles, edges, unsure):
 
     points (n, 3): one shape, finite; triangles (m, 3), edges (l, 2): nodes.
     """
-    start, order, low, width, longest = _by_position(points, edges)
-    crossed, undecided = 0, 0
+    start, order, boxes, low, width, longest = _by_position(points, edges)
+    crossed, undecided, box = 0, 0, np.empty(6)
     for k in range(triangles.shape[0]):
         a, b, c = triple(triangles, k)
-        left, right = _extent(points, triangles[k], 0)
+        _bound(points, triangles[k], box)
+        left, right = box[0], box[3]
         first = min(max(int((left - longest - low) / width) - 1, 0), STRIPS)
         last = min(max(int((right - low) / width) + 1, 0), STRIPS)
         for i in range(start[first], start[last]):
             e = order[i]
-            if _share_a_node(triangles[k], edges[e]) or not _overlap(
-                points, triangles[k], edges[e]
-            ):
+            if not _overlap(box, boxes, i) or _share_a_node(triangles[k], edges[e]):
                 continue
             p, q = edges[e, 0], edges[e, 1]
             side = relation(

@@ -1,37 +1,32 @@
 """Which nodes get room in the matrix: nodes of springs, and of walls that are almost in contact."""
 
-from typing import NamedTuple
-
 import numpy as np
 import pytest
 
+from kernels.compile.reference import referred
 from kernels.geometry import near_pairs
-from kernels.linear.condensed.analysis import Layout
 from kernels.planar.couplings import MARGIN, couplings
-from kernels.terms import friction
-from kernels.terms.contact import Contact
-from kernels.terms.fold import Fold
+from kernels.terms import bend, friction
+from kernels.terms.damping import Damp
 from kernels.terms.spring import Spring
-from tests.support.kernels.frames import layout_of, touching, two_walls
+from tests.support.kernels.frames import (
+    NO_SPRINGS,
+    linear_law,
+    point_of,
+    terms_of,
+    touching,
+    two_walls,
+)
 
 T = 0.8
-NO_FOLDS = Fold(np.empty((0, 3), np.int64), np.empty(0), np.empty(0))
-NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))
-
-
-class Scene(NamedTuple):
-    """Data that couple nodes."""
-
-    layout: Layout
-    contact: Contact
-    fold: Fold
-    spring: Spring
 
 
 def coupled(gap, springs=NO_SPRINGS):
     """Sets of nodes that get room where two walls, 0.8 thick, are ``gap`` apart."""
     of = two_walls(gap, (1, 1))
-    scene = Scene(layout_of(of), touching(of), NO_FOLDS, springs)
+    law, undamped = point_of(linear_law(of.modulus)), Damp(0.0, 0.0, 0.0)
+    scene = referred(terms_of(of, law, bend.ANGLE, undamped))
+    scene = scene._replace(contact=touching(of), spring=springs)
     found = near_pairs.find(of.rest, scene.contact, 3.0 * scene.contact.reach)
     assert found.node.size > 0
     return {frozenset(nodes) for nodes in couplings(of.rest, scene, found, friction.none())}

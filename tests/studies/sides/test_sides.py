@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from sweep.simulation.simulate import simulate
-from tests.studies.sides import wide
+from tests.studies.sides import panels, wide
 from tests.studies.sides.panels import NARROW, WIDE, crush, strips
 from tests.studies.sides.table import middle, table
 
@@ -15,8 +15,9 @@ def test_every_infill_between_all_platens_in_all_widths():
     assert sum(case.widens for case in cases) == 8 * len(NARROW)
 
 
-def test_a_piece_of_the_study():
+def test_a_piece_of_the_study(monkeypatch):
     """Few cells with tied sides are the middle of the panel; with free sides they are not."""
+    monkeypatch.setattr(panels, "STEPS", 50)
     piece = strips(kinds=("square",), platens=("glued", "smooth"), narrow=(3,))
     rows = {strip: pd.Series(simulate(crush(strip)).summary) for strip in piece}
     sheet = table(rows)

@@ -75,13 +75,13 @@ def assert_derivatives(scene, x, args):
     sides = [
         [(args.energy(x + s * way), args.gradient(x + s * way)) for s in (1, -1)] for way, _ in ways
     ]
+    size = np.abs(args.gradient(x)).max()
     for k, (one, other) in enumerate(sides):
         found = (one[0] - other[0]) / (2 * steps[k])
-        size = np.abs(args.gradient(x)).max()
         assert found / scale[k] == pytest.approx(slope[k] / scale[k], abs=1e-4 * size)
         found = follows.T @ (one[1] - other[1]) / (2 * steps[k])
-        size = np.abs(curvature[:, k]).max()
-        np.testing.assert_allclose(found, curvature[:, k], rtol=0, atol=1e-5 * size)
+        most = np.abs(curvature[:, k]).max()
+        np.testing.assert_allclose(found, curvature[:, k], rtol=0, atol=1e-5 * most)
 
 
 def assert_solved(scene, x, args, drifts=False):

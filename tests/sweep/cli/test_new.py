@@ -30,7 +30,7 @@ def test_config_of_every_kind_runs_as_it_is(capsys, tmp_path, monkeypatch, kind)
     assert config.name == "bumper"
     cases = expand(config)
     assert [case.loading.mode for case in cases] == [MODES[kind]] * 4
-    assert simulate(cases[0]).status == Status.CONVERGED
+    assert simulate(cases[-1]).status == Status.CONVERGED
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -117,12 +117,14 @@ def test_stored_predictions_come_out_again(name, tmp_path):
 @pytest.mark.parametrize(
     ("name", "column", "value"),
     [
-        ("ding_reentrant", "plateau_stress_Pa", 79052.0),
-        ("tpu_cycles", "second_cycle_share", 0.8452),
+        ("ding_reentrant", "plateau_stress_Pa", 76374.0),
+        ("tpu_cycles", "second_cycle_share", 0.8263),
     ],
 )
 def test_slow_configs_hold_a_number(name, column, value):
-    """The number belongs to their first case."""
-    summary = simulate(load_config(f"published/{name}").cases[0]).summary
+    """The number belongs to their first case, pressed half as far in half as many steps."""
+    case = load_config(f"published/{name}").cases[0]
+    half = {"loading": {"strain": 0.5 * case.loading.strain}, "solver": {"load_steps": 200}}
+    summary = simulate(case.changed(**half)).summary
     assert summary["status"] == "converged"
     assert summary[column] == pytest.approx(value, rel=2e-3)

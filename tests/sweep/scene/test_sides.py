@@ -50,10 +50,10 @@ def test_a_period_is_what_a_wide_lattice_gains_by_its_width(kind, platens):
     """The edges of two wide lattices are the same: their difference is the middle."""
     wide, wider, one = (
         simulate(crush(Strip(kind, platens, sides, n)))
-        for sides, n in (("free", 12), ("free", 24), ("periodic", 1))
+        for sides, n in (("free", 6), ("free", 12), ("periodic", 1))
     )
     assert is_sound(one)
-    cells = 24 - 12
+    cells = 12 - 6
     gained = wider.summary["mass_g"] - wide.summary["mass_g"]
     assert one.summary["mass_g"] == pytest.approx(gained / cells, rel=1e-9)
     work = [result.history["work_in_J"] for result in (wide, wider)]
@@ -126,7 +126,8 @@ def test_the_book_is_closed(platen, friction):
 @pytest.mark.parametrize("platen", ["sliding", "contact"])
 @pytest.mark.parametrize(("kind", "cells"), [("square", 1), ("hex", 1), ("reentrant", 2)])
 def test_derivatives_across_the_border(kind, cells, platen):
-    case = pressed(strip(kind, (cells, 2), 0.12, imperfection=0.3), 0.45, platen=platen)
+    lattice = strip(kind, (cells, 2), 0.12, imperfection=0.3, nodes_per_wall=2)
+    case = pressed(lattice, 0.45, platen=platen)
     scene = build_tied(case)
     x, args = crushed(case, scene)
     assert args.energy(x) > 0.0
@@ -199,7 +200,7 @@ def test_a_load_does_the_work_on_a_period_that_a_wide_lattice_gains():
         )
         return simulate(case).summary["absorbed_energy_J"]
 
-    middle = (work("free", 48, 49) - work("free", 24, 25)) / 24
+    middle = (work("free", 12, 13) - work("free", 6, 7)) / 6
     assert work("periodic", 1, 1) == pytest.approx(middle, rel=1e-3)
 
 

@@ -151,7 +151,9 @@ def test_shares_of_a_half_wave():
 
 
 def loaded(**solver):
-    return Case.of(loading={"mode": "force", "platen": "contact", "force": 10.0}, solver=solver)
+    load = {"mode": "force", "platen": "contact", "force": 10.0}
+    load |= {"release_time": 0.01, "duration": 0.02}
+    return Case.of(lattice=CELLS, loading=load, solver=solver)
 
 
 @pytest.mark.parametrize("integrator", LOCAL)
