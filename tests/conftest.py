@@ -9,6 +9,7 @@ import pytest
 KERNELS = {
     "kernels/plates": "plates",
     "kernels/geometry/space": "plates",
+    "studies/surfaces": "plates",
     "kernels/compile": None,
     "kernels": "marches",
 }
