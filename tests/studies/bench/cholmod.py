@@ -47,10 +47,10 @@ def library():
     """The library; ImportError where it is not installed."""
     if (name := find_library("cholmod")) is None:
         raise ImportError("CHOLMOD is not installed")
-    found = ctypes.CDLL(name)
-    found.cholmod_l_analyze.restype = POINTER(Factor)
-    found.cholmod_l_solve.restype = POINTER(Dense)
-    return found
+    loaded = ctypes.CDLL(name)
+    loaded.cholmod_l_analyze.restype = POINTER(Factor)
+    loaded.cholmod_l_solve.restype = POINTER(Dense)
+    return loaded
 
 
 def pointer(array):

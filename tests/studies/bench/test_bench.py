@@ -125,7 +125,7 @@ def test_sweep_with_a_failure_is_no_figure(monkeypatch):
         sweeps.swept([failing], 1)
 
 
-def test_long_crush_says_when_it_has_packed(monkeypatch):
+def test_long_crush_says_when_it_densifies(monkeypatch):
     monkeypatch.setattr(densify, "alone", lambda case: simulate(case).summary | {alone.MEMORY: 1.0})
     table = densify.table(2, 0.75, 30)
     assert full(table, ["to 75 % in 30 steps"])
