@@ -242,7 +242,7 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 
 def _counted(summary: DataFrame) -> list[Counted]:
-    """Known energies of all cases: until densification, and up to the forces of the columns,
+    """Energies known for all cases, until densification and up to the forces of the columns,
     with only the columns that differ between forces, and the columns that selections need.
     """
     texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
