@@ -1,8 +1,8 @@
 """The merit of a design: its usable energy, in total, per gram, and for a panel of specimens.
 
-Energy is counted until densification, or until the force exceeds the allowed force. A denser
-lattice absorbs energy as a solid block does, at a multiple of the force, whatever its infill. If
-the loading sets the energy, `Mode.least` is compared instead.
+Energy is counted until densification, or until the force exceeds the allowed force. A lattice
+pressed beyond densification absorbs energy as a solid block does, at a multiple of the force,
+whatever its infill. If the loading sets the energy, `Mode.least` is compared instead.
 
 A panel consists of n whole specimens, as `sweep.design.panel` counts them; its mass, energy and
 force are n times the values of a specimen.

@@ -270,7 +270,8 @@ def relative_errors(rows: DataFrame, names: Compared) -> dict[str, Series]:
     }
     of_steps = {name: rows.get(one.step_error, none) for name, one in MEASURES.items()}
     each = {name: [none, of_steps[name], *errors.get(name, [])] for name in MEASURES}
-    return {name: Series(np.fmax.reduce(some), rows.index) for name, some in each.items()}
+    greatest = {name: np.fmax.reduce(some, dtype=float) for name, some in each.items()}
+    return {name: Series(errors, rows.index) for name, errors in greatest.items()}
 
 
 def _bar(rows: DataFrame, name: str) -> Series:

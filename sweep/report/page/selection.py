@@ -81,8 +81,8 @@ def select_designs(
 
 
 def on_fronts(counted: Sequence[Counted], scenes: Sequence[DataFrame]) -> list[str]:
-    """Ids of the trusted designs that are first within some budget: until densification, then up to
-    the forces of the columns, of the scenes in turn.
+    """Ids of the trusted designs that are first within some budget, by energy until densification,
+    then up to the forces of the columns, of the scenes in turn.
     """
     fronts = []
     for each in counted:

@@ -1,7 +1,7 @@
 """A symmetric matrix in CHOLMOD, of SuiteSparse: factor and solution. The library is optional.
 
 Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam: ACM Transactions on Mathematical Software 35
-(2008) 22. It chooses order and method itself.
+(2008) 22. It chooses its order itself; the method is the supernodal one, L L^T.
 """
 
 import ctypes
@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 COMMON = 1 << 14  # bytes of `cholmod_common`, which has some 3000
-LONG, REAL, LOWER, SOLUTION = 2, 1, -1, 0
+LONG, REAL, LOWER, SOLUTION, SUPERNODAL = 2, 1, -1, 0, 2
 
 
 class Sparse(ctypes.Structure):
@@ -36,8 +36,19 @@ class Dense(ctypes.Structure):
     ]
 
 
+class Settings(ctypes.Structure):
+    """The beginning of `cholmod_common`."""
+
+    _fields_ = [
+        *((name, ctypes.c_double) for name in ("dbound", "grow0", "grow1")),
+        *((name, c_size_t) for name in ("grow2", "maxrank")),
+        ("supernodal_switch", ctypes.c_double),
+        ("supernodal", c_int),
+    ]
+
+
 class Factor(ctypes.Structure):
-    """The beginning of `cholmod_factor`: ``minor`` is n if all pivots are positive."""
+    """The beginning of `cholmod_factor`: ``minor`` is n if the factor went through."""
 
     _fields_ = [("n", c_size_t), ("minor", c_size_t)]
 
@@ -59,7 +70,10 @@ def pointer(array):
 
 
 class Peer:
-    """A positive definite matrix, given by its lower half, whose pattern has been analysed."""
+    """A positive definite matrix, given by its lower half, whose pattern has been analysed.
+
+    Its memory is kept until the process ends.
+    """
 
     def __init__(self, lower: csc_array):
         lower = lower.sorted_indices()
@@ -71,6 +85,7 @@ class Peer:
         self._common = ctypes.create_string_buffer(COMMON)
         self._library = library()
         self._library.cholmod_l_start(self._common)
+        Settings.from_buffer(self._common).supernodal = SUPERNODAL
         self._factor = self._library.cholmod_l_analyze(byref(self._a), self._common)
 
     def factor(self):

@@ -28,6 +28,7 @@ PHASES = ("before buckling", "on the plateau", "in contact", "beyond densificati
 UNIT = 3e-3  # strain of one of 200 equal steps
 BUCKLED = 0.5  # share of the first stiffness, below which a wall has buckled
 TOUCHED = 1e-6  # share of the work, stored in contacts
+TRUE = "0.1%"  # setting whose phases count
 EQUAL = {0.0: ("800", "1600"), 0.4: ("6400", "12800")}  # by loss: a fine and the finest number
 
 
@@ -119,31 +120,55 @@ def _errors(values):
     )
 
 
-def by_phase(history, densified):
-    """Iterations of a crush for each `UNIT` of strain in each of `PHASES`; NaN in one that it does
-    not have. densified: densification strain, NaN if none.
+def begun(history, densified):
+    """Strains at which the phases of a crush begin, NaN for one that it does not have.
+
+    densified: densification strain, NaN if none.
     """
     strain, force, work = (history[name] for name in ("strain", "reaction_top_N", "work_in_J"))
     buckled = force < BUCKLED * force[1] / strain[1] * strain
-    begun = [_first(strain, rows) for rows in (buckled, history["contact_J"] > TOUCHED * work)]
-    last = strain.iloc[-1]
-    ends = np.maximum.accumulate([*begun, np.fmin(densified, last), last])
-    spent = np.interp(ends, strain, history["newton_iterations"].cumsum())
-    span = np.diff(ends, prepend=0.0) / UNIT
-    return np.divide(np.diff(spent, prepend=0.0), span, out=np.full(4, np.nan), where=span > 1.0)
+    touched = history["contact_J"] > TOUCHED * work
+    return np.array([0.0, strain[buckled].min(), strain[touched].min(), densified])
 
 
-def _first(strain, rows):
-    """Strain of the first of some rows; the last strain if there is none."""
-    return strain[rows].iloc[0] if rows.any() else strain.iloc[-1]
+def by_phase(history, begins):
+    """Iterations for each `UNIT` of strain in the phases that begin at these strains; NaN if a
+    crush does not have a phase, or one is no longer than that.
+    """
+    strain = history["strain"]
+    ends = [np.fmin.reduce([*begins[k + 1 :], strain.iloc[-1]]) for k in range(len(PHASES))]
+    spent = history["newton_iterations"].cumsum()
+    at_start, at_end = (np.interp(places, strain, spent) for places in (begins, ends))
+    span = (ends - begins) / UNIT
+    return np.where(span > 1.0, (at_end - at_start) / np.where(span > 1.0, span, 1.0), np.nan)
 
 
 def phase_sheet(iterations):
-    """Medians over crushes: setting -> iterations (crushes, phases)."""
-    medians = [np.nanmedian(each, axis=0) for each in iterations.values()]
-    rows = [[phase, *(f"{m[k]:.2g}" for m in medians)] for k, phase in enumerate(PHASES)]
+    """Medians over crushes: setting -> iterations (crushes, phases); the phases are the same."""
+    every = {name: np.array(each) for name, each in iterations.items()}
+    crushes = np.isfinite(next(iter(every.values()))).sum(axis=0)
+    medians = [np.nanmedian(each, axis=0) for each in every.values()]
+    rows = [
+        [phase, str(crushes[k]), *(f"{each[k]:.2g}" for each in medians)]
+        for k, phase in enumerate(PHASES)
+    ]
     title = f"Iterations for each {UNIT:.1%} of strain, glued platens, elastic"
-    return Sheet(title, ["phase", *iterations], rows)
+    note = f"Phases are those of the steps of an accuracy of {TRUE}."
+    return Sheet(title, ["phase", "crushes", *every], rows, notes=(note,))
+
+
+def phases(file, cases, rows):
+    """What `phase_sheet` shows, of the crushes that converge in all settings."""
+    iterations = {name: [] for name in SETTINGS}
+    for design in (each for each in DESIGNS if each[1][0] == "glued"):
+        ids = {name: cases[0.0, design, name].case_id for name in SETTINGS}
+        if (rows.loc[[*ids.values()], "status"] != "converged").any():
+            continue
+        densified = rows.loc[ids[TRUE], "densification_strain"]
+        begins = begun(read_history(file, ids[TRUE]), densified)
+        for name, case_id in ids.items():
+            iterations[name].append(by_phase(read_history(file, case_id), begins))
+    return iterations
 
 
 def main(folder):
@@ -154,14 +179,7 @@ def main(folder):
     rows = read_summary(file).set_index("case_id")
     curves = {case.case_id: curve(file, case.case_id) for case in cases.values()}
     sheets = [sheet(compare(cases, rows, curves, loss), loss) for loss in LOSSES]
-    glued = [design for design in DESIGNS if design[1][0] == "glued"]
-    ids = {name: [cases[0.0, design, name].case_id for design in glued] for name in SETTINGS}
-    densified = rows["densification_strain"]
-    phases = {
-        name: [by_phase(read_history(file, one), densified[one]) for one in each]
-        for name, each in ids.items()
-    }
-    publish([*sheets, phase_sheet(phases)], folder / "steps.md")
+    publish([*sheets, phase_sheet(phases(file, cases, rows))], folder / "steps.md")
 
 
 if __name__ == "__main__":

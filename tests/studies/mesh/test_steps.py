@@ -41,21 +41,36 @@ def test_errors_beside_the_finest(monkeypatch):
     assert again["0.3%"]["absorbed_energy_J"][0] == pytest.approx(energy["0.3%"])
 
 
-def test_iterations_belong_to_their_phase():
-    """Buckled at 3 %, touched at 9 %, densified at 15 %: one to four iterations a step of 0.3 %."""
+def history(buckled, touched, each):
+    """A crush to 30 % in 100 steps, with so many iterations for ``each`` strain."""
     strain = np.arange(0.0, 0.3001, 3e-3)
-    ends = np.array([0.03, 0.09, 0.15])
-    history = pd.DataFrame(
+    return pd.DataFrame(
         {
             "strain": strain,
-            "reaction_top_N": np.where(strain < 0.03, 1e3 * strain, 1e-9),
+            "reaction_top_N": np.where(strain < buckled - 1e-9, 1e3 * strain, 1e-9),
             "work_in_J": 1.0,
-            "contact_J": np.where(strain < 0.09, 0.0, 0.1),
-            "newton_iterations": 1.0 + np.searchsorted(ends, strain - 1e-9),
+            "contact_J": np.where(strain < touched - 1e-9, 0.0, 0.1),
+            "newton_iterations": np.where(strain > 0.0, each(strain - 1e-9), 0.0),
         }
     )
-    history.loc[0, "newton_iterations"] = 0.0
-    np.testing.assert_allclose(steps.by_phase(history, 0.15), [1.0, 2.0, 3.0, 4.0])
-    np.testing.assert_allclose(steps.by_phase(history, np.nan), [1.0, 2.0, 3.0 + 5 / 7, np.nan])
-    table = steps.phase_sheet({"25": [[1.0, 2.0, 3.0, np.nan], [3.0, 4.0, 5.0, 6.0]]})
-    assert [row[1] for row in table.rows] == ["2", "3", "4", "6"]
+
+
+def test_iterations_belong_to_their_phase():
+    """One to four of them a step of 0.3 %; phases that do not begin, or too late, have none."""
+    crush = history(0.03, 0.09, lambda e: 1.0 + np.searchsorted([0.03, 0.09, 0.15], e))
+    begins = steps.begun(crush, 0.15)
+    np.testing.assert_allclose(begins, [0.0, 0.03, 0.09, 0.15])
+    np.testing.assert_allclose(steps.by_phase(crush, begins), [1.0, 2.0, 3.0, 4.0])
+    nan = np.nan
+    for buckled, densified, expected in (
+        (0.03, nan, [1.0, 2.0, 3.0 + 5 / 7, nan]),
+        (9.0, 0.15, [5 / 3, nan, 3.0, 4.0]),
+        (0.12, 0.15, [5 / 3, nan, 3.0, 4.0]),
+    ):
+        begins = steps.begun(
+            crush.assign(reaction_top_N=history(buckled, 0.09, np.ones_like)["reaction_top_N"]),
+            densified,
+        )
+        np.testing.assert_allclose(steps.by_phase(crush, begins), expected)
+    table = steps.phase_sheet({"25": [[1.0, 2.0, 3.0, nan], [3.0, 4.0, 5.0, 6.0]]})
+    assert [row[1:] for row in table.rows] == [["2", "2"], ["2", "3"], ["2", "4"], ["1", "6"]]

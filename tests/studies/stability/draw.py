@@ -309,9 +309,9 @@ def _impact(draw, lattice, material, buckling):
     }
 
 
-def toml(numbers):
-    """The config of the scenes of these numbers."""
-    rows = [scene(number)[0] for number in numbers]
+def toml(count):
+    """The config of the first ``count`` scenes."""
+    rows = [scene(number)[0] for number in range(count)]
     keys = sorted({key for row in rows for key in row})
     return HEAD + "".join(_axis(key, [row.get(key) for row in rows]) for key in keys)
 
@@ -335,4 +335,4 @@ def _word(key, value):
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(toml(range(COUNT)), "utf-8")
+    Path(sys.argv[1]).write_text(toml(COUNT), "utf-8")

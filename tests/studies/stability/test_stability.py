@@ -1,6 +1,5 @@
 """Scenes of `configs/extreme.toml` under observation: does the observer see violations?"""
 
-import tomllib
 from unittest.mock import patch
 
 import numpy as np
@@ -28,15 +27,10 @@ def drawn():
 
 
 def test_the_config_holds_the_scenes_that_are_drawn(drawn):
-    """Every fifth of them; the first ones are the same cases."""
-    (stored,) = tomllib.loads((draw.CONFIGS / "extreme.toml").read_text("utf-8"))["zip"]
-    (fifth,) = tomllib.loads(draw.toml(range(0, draw.COUNT, 5)))["zip"]
-    assert {len(values) for values in stored.values()} == {draw.COUNT}
-    every = {key: values[::5] for key, values in stored.items()}
-    assert {key: values for key, values in every.items() if any(v != "" for v in values)} == fifth
-    few = draw.toml(range(FEW)).replace('"extreme/', f'"{draw.CONFIGS.as_posix()}/extreme/')
-    cases = expand(load_config(tomllib.loads(few)))
-    assert [case.case_id for case in cases] == [case.case_id for case in drawn]
+    assert (draw.CONFIGS / "extreme.toml").read_text("utf-8") == draw.toml(draw.COUNT)
+    cases = expand(load_config(draw.CONFIGS / "extreme.toml"))
+    assert len(cases) == draw.COUNT
+    assert [case.case_id for case in cases[:FEW]] == [case.case_id for case in drawn]
 
 
 @pytest.mark.parametrize("state", STATES)

@@ -133,12 +133,12 @@ def test_the_lock_is_held_for_a_part_of_a_case():
     assert row == ["smoke", "50", "5", "10", "10"]
 
 
-@pytest.mark.parametrize("place", ["threads", "cluster"])
+@pytest.mark.parametrize("place", poison.PLACES)
 def test_poisoned_cases_are_named_and_the_others_are_kept(tmp_path, place):
-    """`tests/sweep/running/test_processes.py` has them in processes."""
     found = poison.torture(tmp_path, place, 9)
     assert poison.is_sound({place: found})
-    assert poison.sheet({place: found}).rows[0][:4] == [place, "8", "0", "0"]
+    assert found.cases == 9 - (place != "processes")
+    assert poison.sheet({place: found}).rows[0][:4] == [place, str(found.cases), "0", "0"]
 
 
 def test_a_poisoned_case_with_another_end_is_found():

@@ -91,7 +91,7 @@ def test_everything_follows_from_the_file(file, capsys, tmp_path):
     results = crumple.Results(file)
     case_id = results.table["case_id"].iloc[-1]
     assert command(capsys, "show", file, case_id, "--out", case_id)[0] == 0
-    for ending in (".stl", ".svg", ".csv", ".vtkhdf"):
+    for ending in (".stl", ".3mf", ".svg", ".dxf", ".csv", ".vtkhdf"):
         status, said, _ = command(capsys, "export", file, case_id, "--to", f"a{ending}")
         assert status == 0, said
     for number in range(len(results.table)):

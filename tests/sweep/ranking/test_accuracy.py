@@ -114,7 +114,7 @@ def test_verb_prints_and_writes_the_study(tmp_path, capsys, monkeypatch):
 # Of every study in the README the file, and which cases are enough for its rows.
 TOLD = {
     "buckled": ("crush", {"loading.strain": 0.3, "solver.element": "cubic"}),
-    "packed": ("crush", {"contact.friction": 0.0, "solver.element": "cubic"}),
+    "densified": ("crush", {"contact.friction": 0.0, "solver.element": "cubic"}),
     "force": ("force", {"solver.integrator": "bdf2", "solver.step_error": None}),
     "impact": ("impact", {"solver.integrator": "newmark"}),
     "vibration": ("vibration", {"solver.step_error": None}),
