@@ -1,4 +1,4 @@
-"""Every config of the repository runs; each is held by a number."""
+"""Every config of the repository runs; each, or a smaller copy of it, is held by a number."""
 
 from functools import cache
 from operator import attrgetter
@@ -61,7 +61,7 @@ FLAT = HEX | dict(lattice__orientation="flat", lattice__perimeters=0)
 DIAMOND = dict(lattice__kind="diamond", lattice__perimeters=0)
 BRACED = dict(lattice__name="drawn.csv", lattice__counts=(23, 44))
 HONEYCOMB = GLUED | dict(lattice__pattern="honeycomb", lattice__infill=near(0.1769))
-PAD = HEX | dict(lattice__cells_x=8, lattice__wall_thickness=0.8e-3)
+PAD = HEX | dict(lattice__cells_x=6, lattice__wall_thickness=0.8e-3)
 COARSE, ONE_WAY = {"load_steps": 100}, {"unload": False}
 SHARE = 0.12 * 0.454
 CRUSH = {"loading": ONE_WAY, "solver": COARSE}
@@ -111,14 +111,13 @@ PINNED = [
         absorbed_energy_until_packed_J=near(3.3324, 2e-3),
         printed_mass_g=near(24.0, 1e-9),
     ),
-    # A quarter of the pad.
+    # The only pad that keeps 80 g0.
     pin(
         "drop",
         PAD,
-        {"lattice": {"width": 25e-3}, "loading": {"striker_mass": 0.125}},
-        peak_force_N=near(110.42, 2e-3),
-        peak_deceleration_filtered_m_per_s2=near(85.08 * 9.80665, 2e-3),
-        impact_energy_J=near(0.125 * 9.80665 * 0.5, 1e-6),
+        peak_force_N=near(285.6, 2e-3),
+        peak_deceleration_filtered_m_per_s2=near(57.62 * 9.80665, 2e-3),
+        impact_energy_J=near(0.5 * 9.80665 * 0.5, 1e-6),
     ),
 ]
 COUNTS = {"reuse": 4, "slicer": 14, "drop": 8, "smoke": 6, "which_way": 16}
