@@ -67,6 +67,7 @@ def runs_of(path):
     return next((runs for folder, runs in KERNELS.items() if path.startswith(f"{folder}/")), None)
 
 
+@pytest.hookimpl(tryfirst=True)  # before pytest-xdist reads the groups
 def pytest_collection_modifyitems(items):
     """Assign tests to groups that one process runs together, by default one group per file; mark
     the tests of the files in `SLOW`.
