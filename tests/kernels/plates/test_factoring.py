@@ -10,7 +10,6 @@ from tests.support.kernels.pressed_plates import (
     CASES,
     SIDE,
     STATES,
-    neighbours_of,
     pinched,
     reduction,
     scene,
@@ -18,6 +17,7 @@ from tests.support.kernels.pressed_plates import (
     unit,
     whole,
 )
+from tests.support.kernels.solving import neighbours_of
 from tests.support.kernels.terms import differences
 
 MOVE = -1e-4  # m

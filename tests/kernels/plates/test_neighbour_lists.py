@@ -6,15 +6,8 @@ import pytest
 from kernels.geometry.space import crossing
 from kernels.plates import neighbour_lists
 from kernels.plates.neighbour_lists import MOST_TURN
-from tests.support.kernels.pressed_plates import (
-    SIDE,
-    T,
-    neighbours_of,
-    pinched,
-    scene,
-    shaken,
-    whole,
-)
+from tests.support.kernels.pressed_plates import SIDE, T, pinched, scene, shaken, whole
+from tests.support.kernels.solving import neighbours_of
 
 
 def limit(of, x, dx):

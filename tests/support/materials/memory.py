@@ -43,13 +43,13 @@ def relaxing(curve: ElasticCurve, shares=(), times=(), softening=NO_SOFTENING) -
     )
 
 
-def virgin(law: Fibre, points=1) -> Memory:
-    """The memory of some points at rest."""
+def virgin(law, points=1, line=2) -> Memory:
+    """The memory of some points at rest, with a ``line`` of numbers of the step for each."""
     size = law.state_size()
-    return Memory(np.zeros((points, size)), np.zeros((points, 2)), law.make_pace())
+    return Memory(np.zeros((points, size)), np.zeros((points, line)), law.make_pace())
 
 
-def prepare(law: Fibre, memory: Memory, duration: float) -> None:
+def prepare(law, memory: Memory, duration: float) -> None:
     """Prepare the first point for a step."""
     law.set_pace(duration, memory.pace)
     law.begin(memory, 0)
