@@ -117,7 +117,7 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
     for neighbours, has_room in ((apart, True), (without, False)):
         there = args.beside(neighbours)
         result, _ = there.problem.factor(
-            of.x_rest, args.step, there.found(of.x_rest)[1], False, False
+            of.x_rest, args.step, there.found(of.x_rest)[1], 0.0, False
         )
         assert (result != NO_ROOM) == has_room
 

@@ -7,6 +7,7 @@ from unittest.mock import patch
 import numpy as np
 
 from kernels.compile.reference import by_reference, referred
+from kernels.linear.condensed import periodic_images
 from kernels.planar import problem as planar
 from kernels.planar.problem import Planar
 from kernels.shared.rows import ROW, STORED, Output
@@ -110,11 +111,12 @@ class Whole:
 
 def neighbours_of(x, terms, move=0.0):
     """`Neighbours` at ``x`` for a ``move`` (m), in the plane or in space, with friction lagged
-    there.
+    there and room for it.
     """
-    found = terms.renew_neighbours(terms.find_neighbours(x), x, move)
+    found = terms.find_neighbours(x)
     found.lagged_contacts.lag(x, terms.contact, found.pairs, 0.0, terms.friction)
-    return found
+    (found.matrix if hasattr(found, "matrix") else found.system.matrix).missing[0] = 1
+    return terms.renew_neighbours(found, x, move)
 
 
 def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
@@ -139,6 +141,18 @@ def reduction(scene):
     """Matrix (n, free) from unknowns to coordinates: tied ones follow their leader."""
     leader, free = scene.terms.layout.leader, free_of(scene)
     return (leader[:, None] == np.array(free)).astype(float)
+
+
+def moves(layout):
+    """Coordinates (k,) that follow no other, the driven one last, and the moves (n, k) of all
+    coordinates by theirs: tied ones by their ratio, periodic images by two others.
+    """
+    images = getattr(layout, "images", periodic_images.NONE)
+    own = np.setdiff1d(np.flatnonzero(layout.leader == np.arange(layout.leader.size)), images[:, 0])
+    follows = (layout.leader[:, None] == own) * layout.ratio[:, None]
+    for c, of, mean, times in images:
+        follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
+    return own, follows
 
 
 def residual(scene, x, args):
