@@ -8,21 +8,13 @@ from scipy.integrate import quad
 
 from kernels.laws.relaxation import MOST
 from kernels.laws.softening import Softening
-from sweep.scene.material import as_law, stress_law
 from tests.support.designs.scenes import slopes
-from tests.support.designs.tables import material_with
 from tests.support.kernels.terms import law_errors
-from tests.support.materials.memory import follow, relaxing, there_and_back, virgin
+from tests.support.materials.memory import follow, measured, relaxing, there_and_back, virgin
 
 R, M, BETA = 2.0, 0.2, 0.1  # m in MPa
 SOFTENING = (1.0 / R, M, BETA)
 DEEP = 0.3
-
-
-def measured():
-    """A measured curve, in MPa."""
-    material = material_with()
-    return as_law(stress_law(material), 1e-6, material.modulus)
 
 
 LAW = Softening(measured(), *SOFTENING)
