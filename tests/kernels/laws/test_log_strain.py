@@ -9,7 +9,7 @@ from tests.support.kernels.terms import law_errors
 
 STRESS = (0.7, -0.4, 0.3)
 PRINCIPAL = [(1.0, 1.0), (1.3, 0.8), (0.5, 0.5), (2.0, 1.1), (1.05, 0.96), (1.0 + 1e-9, 1.0)]
-ANGLES = pytest.mark.parametrize("angle", [0.0, 0.4, -1.2])
+ANGLES = pytest.mark.parametrize("angle", [0.0, 0.4])
 
 
 @ANGLES

@@ -45,7 +45,7 @@ def remembered(law, duration):
     return memory
 
 
-@pytest.mark.parametrize("duration", [0.0, 1e-9, 0.01, 0.5, 1e9])
+@pytest.mark.parametrize("duration", [0.0, 0.01, 1e9])
 @NAMES
 @pytest.mark.parametrize("at", [*HISTORY, ((1.0, 1.0), 0.0), ((0.6, 1.4), 1.1)])
 def test_slopes_and_tangent_are_derivatives(name, at, duration):
@@ -59,15 +59,15 @@ def test_slopes_and_tangent_are_derivatives(name, at, duration):
 
 @NAMES
 @pytest.mark.parametrize("at", [((1.0, 1.0), 0.0), *HISTORY, ((0.3, 2.0), 0.4), ((4.0, 3.0), 1.0)])
-@pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.1)])
-def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
+def test_inverse_finds_the_strain_of_a_stress(name, at):
     """It also finds the complementary energy of the sheet."""
     law = law_of(name)
     energy, s, expected = relaxing_sheet._response(law, *strain(*at))
-    found, complement = inverse(law.elastic, s, guess)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
     product = s[0] * expected[0] + s[1] * expected[1] + 2.0 * s[2] * expected[2]
-    assert complement == pytest.approx(product - energy, rel=1e-7, abs=1e-9 * MODULUS)
+    for guess in ((0.0, 0.0, 0.0), (0.3, -0.2, 0.1)):
+        found, complement = inverse(law.elastic, s, guess)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
+        assert complement == pytest.approx(product - energy, rel=1e-7, abs=1e-9 * MODULUS)
 
 
 @NAMES
@@ -115,7 +115,7 @@ def test_work_is_stored_or_dissipated(name):
     assert min(slopes(gaps)) > 1.6
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(2))
 @NAMES
 def test_dissipation_never_falls(name, seed):
     """Random steps of random length, with random branches."""

@@ -15,7 +15,6 @@ from tests.support.kernels.states import (
     driven,
     leaning,
     loaded,
-    shaken,
     step_to,
     struck,
     unit,
@@ -166,19 +165,6 @@ def test_what_evaluate_tells_the_book(damping, dt):
         (at.u, x - args.step.x0),
     ):
         np.testing.assert_allclose(part, expected, rtol=0, atol=1e-12 * np.abs(elastic).max())
-
-
-def test_other_lagged_contacts_are_exchanged_for_those_there():
-    """The gradient belongs to the sum with the new contacts, whatever was in contact before."""
-    scene = loaded()
-    x = leaning(scene)
-    args, other = step_to(scene, x, 0), step_to(scene, shaken(scene, x, 1, 0.01), 0)
-    exchanged = args.lagging(other.neighbours.lagged_contacts)
-    (energy, at), (expected, fresh) = args.found(x), exchanged.found(x)
-    assert energy != pytest.approx(expected, rel=1e-6)
-    assert exchanged.problem.exchange(exchanged.step, at) == pytest.approx(expected, rel=1e-12)
-    np.testing.assert_allclose(at.g, fresh.g, rtol=0, atol=1e-12 * np.abs(fresh.g).max())
-    np.testing.assert_allclose(at.friction, fresh.friction, rtol=1e-12)
 
 
 @pytest.mark.parametrize("platen", ["none", "contact"])

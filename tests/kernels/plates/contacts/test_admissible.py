@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.geometry.space import advancement, crossing, near
+from kernels.geometry.space import advancement, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates.contacts import admissible, pairs
 from kernels.shared.moves import ADVANCE
@@ -11,6 +11,7 @@ from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,
     contact_of,
+    crossings,
     pairs_of,
     placed,
     positions,
@@ -43,10 +44,6 @@ def advanced(x, dx, touch):
     listed = pairs.find(x, touch, touch.reach + 2.0 * far)
     share = admissible.step_limit(x, dx, far, touch, listed, 0.0)
     return x + share * dx, share
-
-
-def crossings(x, touch):
-    return crossing.count(positions(x), touch.triangles, touch.edges, np.empty((1, 2), np.int64))
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0, 30.0, 1e4])

@@ -42,7 +42,7 @@ def test_a_wall_bent_to_its_limit_does_not_touch_itself_within_two_thicknesses()
     assert all(starts_at(p, T) < T * np.sin(p / T) for p in s)
 
 
-@pytest.mark.parametrize("fine", [4, 6, 9, 24])
+@pytest.mark.parametrize("fine", [4, 24])
 def test_a_crease_is_kept_open(fine):
     """A wall that is folded flat between two rows of nodes, whatever the size of the elements."""
     points, triangles, area = folded(0.0, fine)
@@ -59,7 +59,7 @@ def test_a_crease_is_kept_open(fine):
     assert energies[2] > 0.1
 
 
-@pytest.mark.parametrize("fine", [4, 6, 12, 20])
+@pytest.mark.parametrize("fine", [4, 12])
 @pytest.mark.parametrize("angle", [0.0, 1.0, 1.57, 2.0944, 2.6])
 def test_walls_at_rest_are_free_of_stress(angle, fine):
     points, triangles, area = folded(angle, fine)
