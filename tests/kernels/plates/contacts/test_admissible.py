@@ -26,18 +26,6 @@ def test_the_least_gap_of_parallel_sheets():
     assert admissible.least_gap(x, touch, pairs_of(x, touch), 0.0) == pytest.approx(0.4)
 
 
-def test_the_least_gap_holds_while_nodes_move():
-    x, touch = wavy(1)
-    listed = pairs_of(x, touch)
-    rng = np.random.default_rng(0)
-    for _ in range(5):
-        y = placed(positions(x) + rng.uniform(-0.3, 0.3, positions(x).shape))
-        drift = near.farthest(y, x, len(touch.area))
-        assert admissible.least_gap(y, touch, listed, drift) == pytest.approx(
-            admissible.least_gap(y, touch, pairs_of(y, touch), 0.0)
-        )
-
-
 def advanced(x, dx, touch):
     """Coordinates after the admissible share of a move, and that share."""
     far = near.longest(dx, len(touch.area))

@@ -8,7 +8,7 @@ import pytest
 from kernels.geometry.space import near
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
-from kernels.plates.contacts import contact, touching
+from kernels.plates.contacts import admissible, contact, touching
 from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,
@@ -261,6 +261,8 @@ def test_lists_with_a_margin_hold_while_nodes_move():
         expected = term_of(y, touch)
         assert energy == pytest.approx(expected.energy(y), rel=1e-12)
         np.testing.assert_allclose(g, expected.gradient(y), rtol=1e-9, atol=1e-12)
+        gap = admissible.least_gap(y, touch, pairs_of(y, touch), 0.0)
+        assert admissible.least_gap(y, touch, listed, drift) == pytest.approx(gap)
 
 
 @pytest.mark.parametrize(("low", "high"), [(-0.05, 3.07), (-0.02, 3.2), (1.2, 1.8)])
