@@ -78,7 +78,7 @@ def test_work_is_stored_or_dissipated(strain):
         assert min(slopes(gaps)) > order
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_dissipation_never_falls(seed):
     rng = np.random.default_rng(seed)
     law = relaxing(measured(), [0.3, 0.3], [0.1, 10.0], SOFTENING)

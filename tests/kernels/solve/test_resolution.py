@@ -87,7 +87,7 @@ def drawn_by_a_spring(integrator, time_step):
 
 
 @pytest.mark.parametrize("integrator", SCHEMES)
-@pytest.mark.parametrize("time_step", [1e-13, 1e-12, 1e-10, 1e-9, 1e-7])
+@pytest.mark.parametrize("time_step", [1e-13, 1e-10, 1e-9, 1e-7])
 def test_a_strained_spring_moves_what_no_load_moves(integrator, time_step):
     """It moves as the force of the spring demands, or stops: it is not left at rest."""
     result = simulate(drawn_by_a_spring(integrator, time_step))

@@ -188,7 +188,7 @@ def descend(
 ):
     """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is).
 
-    ``there``: ``start`` has been evaluated before.
+    evaluated: whether ``start`` has been evaluated before.
     """
     x, workspace = start.copy(), make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0
