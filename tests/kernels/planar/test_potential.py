@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kernels.terms import fold, friction, stretch
-from tests.studies.verify import MATERIAL
+from tests.support.designs.tables import MATERIAL
 from tests.support.kernels.solving import whole
 from tests.support.kernels.states import (
     DT,

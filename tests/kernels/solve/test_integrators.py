@@ -10,10 +10,10 @@ from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
 from tests.studies.validation import energy
 from tests.studies.validation.energy import moving
-from tests.studies.verify import MATERIAL
 from tests.support.designs import scenes
 from tests.support.designs.scenes import SEED, UNDAMPED, VISCOUS, pressed, run, slopes, unbalanced
 from tests.support.designs.structures import APART, set_off
+from tests.support.designs.tables import MATERIAL
 
 ORDERS = {"backward_euler": 1, "bdf2": 2, "newmark": 2}
 INTEGRATORS = pytest.mark.parametrize("integrator", ORDERS)

@@ -15,8 +15,8 @@ from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
 from tests.kernels.solve.test_newton import BUCKLED, column
 from tests.kernels.solve.test_one_degree_of_freedom import DAMPINGS, DT
-from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import TIGHT, UNDAMPED, pressed, unbalanced
+from tests.support.designs.tables import MATERIAL
 from tests.support.kernels.solving import at_rest, floating, go_on, ramp
 from tests.support.kernels.states import nodes
 from tests.support.kernels.terms import touch_of

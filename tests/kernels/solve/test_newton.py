@@ -9,9 +9,9 @@ from kernels.solve.residual import Tolerance, allowed, allowed_decrement, loosen
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from tests.studies.verify import MATERIAL
 from tests.support.converged import converged
 from tests.support.designs.scenes import grid, pressed, run, slopes
+from tests.support.designs.tables import MATERIAL
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3

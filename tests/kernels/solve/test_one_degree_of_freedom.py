@@ -7,8 +7,8 @@ from kernels.solve import outcomes
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.simulation.simulate import simulate
-from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import UNDAMPED, unbalanced
+from tests.support.designs.tables import MATERIAL
 from tests.support.kernels.solving import at_rest, go_on, ramp
 
 DT = 5e-5
