@@ -16,11 +16,11 @@ GRIP = dict(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
 SLIDE = dict(friction=0.3, slip_speed=1e-4)
 
 
-def grid(elements=3, size=None, **tables):
-    """The scene of a 2 x 2 grid whose joints are points; size: keys of its lattice."""
+def grid(elements=3, sizes=None, **tables):
+    """The scene of a 2 x 2 grid whose joints are points; sizes: of its lattice, m."""
     cells = dict(cells_x=2, cells_y=2, nodes_per_wall=elements - 1)
     usual = {"material": CURVE, "contact": GRIP, "solver": dict(joints="points")}
-    return build_scene(Case.of(lattice=cells | (size or {}), **usual | tables))
+    return build_scene(Case.of(lattice=cells | (sizes or {}), **usual | tables))
 
 
 def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
