@@ -50,12 +50,15 @@ def test_grid_bears_7_newtons_and_no_7_and_a_half(damping):
 
 
 @pytest.mark.parametrize("force", LOADS)
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-@pytest.mark.parametrize("damping", [UNDAMPED, HEAVY, VISCOUS], ids=["none", "rayleigh", "viscous"])
+@pytest.mark.parametrize(
+    ("damping", "friction"),
+    [(UNDAMPED, 0.0), (UNDAMPED, 0.3), (HEAVY, 0.3), (VISCOUS, 0.3)],
+    ids=["none", "friction", "rayleigh", "viscous"],
+)
 def test_no_load_on_platens_is_too_much(force, friction, damping):
     """If damped, the lattice recovers once released."""
     result = on_platens(force, 1e-3, damping, friction)
-    assert damping == UNDAMPED or friction == 0.0 or recovers(result)
+    assert damping == UNDAMPED or recovers(result)
 
 
 @pytest.mark.parametrize("force", [10.0, 40.0])

@@ -69,17 +69,6 @@ def test_unloading_returns_all_energy_without_friction():
 
 
 @pytest.mark.parametrize("platen", ["glued", "contact"])
-def test_friction_keeps_some_energy(platen):
-    result = there_and_back(platen, 0.3)
-    rubbed = result.history["dissipated_friction_J"]
-    # The trapezoidal rule can turn back by its own error where a wall begins to slide back.
-    assert np.diff(rubbed).min() >= -1e-4 * rubbed[-1]
-    kept = result.summary["absorbed_energy_J"] - result.summary["returned_energy_J"]
-    assert kept == pytest.approx(rubbed[-1], rel=0.01)
-    assert kept > 0.005 * result.summary["absorbed_energy_J"]
-
-
-@pytest.mark.parametrize("platen", ["glued", "contact"])
 def test_friction_never_gives_energy_back(platen):
     """Backward Euler books the work of the forces at the end of a step, none of which drives the
     motion.

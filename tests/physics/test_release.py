@@ -26,7 +26,7 @@ def released(force, friction, integrator):
 
 @pytest.mark.parametrize("integrator", ["backward_euler", "newmark", "bdf2"])
 @pytest.mark.parametrize("friction", [0.0, 0.5])
-@pytest.mark.parametrize("force", [2e-4, 2e-3, 9e-3])
+@pytest.mark.parametrize("force", [2e-4, 9e-3])
 def test_the_book_of_a_load_below_the_weight_of_the_lattice_closes(force, friction, integrator):
     """Damping is then a force below the admissible residual."""
     result = converged(released(force, friction, integrator))

@@ -87,7 +87,7 @@ TESTED_ELSEWHERE = {
     "kernels.linear.pivots": "kernels/linear/condensed/test_block_ldlt.py",
     "kernels.linear.condensed.bundles": "kernels/linear/condensed/test_analysis.py",
     "kernels.linear.condensed.condense": "kernels/linear/condensed/test_system.py",
-    "kernels.linear.condensed.periodic_images": "kernels/planar/test_constraints.py",
+    "kernels.linear.condensed.periodic_images": "kernels/shared/test_followers.py",
     "kernels.linear.supernodal.dense": "kernels/linear/supernodal/test_factor.py",
     "kernels.linear.supernodal.symbolic": "kernels/linear/supernodal/test_factor.py",
     "kernels.linear.supernodal.fronts": "kernels/linear/supernodal/test_factor.py",

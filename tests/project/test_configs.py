@@ -12,10 +12,11 @@ from sweep.config.grid import chosen_case, expand
 from sweep.config.load import load_config
 from sweep.ranking.rank import rank
 from sweep.running.sweep import run_sweep
+from sweep.scene.material import law_in_stretch
 from sweep.simulation.simulate import simulate
 from sweep.store.read import read_attributes, read_frames, read_history, read_summary
 from tests.support.designs.tables import material_with
-from tests.support.materials.strips import pulled
+from tests.support.materials.memory import pulled
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 
@@ -163,7 +164,8 @@ def test_reuse_softens_as_it_says():
     (material,) = {case.material for case in cases_of("reuse")}
     relaxing = material_with(loss=material.loss)
     assert relaxing.softening_r is None
-    works = [pulled(each, 0.2, 50.0) for each in (material_with(), relaxing, material)]
+    laws = (law_in_stretch(each, 1.0) for each in (material_with(), relaxing, material))
+    works = [pulled(law, 0.2, 50.0) for law in laws]
     shares = [second / first for first, _, second, _ in works]
     assert shares == pytest.approx([1.0, 0.84, 0.75], abs=0.005)
     lost = [1.0 + back / there for there, back, *_ in works]

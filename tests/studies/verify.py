@@ -27,7 +27,7 @@ from sweep.store.read import read_summary
 from tests.studies.tables import head, line
 from tests.support import readme
 from tests.support.converged import converged, demand
-from tests.support.designs.tables import material_with
+from tests.support.designs.tables import MATERIAL
 
 FRAME = {0.05: 11.62, 0.1: 12.04, 0.3: 13.93}
 SOLID = {0.1: 13.65, 0.3: 47.5, 0.4: 66.0, 0.5: 95.3, 0.6: 138.3}
@@ -35,7 +35,6 @@ CRITICAL = 7.35
 LOADS = (6.6, 7.0, 7.5)
 WATCHED = 0.137  # s
 
-MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 ROD = {"element": "classical", "bend_measure": "tangent"}
 
 

@@ -4,6 +4,8 @@ middle.
 Names and arguments agree with Optuna 4; any further use by the page fails here.
 """
 
+from contextlib import suppress
+
 SHARES = (0.0, 0.5, 1.0)
 
 
@@ -19,39 +21,33 @@ class Trial:
 
     def suggest_float(self, name, low, high):
         """A number."""
-        return self._keep(name, low + self.share * (high - low))
+        return self.params.setdefault(name, low + self.share * (high - low))
 
     def suggest_int(self, name, low, high):
         """A whole number."""
-        return self._keep(name, low + round(self.share * (high - low)))
+        return self.params.setdefault(name, low + round(self.share * (high - low)))
 
     def suggest_categorical(self, name, choices):
         """One of the choices."""
-        return self._keep(name, choices[min(int(self.share * len(choices)), len(choices) - 1)])
-
-    def _keep(self, name, value):
-        self.params[name] = value
-        return value
+        number = min(int(self.share * len(choices)), len(choices) - 1)
+        return self.params.setdefault(name, choices[number])
 
 
 class Study:
     """The best of three trials."""
 
-    def __init__(self, sign):
-        self.sign, self.best_params, self.best_value = sign, None, None
+    def __init__(self, best):
+        self.best = best
 
     def optimize(self, objective, n_trials):
         """Try the shares; a pruned trial has no value."""
         assert n_trials > 0
-        for share in SHARES:
-            trial = Trial(share)
-            try:
-                value = objective(trial)
-            except TrialPruned:
-                continue
-            if self.best_value is None or self.sign * value > self.sign * self.best_value:
-                self.best_params, self.best_value = trial.params, value
+        tried = []
+        for trial in map(Trial, SHARES):
+            with suppress(TrialPruned):
+                tried.append((objective(trial), trial.params))
+        self.best_value, self.best_params = self.best(tried, key=lambda pair: pair[0])
 
 
 def create_study(direction):
-    return Study({"maximize": 1.0, "minimize": -1.0}[direction])
+    return Study({"maximize": max, "minimize": min}[direction])

@@ -75,7 +75,6 @@ def test_small_integers_meet_every_degenerate_case(seed):
     assert met > 300
 
 
-@pytest.mark.parametrize("length", LENGTHS)
 @pytest.mark.parametrize("bearing", [0.0, 0.3, 1.7])
 @pytest.mark.parametrize(
     ("start", "move", "expected"),
@@ -95,10 +94,10 @@ def test_small_integers_meet_every_degenerate_case(seed):
         ((0.5, 1.0), (0.2, 3.0), np.inf),  # leaving
     ],
 )
-def test_first_contact_with_a_segment_at_rest(start, move, expected, bearing, length):
+def test_first_contact_with_a_segment_at_rest(start, move, expected, bearing):
     turn = np.array([[np.cos(bearing), -np.sin(bearing)], [np.sin(bearing), np.cos(bearing)]])
-    x = length * (np.array([start, (0.0, 0.0), (1.0, 0.0)]) @ turn.T)
-    dx = length * (np.array([move, (0.0, 0.0), (0.0, 0.0)]) @ turn.T)
+    x = np.array([start, (0.0, 0.0), (1.0, 0.0)]) @ turn.T
+    dx = np.array([move, (0.0, 0.0), (0.0, 0.0)]) @ turn.T
     assert ccd.first_contact(x.ravel(), dx.ravel(), 0, 1, 2) == pytest.approx(expected, abs=1e-9)
 
 

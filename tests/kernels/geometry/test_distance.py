@@ -76,7 +76,7 @@ def test_a_segment_without_length_is_a_point():
     assert distance.squared_distance(x, POINT, START, END) == 25.0
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("length", [1.0, 1e-3])
 @pytest.mark.parametrize(
     ("along", "across"),
     [(0.3, 0.5), (0.7, -0.2), (0.01, 0.4), (0.99, -0.3), (-0.5, 0.1), (1.4, 0.8), (0.5, 1e-2)],

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from kernels.laws import log_strain
-from tests.support.kernels.sheets import square, strain
-from tests.support.kernels.terms import differences
+from tests.support.kernels.sheets import strain
+from tests.support.kernels.terms import law_errors
 
 STRESS = (0.7, -0.4, 0.3)
 PRINCIPAL = [(1.0, 1.0), (1.3, 0.8), (0.5, 0.5), (2.0, 1.1), (1.05, 0.96), (1.0 + 1e-9, 1.0)]
-ANGLES = pytest.mark.parametrize("angle", [0.0, 0.4, -1.2])
+ANGLES = pytest.mark.parametrize("angle", [0.0, 0.4])
 
 
 @ANGLES
@@ -28,15 +28,13 @@ def test_a_small_strain_loses_no_digits():
 @ANGLES
 @pytest.mark.parametrize("stretches", PRINCIPAL)
 def test_derivatives(stretches, angle):
-    at, step = strain(stretches, angle), np.full(3, 1e-5)
-    value, slopes, tangent = log_strain.respond(STRESS, *at)
+    at = strain(stretches, angle)
     one, two, both = log_strain.strain(*at)
     product = STRESS[0] * one + STRESS[1] * two + 2.0 * STRESS[2] * both
-    assert value == pytest.approx(product, rel=1e-13, abs=1e-15)
-    by_value = differences(lambda c: log_strain.respond(STRESS, *c)[0], at, step)
-    by_slope = differences(lambda c: np.array(log_strain.respond(STRESS, *c)[1]), at, step)
-    np.testing.assert_allclose(by_value, slopes, rtol=0, atol=1e-8)
-    np.testing.assert_allclose(by_slope, square(tangent), rtol=0, atol=1e-7)
+    assert log_strain.respond(STRESS, *at)[0] == pytest.approx(product, rel=1e-13, abs=1e-15)
+    in_slopes, in_tangent = law_errors(lambda *c: log_strain.respond(STRESS, *c), at, 1e-5)
+    assert in_slopes < 1e-8
+    assert in_tangent < 1e-7
 
 
 def test_the_sum_of_powers_goes_over_into_the_closed_form():

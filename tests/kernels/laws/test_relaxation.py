@@ -9,12 +9,18 @@ from kernels.laws import relaxation
 from kernels.laws.elastic import GUARD
 from kernels.laws.relaxation import NEAR, inverse
 from kernels.laws.softening import Softening
-from sweep.scene.material import as_law, linear_law, stress_law
+from sweep.scene.material import as_law, linear_law
 from tests.support.designs.scenes import slopes
-from tests.support.designs.tables import material_with
 from tests.support.kernels.frames import MODULUS
-from tests.support.kernels.terms import differences
-from tests.support.materials.memory import follow, prepare, relaxing, there_and_back, virgin
+from tests.support.kernels.terms import law_errors
+from tests.support.materials.memory import (
+    follow,
+    measured,
+    prepare,
+    relaxing,
+    there_and_back,
+    virgin,
+)
 
 SHARES, TIMES = (0.3, 0.2, 0.25), (0.01, 0.5, 40.0)
 STRAIN = 0.12
@@ -23,12 +29,6 @@ HISTORY = (0.05, -0.03, 0.08)
 
 def straight():
     return as_law(linear_law(MODULUS), 1.0, MODULUS)
-
-
-def measured(name="ninjaflex"):
-    """A measured curve, in MPa."""
-    material = material_with(name=name)
-    return as_law(stress_law(material), 1e-6, material.modulus)
 
 
 def solid(curve, share=0.6, time=0.5):
@@ -44,7 +44,7 @@ def remembered(law, duration):
     return memory
 
 
-@pytest.mark.parametrize("duration", [0.0, 1e-9, 0.01, 0.5, 40.0, 1e9])
+@pytest.mark.parametrize("duration", [0.0, 0.01, 1e9])
 @pytest.mark.parametrize(
     ("strain", "step", "within"),
     [
@@ -55,11 +55,8 @@ def remembered(law, duration):
 def test_stress_and_tangent_are_derivatives(strain, step, within, duration):
     law = relaxing(measured(), SHARES, TIMES)
     memory = remembered(law, duration)
-    expected = law.respond(strain, memory, 0)[1:]
-    found = differences(
-        lambda e: np.array(law.respond(e[0], memory, 0)[:2]), np.array([strain]), np.array([step])
-    )[0]
-    np.testing.assert_allclose(found, expected, rtol=0, atol=within * law.modulus)
+    errors = law_errors(lambda e: law.respond(e, memory, 0), strain, step)
+    assert max(errors) < within * law.modulus
 
 
 @pytest.mark.parametrize("time", [1e-6, 1e-3, 1.0, 1e3])
@@ -80,8 +77,8 @@ def ramp(t, time, rate=1.0):
     return MODULUS * rate * (0.4 * t + 0.6 * time * -np.expm1(-t / time))
 
 
-@pytest.mark.parametrize("period", [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3])
-@pytest.mark.parametrize("steps", [1, 2, 20])
+@pytest.mark.parametrize("period", [1e-3, 0.1, 1.0, 1e3])
+@pytest.mark.parametrize("steps", [1, 20])
 def test_a_cycle_of_even_ramps_is_exact(period, steps):
     """Six decades of dt over the time of the branch; work by quadrature of the closed form."""
     time, rate = 0.5, STRAIN / period
@@ -124,7 +121,7 @@ def test_work_is_stored_or_dissipated(name, strain):
     assert min(slopes(gaps)) > 1.6
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_dissipation_never_falls(seed):
     """Random steps of random length, with random branches."""
     rng = np.random.default_rng(seed)
@@ -173,22 +170,15 @@ def test_only_a_commit_changes_what_is_remembered():
     assert not changed[relaxation.MOST]  # of a law that softens
 
 
-def test_an_elastic_law_keeps_no_number():
-    law = relaxing(measured())
-    assert law.state_size() == 0
-    assert relaxing(measured(), SHARES, TIMES).state_size() == relaxation.BRANCHES + 6
-    assert law.commit(0.1, virgin(law), 0) == (0.0, 0.0)
-
-
 @pytest.mark.parametrize("strain", [-0.9, -0.4, -1e-3, 0.02, 0.5, 3.0, 7.0])
-@pytest.mark.parametrize("guess", [0.0, -0.3, 2.0])
-def test_inverse_finds_the_strain_of_a_stress(strain, guess):
+def test_inverse_finds_the_strain_of_a_stress(strain):
     curve = measured()
     stress = curve.respond(strain)[1]
-    found, complement = inverse(Softening(curve, 0.0, 0.0, 0.0), 0.0, stress, guess)
     exact = brentq(lambda e: curve.respond(e)[1] - stress, -0.999, 9.0, xtol=1e-14)
-    assert found == pytest.approx(exact, abs=10.0 * NEAR**2)
-    assert complement == pytest.approx(stress * exact - curve.respond(exact)[0], rel=1e-7)
+    for guess in (0.0, -0.3, 2.0):
+        found, complement = inverse(Softening(curve, 0.0, 0.0, 0.0), 0.0, stress, guess)
+        assert found == pytest.approx(exact, abs=10.0 * NEAR**2)
+        assert complement == pytest.approx(stress * exact - curve.respond(exact)[0], rel=1e-7)
 
 
 def test_straight_pieces_do_not_show():

@@ -4,19 +4,12 @@ import numpy as np
 import pytest
 
 from kernels.laws import relaxing_sheet
-from kernels.laws.law import Memory
-from kernels.laws.relaxing_sheet import RelaxingSheet, inverse
+from kernels.laws.relaxing_sheet import LINE, RelaxingSheet, inverse
 from kernels.laws.sheet import neo_hookean
 from tests.support.designs.scenes import slopes
-from tests.support.kernels.sheets import (
-    MODULUS,
-    elastic_only,
-    measured,
-    sheet_of_rubber,
-    square,
-    strain,
-)
-from tests.support.kernels.terms import differences
+from tests.support.kernels.sheets import MODULUS, elastic_only, measured, sheet_of_rubber, strain
+from tests.support.kernels.terms import law_errors
+from tests.support.materials.memory import prepare, virgin
 
 SHARES, TIMES = (0.3, 0.2, 0.25), (0.01, 0.5, 40.0)
 SHEETS = {
@@ -33,20 +26,9 @@ def law_of(name, shares=SHARES, times=TIMES):
     return RelaxingSheet(elastic, np.array(shares), np.array(times), elastic.shear_modulus)
 
 
-def virgin(law):
-    return Memory(
-        np.zeros((1, law.state_size())), np.zeros((1, relaxing_sheet.LINE)), law.make_pace()
-    )
-
-
-def prepare(law, memory, duration):
-    law.set_pace(duration, memory.pace)
-    law.begin(memory, 0)
-
-
 def follow(law, path, durations, memory=None):
     """Slopes in c, stored energy, and dissipation so far, after each strain of a path (n, 3)."""
-    memory, rows, lost = virgin(law) if memory is None else memory, [], 0.0
+    memory, rows, lost = virgin(law, line=LINE) if memory is None else memory, [], 0.0
     for at, duration in zip(path, np.broadcast_to(durations, len(path)), strict=True):
         prepare(law, memory, duration)
         s = law.respond(*at, memory, 0)[1]
@@ -57,37 +39,35 @@ def follow(law, path, durations, memory=None):
 
 
 def remembered(law, duration):
-    memory = virgin(law)
+    memory = virgin(law, line=LINE)
     follow(law, [strain(*at) for at in HISTORY], 0.3, memory)
     prepare(law, memory, duration)
     return memory
 
 
-@pytest.mark.parametrize("duration", [0.0, 1e-9, 0.01, 0.5, 1e9])
+@pytest.mark.parametrize("duration", [0.0, 0.01, 1e9])
 @NAMES
 @pytest.mark.parametrize("at", [*HISTORY, ((1.0, 1.0), 0.0), ((0.6, 1.4), 1.1)])
 def test_slopes_and_tangent_are_derivatives(name, at, duration):
-    law, c, step = law_of(name), strain(*at), np.full(3, 2e-6)
+    law, c = law_of(name), strain(*at)
     memory = remembered(law, duration)
-    _, s, tangent = law.respond(*c, memory, 0)
-    by_energy = differences(lambda c: law.respond(*c, memory, 0)[0], c, step)
-    by_slope = differences(lambda c: np.array(law.respond(*c, memory, 0)[1]), c, step)
-    size = 3.0 * law.shear_modulus + np.abs(tangent).max()
-    np.testing.assert_allclose(by_energy, s, rtol=0, atol=1e-8 * size)
-    np.testing.assert_allclose(by_slope, square(tangent), rtol=0, atol=3e-5 * size)
+    size = 3.0 * law.shear_modulus + np.abs(law.respond(*c, memory, 0)[2]).max()
+    in_slopes, in_tangent = law_errors(lambda *c: law.respond(*c, memory, 0), c, 2e-6)
+    assert in_slopes < 1e-8 * size
+    assert in_tangent < 3e-5 * size
 
 
 @NAMES
 @pytest.mark.parametrize("at", [((1.0, 1.0), 0.0), *HISTORY, ((0.3, 2.0), 0.4), ((4.0, 3.0), 1.0)])
-@pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.3, -0.2, 0.1)])
-def test_inverse_finds_the_strain_of_a_stress(name, at, guess):
+def test_inverse_finds_the_strain_of_a_stress(name, at):
     """It also finds the complementary energy of the sheet."""
     law = law_of(name)
     energy, s, expected = relaxing_sheet._response(law, *strain(*at))
-    found, complement = inverse(law.elastic, s, guess)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
     product = s[0] * expected[0] + s[1] * expected[1] + 2.0 * s[2] * expected[2]
-    assert complement == pytest.approx(product - energy, rel=1e-7, abs=1e-9 * MODULUS)
+    for guess in ((0.0, 0.0, 0.0), (0.3, -0.2, 0.1)):
+        found, complement = inverse(law.elastic, s, guess)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
+        assert complement == pytest.approx(product - energy, rel=1e-7, abs=1e-9 * MODULUS)
 
 
 @NAMES
@@ -135,7 +115,7 @@ def test_work_is_stored_or_dissipated(name):
     assert min(slopes(gaps)) > 1.6
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(2))
 @NAMES
 def test_dissipation_never_falls(name, seed):
     """Random steps of random length, with random branches."""
@@ -184,8 +164,7 @@ def test_without_branches_it_is_the_elastic_sheet(name):
     assert law.state_size() == 0
     assert law_of(name).state_size() == relaxing_sheet.BRANCHES + 18
     at = strain(*HISTORY[0])
-    memory = Memory(np.zeros((0, 0)), np.zeros((0, relaxing_sheet.LINE)), law.make_pace())
-    assert law.respond(*at, memory, 0) == SHEETS[name].respond(*at)
+    assert law.respond(*at, virgin(law, 0, LINE), 0) == SHEETS[name].respond(*at)
 
 
 def test_no_area_is_an_infinite_potential():

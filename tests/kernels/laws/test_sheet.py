@@ -4,15 +4,8 @@ import numpy as np
 import pytest
 
 from kernels.laws.sheet import neo_hookean
-from tests.support.kernels.sheets import (
-    MODULUS,
-    measured,
-    nominal,
-    sheet_of_rubber,
-    square,
-    strain,
-)
-from tests.support.kernels.terms import differences
+from tests.support.kernels.sheets import MODULUS, measured, nominal, sheet_of_rubber, strain
+from tests.support.kernels.terms import law_errors
 
 MU = MODULUS / 3.0
 LAWS = {
@@ -26,26 +19,24 @@ PRINCIPAL = [(1.0, 1.0), (1.3, 0.8), (0.6, 0.6), (2.0, 1.1), (0.4, 2.5), (1.0 + 
 
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("stretches", PRINCIPAL)
-@pytest.mark.parametrize("angle", [0.0, 0.4, -1.2])
+@pytest.mark.parametrize("angle", [0.0, 0.4])
 def test_stress_and_tangent_are_derivatives(name, stretches, angle):
-    law, at, step = LAWS[name], strain(stretches, angle), np.full(3, 2e-6)
-    _, s, t = law.respond(*at)
-    by_energy = differences(lambda c: law.respond(*c)[0], at, step)
-    by_stress = differences(lambda c: np.array(law.respond(*c)[1]), at, step)
-    size = np.abs(square(t)).max()
-    np.testing.assert_allclose(by_energy, s, rtol=0, atol=1e-8 * size)
-    np.testing.assert_allclose(by_stress, square(t), rtol=0, atol=3e-5 * size)
+    respond, at = LAWS[name].respond, strain(stretches, angle)
+    in_stress, in_tangent = law_errors(respond, at, 2e-6)
+    size = np.abs(respond(*at)[2]).max()
+    assert in_stress < 1e-8 * size
+    assert in_tangent < 3e-5 * size
 
 
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("stretch", [0.7, 1.0, 1.4])
-@pytest.mark.parametrize("apart", [1e-3, 1e-5, 1e-7, 1e-12, 0.0])
-def test_the_tangent_of_nearly_equal_stretches(name, stretch, apart):
+def test_the_tangent_of_nearly_equal_stretches(name, stretch):
     """It equals the tangent of equal stretches, as far as it depends on the difference smoothly."""
     law = LAWS[name]
     equal = np.array(law.respond(*strain((stretch, stretch), 0.0))[2])
-    near = np.array(law.respond(*strain((stretch + apart, stretch - apart), 0.7))[2])
-    np.testing.assert_allclose(near, equal, rtol=0, atol=(400.0 * apart + 1e-8) * MODULI[name])
+    for apart in (1e-3, 1e-5, 1e-7, 1e-12, 0.0):
+        near = np.array(law.respond(*strain((stretch + apart, stretch - apart), 0.7))[2])
+        np.testing.assert_allclose(near, equal, rtol=0, atol=(400.0 * apart + 1e-8) * MODULI[name])
 
 
 @pytest.mark.parametrize("name", ["linear", "rubber"])

@@ -8,21 +8,13 @@ from scipy.integrate import quad
 
 from kernels.laws.relaxation import MOST
 from kernels.laws.softening import Softening
-from sweep.scene.material import as_law, stress_law
 from tests.support.designs.scenes import slopes
-from tests.support.designs.tables import material_with
-from tests.support.kernels.terms import differences
-from tests.support.materials.memory import follow, relaxing, there_and_back, virgin
+from tests.support.kernels.terms import law_errors
+from tests.support.materials.memory import follow, measured, relaxing, there_and_back, virgin
 
 R, M, BETA = 2.0, 0.2, 0.1  # m in MPa
 SOFTENING = (1.0 / R, M, BETA)
 DEEP = 0.3
-
-
-def measured():
-    """A measured curve, in MPa."""
-    material = material_with()
-    return as_law(stress_law(material), 1e-6, material.modulus)
 
 
 LAW = Softening(measured(), *SOFTENING)
@@ -31,11 +23,9 @@ GREATEST = measured().respond(DEEP)[0]
 
 @pytest.mark.parametrize("strain", [1e-6, 0.05, -0.1, 0.299, 0.301, 0.5])
 def test_stress_and_tangent_are_derivatives(strain):
-    at, step = np.array([strain + 1e-5]), np.array([1e-6])
-    _, stress, tangent = LAW.respond(at[0], GREATEST)
-    found = differences(lambda e: np.array(LAW.respond(e[0], GREATEST)[:2]), at, step)[0]
-    assert stress == pytest.approx(found[0], abs=1e-8 * measured().modulus)
-    assert tangent == pytest.approx(found[1], abs=1e-4 * measured().modulus)
+    in_stress, in_tangent = law_errors(lambda e: LAW.respond(e, GREATEST), strain + 1e-5, 1e-6)
+    assert in_stress < 1e-8 * measured().modulus
+    assert in_tangent < 1e-4 * measured().modulus
 
 
 @pytest.mark.parametrize("strain", [0.1, 0.25, -0.2])
@@ -88,7 +78,7 @@ def test_work_is_stored_or_dissipated(strain):
         assert min(slopes(gaps)) > order
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_dissipation_never_falls(seed):
     rng = np.random.default_rng(seed)
     law = relaxing(measured(), [0.3, 0.3], [0.1, 10.0], SOFTENING)

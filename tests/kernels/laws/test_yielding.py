@@ -6,7 +6,7 @@ import pytest
 from kernels.laws.elastic import GUARD, guard
 from kernels.laws.law import Memory
 from kernels.laws.yielding import PATH, PLASTIC, STATE, Yielding
-from tests.support.kernels.terms import differences
+from tests.support.kernels.terms import law_errors
 
 MODULUS, LIMIT, HARDENING = 2e9, 40e6, 150e6
 YIELD = LIMIT / MODULUS
@@ -46,12 +46,12 @@ def pulled(law, strains, memory):
 )
 @pytest.mark.parametrize("strain", [0.0, 0.7 * YIELD, 3 * YIELD, -3 * YIELD, 0.2, -0.72, -0.85])
 def test_derivatives_match_differences(law, state, strain):
-    memory, at, step = memory_of(*state), np.array([strain]), np.array([1e-3 * YIELD])
+    memory = memory_of(*state)
     value, stress, tangent = law.respond(strain, memory, 0)
-    found = differences(lambda x: np.array(law.respond(x[0], memory, 0)[:2]), at, step)[0]
+    errors = law_errors(lambda e: law.respond(e, memory, 0), strain, 1e-3 * YIELD)
     stiff = MODULUS + abs(tangent)
-    assert stress == pytest.approx(found[0], abs=1e-8 * (abs(stress) + stiff * YIELD))
-    assert tangent == pytest.approx(found[1], abs=1e-6 * stiff)
+    assert errors[0] < 1e-8 * (abs(stress) + stiff * YIELD)
+    assert errors[1] < 1e-6 * stiff
     assert value >= 0.0
 
 

@@ -32,7 +32,7 @@ def test_the_forces_of_nodes_sum_to_that_on_the_base(name):
     assert pressing.sum() == pytest.approx(total, rel=1e-12)
 
 
-@pytest.mark.parametrize("width", [1e-4, 2e-3, 5e-3, 1.0])
+@pytest.mark.parametrize("width", [1e-4, 5e-3, 1.0])
 @pytest.mark.parametrize("name", BASES)
 def test_no_patch_has_more_force(name, width):
     """Among patches all along the base; each force acts over the thickness of its wall."""

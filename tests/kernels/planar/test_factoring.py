@@ -14,8 +14,7 @@ from tests.support.kernels.states import (
 )
 
 
-@pytest.mark.parametrize("dt", [DT, np.inf])
-@pytest.mark.parametrize("shift", [0.0, 30.0])
+@pytest.mark.parametrize(("dt", "shift"), [(DT, 0.0), (np.inf, 0.0), (np.inf, 30.0)])
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("name", SCENES)
 def test_the_factor_is_that_of_the_sum_of_all_terms(name, state, shift, dt):

@@ -9,9 +9,8 @@ from kernels.planar import position_based
 from kernels.terms import contact
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
-from tests.studies.verify import MATERIAL
 from tests.support.designs.scenes import run, unbalanced
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.tables import MATERIAL, lattice_with
 from tests.support.kernels.frames import touching, two_walls
 
 APART = 1.0 - 1e-5  # of the thickness

@@ -10,7 +10,6 @@ from tests.support.kernels.pressed_plates import (
     CASES,
     SIDE,
     STATES,
-    neighbours_of,
     pinched,
     reduction,
     scene,
@@ -18,6 +17,7 @@ from tests.support.kernels.pressed_plates import (
     unit,
     whole,
 )
+from tests.support.kernels.solving import neighbours_of
 from tests.support.kernels.terms import differences
 
 MOVE = -1e-4  # m
@@ -117,7 +117,7 @@ def test_lagged_friction_has_room_also_where_its_walls_have_parted():
     for neighbours, has_room in ((apart, True), (without, False)):
         there = args.beside(neighbours)
         result, _ = there.problem.factor(
-            of.x_rest, args.step, there.found(of.x_rest)[1], False, False
+            of.x_rest, args.step, there.found(of.x_rest)[1], 0.0, False
         )
         assert (result != NO_ROOM) == has_room
 

@@ -3,18 +3,11 @@
 import numpy as np
 import pytest
 
-from kernels.geometry.space import crossing
 from kernels.plates import neighbour_lists
 from kernels.plates.neighbour_lists import MOST_TURN
-from tests.support.kernels.pressed_plates import (
-    SIDE,
-    T,
-    neighbours_of,
-    pinched,
-    scene,
-    shaken,
-    whole,
-)
+from tests.support.kernels.pressed_plates import SIDE, T, pinched, scene, shaken, whole
+from tests.support.kernels.solving import neighbours_of
+from tests.support.kernels.surfaces import crossings
 
 
 def limit(of, x, dx):
@@ -67,11 +60,6 @@ def test_any_admissible_move_leaves_walls_apart(seed):
     assert crossings(x, touch) == (0, 0)
     assert crossings(x + share * dx, touch) == (0, 0)
     assert crossings(x + dx, touch)[0] > 0
-
-
-def crossings(x, touch):
-    points = np.ascontiguousarray(x[:-2].reshape(-1, 6)[:, :3])
-    return crossing.count(points, touch.triangles, touch.edges, np.empty((1, 2), np.int64))
 
 
 def test_lists_hold_while_nodes_move_less_than_half_of_the_margin():

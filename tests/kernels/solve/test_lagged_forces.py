@@ -4,8 +4,8 @@ import pytest
 
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
-from tests.studies.verify import MATERIAL
 from tests.support.converged import converged
+from tests.support.designs.tables import MATERIAL
 
 
 def crushed(contact, strain, steps, **tables):

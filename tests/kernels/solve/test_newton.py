@@ -9,9 +9,9 @@ from kernels.solve.residual import Tolerance, allowed, allowed_decrement, loosen
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import tolerances
-from tests.studies.verify import MATERIAL
 from tests.support.converged import converged
 from tests.support.designs.scenes import grid, pressed, run, slopes
+from tests.support.designs.tables import MATERIAL
 from tests.support.kernels.solving import descend, ramp, reduction, residual, shaken, whole
 
 HEIGHT = 12.5e-3
@@ -99,7 +99,7 @@ def test_a_loose_lattice_at_rest_is_not_unstable(cells_y, thickness):
     assert (negative, missing) == (False, False)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_the_same_minimum_from_all_around(seed):
     """What is held does not move, and bears the load."""
     case, scene, args = loaded()
@@ -153,7 +153,7 @@ def test_a_step_must_fall_by_a_share_of_what_its_model_promises(model):
 
 
 @pytest.mark.parametrize("dt", [1e-3, np.inf])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_no_iteration_raises_the_energy(seed, dt):
     """It starts from a crumpled lattice, between platens and with contact."""
     case = grid(5.0, "contact", "barrier")
@@ -171,8 +171,8 @@ def test_no_iteration_raises_the_energy(seed, dt):
     assert is_minimum(case, scene, x, dt, whole(scene, x, scene.x_rest, dt))
 
 
-@pytest.mark.parametrize("most", [1, 2, 3])
-def test_too_few_iterations_are_a_failure(most):
+def test_too_few_iterations_are_a_failure():
+    most = 2
     case, scene, start = straight(BUCKLED)
     start = shaken(scene, start, 0, 0.05)
     args = whole(scene, start)

@@ -48,9 +48,10 @@ def end(result):
 
 
 @pytest.mark.parametrize("integrator", SCHEMES)
-@pytest.mark.parametrize("modulus", [1.2e4, 12e6, 70e9])
-@pytest.mark.parametrize("force", [1e-2, 1.0, -1.0])
-@pytest.mark.parametrize("time_step", [1e-7, 1e-6])
+@pytest.mark.parametrize(
+    ("modulus", "force", "time_step"),
+    [(1.2e4, 1.0, 1e-7), (12e6, -1.0, 1e-6), (12e6, 1e-2, 1e-7), (70e9, 1.0, 1e-6)],
+)
 def test_a_cantilever_under_a_load_along_itself_moves(integrator, modulus, force, time_step):
     """It moves from rest, by the closed form, if a step is shorter than the fastest oscillation."""
     fastest = 2.0 / PIECE * np.sqrt(modulus / DENSITY)  # rad/s
@@ -86,7 +87,7 @@ def drawn_by_a_spring(integrator, time_step):
 
 
 @pytest.mark.parametrize("integrator", SCHEMES)
-@pytest.mark.parametrize("time_step", [1e-13, 1e-12, 1e-10, 1e-9, 1e-7])
+@pytest.mark.parametrize("time_step", [1e-13, 1e-10, 1e-9, 1e-7])
 def test_a_strained_spring_moves_what_no_load_moves(integrator, time_step):
     """It moves as the force of the spring demands, or stops: it is not left at rest."""
     result = simulate(drawn_by_a_spring(integrator, time_step))

@@ -52,9 +52,10 @@ def condensed(of: Frame, element: str = "cubic") -> np.ndarray:
     return outer - mixed.T @ np.linalg.solve(inner, mixed) if inside else outer
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
 @pytest.mark.parametrize("measure", MEASURES)
-@pytest.mark.parametrize("turn", [0.0, 1e-6, -0.5, 1.5, 2.5, -2.9])
+@pytest.mark.parametrize(
+    ("turn", "length"), [*((turn, 1.0) for turn in (0.0, 1e-6, -0.5, 1.5, 2.5, -2.9)), (1.5, 1e-3)]
+)
 def test_derivatives_of_a_bent_wall(turn, measure, length):
     of = scaled(HINGE, length)
     x = bent(turn, 0.3 * turn)
@@ -72,7 +73,7 @@ def test_derivatives_at_rest_and_in_random_states(seed, amount, measure, element
 
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("measure", MEASURES)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_projected_hessian_is_semi_definite(seed, measure, element):
     x = shaken(FRAME, seed, 0.5)
     term = term_of(FRAME, measure, element)
@@ -81,7 +82,7 @@ def test_projected_hessian_is_semi_definite(seed, measure, element):
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
-@pytest.mark.parametrize("pieces", range(1, 9))
+@pytest.mark.parametrize("pieces", [1, 2, 3, 8])
 def test_a_straight_wall_of_cubics_is_exactly_a_beam(pieces, element):
     of = frame([(0, 0), (5.0, 0)], [(0, 1)], pieces)
     expected, found = beam(of.rigidity[0], 5.0), condensed(of, element)

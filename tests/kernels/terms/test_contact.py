@@ -44,9 +44,11 @@ def node_at(x, node, place):
     return x
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
 @pytest.mark.parametrize("gap", [0.01, 0.3, T * (1 - 1e-2), T * (1 + 1e-2)])
-@pytest.mark.parametrize("along", [-0.1, -0.002, 0.002, 1.7, 3.998, 4.002])
+@pytest.mark.parametrize(
+    ("along", "length"),
+    [*((along, 1.0) for along in (-0.1, -0.002, 0.002, 1.7, 3.998, 4.002)), (1.7, 1e-3)],
+)
 def test_derivatives_of_one_pair(along, gap, length):
     of = scaled(ONE, length)
     x = length * node_at(ONE.rest, 2, (along, gap))
@@ -82,8 +84,8 @@ def test_the_gradient_is_continuous_over_a_vertex(along):
     np.testing.assert_allclose(slopes[1], slopes[0], atol=1e-5)
 
 
-@pytest.mark.parametrize("gap", [0.1, 0.5, 0.75])
-@pytest.mark.parametrize("pieces", [(n, m) for n in (1, 3, 6, 12, 24, 48) for m in (n, n + 1, 5)])
+@pytest.mark.parametrize("gap", [0.1, 0.75])
+@pytest.mark.parametrize("pieces", [(n, m) for n in (1, 3, 12, 48) for m in (n, n + 1, 5)])
 def test_parallel_walls_count_once_at_any_mesh(pieces, gap):
     """Aligned and staggered nodes: length x phi to round-off, and half of it from each side."""
     of = two_walls(gap, pieces)

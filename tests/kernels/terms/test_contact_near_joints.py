@@ -71,7 +71,7 @@ def test_the_rest_state_is_free_of_contact(name, pieces):
     assert contact.least_gap(of.rest, touch, listed, 0.0) > 0
 
 
-@pytest.mark.parametrize("pieces", [1, 2, 3, 5, 12])
+@pytest.mark.parametrize("pieces", [1, 3, 12])
 @pytest.mark.parametrize("name", FRAMES)
 def test_every_vertex_is_counted_once_by_its_heaviest_element(name, pieces):
     """Left aside: the ends of a node's own elements where these are longer than 3 t.
@@ -174,7 +174,7 @@ def test_faces_round_a_corner_touch_where_they_can_be_bent_to(opening):
         np.testing.assert_allclose(found, np.minimum(expected, touch.tributary[p]), atol=1e-12)
 
 
-@pytest.mark.parametrize("pieces", [2, 3, 7, 12, 30])
+@pytest.mark.parametrize("pieces", [2, 7, 30])
 @pytest.mark.parametrize("opening", [12.0, 45.0, 60.0, 90.0, 135.0])
 def test_what_touches_was_apart(opening, pieces):
     """At rest, arms are apart by cos(g/2) + g/2 sin(g/2) times the distance of contact at least."""

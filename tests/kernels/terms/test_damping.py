@@ -53,7 +53,7 @@ def elastic(terms, x, projected=False):
 
 @pytest.mark.parametrize("measure", MEASURES)
 @pytest.mark.parametrize("damping", MODELS)
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("length", [1.0, 1e-3])
 def test_derivatives_in_random_states(length, damping, measure):
     of = scaled(FRAME, length)
     term = term_of(damped(of, damping, measure), shaken(of, 10))

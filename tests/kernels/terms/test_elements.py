@@ -71,15 +71,15 @@ def test_a_point_that_is_no_number_has_turns_that_are_none(place, monkeypatch):
 
 
 @pytest.mark.parametrize("definite", [True, False])
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("length", [1.0, 1e-3])
+@pytest.mark.parametrize("seed", range(2))
 def test_the_chain_rule(seed, length, definite):
     of = scaled(FRAME, length)
     term, x = quadratic(of, seed, definite), shaken(of, seed, 0.3)
     assert derivative_error(term, x, of.unit, 3e-4) < 1e-7
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_projected_second_derivatives_are_semi_definite(seed):
     term, x = quadratic(FRAME, seed), shaken(FRAME, seed, 0.5)
     assert np.linalg.eigvalsh(term.hessian(x))[0] < -0.1

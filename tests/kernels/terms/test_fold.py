@@ -20,10 +20,8 @@ def folded(opening: float, turn: float = 0.4, arms=(1.3, 0.8)) -> np.ndarray:
     return np.array([0.2 + one.real, one.imag, 0.2, 0, 0.2 + two.real, two.imag])
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
-@pytest.mark.parametrize(
-    "share", [1e-3, 0.02, 0.3, 0.9, 1 - 1e-3, 1 + 1e-3, 4.0, 4.6, 9.0, 9.01, 17.99]
-)
+@pytest.mark.parametrize("length", [1.0, 1e-3])
+@pytest.mark.parametrize("share", [1e-3, 0.02, 0.3, 1 - 1e-3, 1 + 1e-3, 4.6, 9.0, 17.99])
 def test_derivatives_of_a_fold(share, length):
     x, step = length * folded(share * LIMIT), min(1e-4, 1e-3 * share)
     assert derivative_error(CORNER, x, length, step) < 1e-6

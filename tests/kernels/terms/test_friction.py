@@ -108,9 +108,9 @@ def test_newton_finds_where_it_sticks_and_where_it_slides(pull, most, start):
     assert fit
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("length", [1.0, 1e-3])
 @pytest.mark.parametrize("slip", [0.5, 5e-3])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_derivatives_in_random_states(seed, slip, length):
     of = scaled(WALLS, length)
     x0 = shaken(of, seed, 0.1)
@@ -172,7 +172,7 @@ def normal_forces(x, touch, listed):
 
 
 @pytest.mark.parametrize("pieces", [(12, 7), (24, 24), (5, 40)])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
     """Subtracted forces are taken from the others, and cancel in straight pairs."""
     of = two_walls(0.5, pieces)
@@ -187,7 +187,7 @@ def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed, pieces):
     np.testing.assert_allclose(total, expected, atol=1e-11 * expected.max())
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_order_in_which_pairs_are_listed_does_not_matter(seed):
     of, rng = two_walls(0.5, (24, 24)), np.random.default_rng(seed)
     x = shaken(of, seed, 0.3)
@@ -205,7 +205,7 @@ def test_a_node_on_a_straight_wall_has_one_contact_with_it(pieces):
     assert contacts.points[:, 0].size == np.unique(contacts.points[:, 0]).size
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_friction_opposes_every_move(seed):
     """However a step moves, friction takes energy up."""
     of = two_walls(0.5, (12, 7))

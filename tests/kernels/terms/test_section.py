@@ -31,6 +31,7 @@ from tests.support.kernels.terms import (
     derivative_error,
     difference,
     differences,
+    law_errors,
     least_share,
 )
 
@@ -108,14 +109,11 @@ def test_the_stop_begins_where_faces_meet():
 @pytest.mark.parametrize("nu", PLANES)
 @pytest.mark.parametrize("strain", STRAINS)
 def test_the_law_has_its_derivatives(name, nu, strain):
-    through, step = law(name, nu), np.full(3, 2e-6)
-    x = np.array(strain) + 1e-4 * np.array([1.0, 2.0, 3.0])  # off the knots
-    value, slopes, (ee, e1, e2, tt1, t12, tt2) = through.respond(tuple(x), NO_MEMORY, 0)
-    by_energy = differences(lambda y: through.respond(tuple(y), NO_MEMORY, 0)[0], x, step)
-    by_slope = differences(lambda y: np.array(through.respond(tuple(y), NO_MEMORY, 0)[1]), x, step)
-    np.testing.assert_allclose(by_energy, slopes, rtol=0, atol=1e-7 * MODULUS)
-    tangent = [[ee, e1, e2], [e1, tt1, t12], [e2, t12, tt2]]
-    np.testing.assert_allclose(by_slope, tangent, rtol=0, atol=2e-4 * MODULUS)
+    through, x = law(name, nu), np.add(strain, [1e-4, 2e-4, 3e-4])  # off the knots
+    errors = law_errors(lambda *x: through.respond(x, NO_MEMORY, 0), x, 2e-6)
+    assert errors[0] < 1e-7 * MODULUS
+    assert errors[1] < 2e-4 * MODULUS
+    value = through.respond(tuple(x), NO_MEMORY, 0)[0]
     assert through.commit(tuple(x), NO_MEMORY, 0) == pytest.approx((0.0, 0.0), abs=1e-12 * value)
 
 
@@ -132,14 +130,15 @@ def test_stiffness_of_a_stretched_section(nu, e):
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_derivatives_in_random_states(seed, name):
     x = shaken(FRAME, seed, 0.3)
     assert derivative_error(term_of(FRAME, law(name)), x, FRAME.unit, 1e-6) < 1e-5
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
-@pytest.mark.parametrize("turn", [0.0, 1e-6, -0.5, 1.5])
+@pytest.mark.parametrize(
+    ("turn", "length"), [(0.0, 1.0), (1e-6, 1.0), (-0.5, 1.0), (1.5, 1.0), (1.5, 1e-3)]
+)
 @pytest.mark.parametrize("cubic", [True, False])
 def test_derivatives_of_a_bent_wall(turn, length, cubic):
     of = scaled(WALL, length)
@@ -151,7 +150,7 @@ def test_derivatives_of_a_bent_wall(turn, length, cubic):
     assert derivative_error(term_of(of, through, cubic), x, of.unit, 1e-4) < 1e-6
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_projected_hessian_is_semi_definite(seed):
     """It is so where the moment falls, too."""
     x = shaken(FRAME, seed, 0.5)
@@ -198,17 +197,6 @@ def test_sections_of_a_scene_are_its_beams(plane, element, joints):
     )
     np.testing.assert_allclose(two, one, rtol=0, atol=1e-12 * np.abs(one).max())
     assert np.count_nonzero(terms.bend.volume) == 24 * 3
-
-
-def test_linear_bending_has_no_sections():
-    terms = build_scene(Case.of(material=dict(bend="linear"))).terms
-    assert terms.bend.volume.size == terms.bend.spread.size == terms.bend.shear.size == 0
-
-
-def test_bending_goes_by_the_curve_where_there_is_one():
-    assert material_with().bend == "section"
-    assert material_with(stretch="linear").bend == "linear"
-    assert material_with(modulus=1e6, density=1e3).bend == "linear"
 
 
 def test_section_bending_needs_a_curve_and_has_no_measure():

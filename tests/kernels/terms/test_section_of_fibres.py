@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from kernels.laws.law import Memory
-from kernels.laws.yielding import STATE
 from sweep.scene.material import FIBRE, OUTER, law_of_section
 from tests.support.designs.tables import material_with
+from tests.support.materials.memory import virgin
 
 MODULUS, LIMIT = 2e9, 40e6
 FIRST = 2.0 * LIMIT / MODULUS  # curvature x thickness at which the surface yields
@@ -28,15 +27,9 @@ def plastic(count, hardening=0.0):
     return law_of_section(material, 1.0, 0.0)._replace(stop=0.0)
 
 
-def new_memory(law):
-    return Memory(
-        np.zeros((law.points(), STATE)), np.empty((law.points(), 2)), law.curve.make_pace()
-    )
-
-
 def resultants(law, strain, curvature, memory=None):
     """Force and moment of a section of unit thickness and depth."""
-    memory = new_memory(law) if memory is None else memory
+    memory = virgin(law.curve, law.points()) if memory is None else memory
     by_e, by_theta, _ = law.respond((strain, FIBRE * curvature, FIBRE * curvature), memory, 0)[1]
     stress = law.curve.respond(strain, memory, law.points() - 1)[1]
     return stress + 0.5 * OUTER * by_e, OUTER * FIBRE * by_theta
@@ -80,7 +73,7 @@ def test_force_and_moment_interact(share):
 def test_a_curvature_remains_after_unloading(count):
     """It is the greatest one less M / (Y I), as unloading is elastic."""
     law, greatest = plastic(count), 3.0 * FIRST
-    memory, bound = new_memory(law), moment(law, greatest)
+    memory, bound = virgin(law.curve, law.points()), moment(law, greatest)
     law.commit((0.0, FIBRE * greatest, FIBRE * greatest), memory, 0)
     assert moment(law, greatest, memory) == pytest.approx(bound, rel=1e-12)
     left = brentq(lambda k: moment(law, k, memory), 0.0, greatest, xtol=1e-12)
@@ -92,7 +85,7 @@ def test_a_curvature_remains_after_unloading(count):
 @pytest.mark.parametrize("hardening", [0.0, 0.1 * MODULUS])
 def test_the_potential_of_a_section_is_stored_or_dissipated(hardening):
     law, lost = plastic(7, hardening), 0.0
-    memory = new_memory(law)
+    memory = virgin(law.curve, law.points())
     for theta in FIBRE * FIRST * np.array([2.0, 5.0, 1.0, -4.0, 0.0]):
         potential = law.respond((0.01, theta, -theta), memory, 0)[0]
         released, dissipated = law.commit((0.01, theta, -theta), memory, 0)

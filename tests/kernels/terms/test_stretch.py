@@ -56,16 +56,13 @@ def test_an_elastic_law_is_one_whose_memory_is_empty():
     )
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("length", [1.0, 1e-3])
 @pytest.mark.parametrize(
     ("strain", "step", "within"),
     [
-        *(
-            (e, 1e-4, 1e-7)
-            for e in (0.001, -0.01, 0.0999, 0.1001, 0.25, 1.4, -0.499, -0.501, -0.69)
-        ),
-        *((knot, 1e-4, 2e-4) for knot in (-0.5, 0.0, 0.1, 1.0)),  # the slope of the tangent jumps
-        *((e, 1e-5, 1e-6) for e in (-0.701, -0.71, -0.8, -0.95)),  # under the guard
+        *((e, 1e-4, 1e-7) for e in (0.001, -0.01, 0.25, 1.4, -0.69)),
+        *((knot, 1e-4, 2e-4) for knot in (0.0, 0.1)),  # the slope of the tangent jumps
+        *((e, 1e-5, 1e-6) for e in (-0.701, -0.95)),  # under the guard
     ],
 )
 def test_derivatives_along_the_curve(strain, step, within, length):
@@ -74,7 +71,7 @@ def test_derivatives_along_the_curve(strain, step, within, length):
 
 
 @pytest.mark.parametrize("arc", ARCS)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_derivatives_in_random_states(seed, arc):
     x = shaken(FRAME, seed)
     assert derivative_error(term_of(FRAME, arc=ARCS[arc]), x, FRAME.unit, 1e-4) < 1e-7
@@ -97,7 +94,7 @@ def test_stiffness_of_a_bar_along_and_across(strain):
 
 
 @pytest.mark.parametrize("arc", ARCS)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_projected_hessian_is_semi_definite_in_random_states(seed, arc):
     """It is so also for stout elements, which shorten as they shear: in tension they are
     unstable.

@@ -19,7 +19,8 @@ from tests.studies.bench import cholmod
 from tests.studies.bench.measuring import marching
 from tests.studies.bench.measuring.clock import medians, seconds
 from tests.studies.bench.table import Table
-from tests.support.kernels.pressed_plates import WholeOfPlates, neighbours_of
+from tests.support.kernels.pressed_plates import WholeOfPlates
+from tests.support.kernels.solving import neighbours_of
 from tests.support.kernels.terms import nowhere
 
 UNKNOWNS, FACTOR, SOLVE = COLUMNS = ("unknowns", "factor, ms", "solution, ms")

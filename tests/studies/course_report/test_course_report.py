@@ -29,18 +29,12 @@ def test_every_file_of_a_figure_is_drawn():
     assert {draw.__module__.split(".")[-1] for draw in drawn.FIGURES.values()} == files
 
 
-@pytest.mark.parametrize(
-    ("name", "pictures"),
-    [
-        ("fig03_springs", {"fig03_springs"}),
-        ("damping", {"damping"}),
-        ("cycles", {"cycles"}),
-    ],
-)
-def test_a_figure_is_a_picture_and_a_caption(name, pictures, tmp_path):
+@pytest.mark.parametrize("name", ["fig03_springs", "damping", "cycles"])
+def test_a_figure_is_a_picture_and_a_caption(name, tmp_path):
     drawn.caption(tmp_path / f"{name}.md", drawn.FIGURES[name](tmp_path))
-    assert {path.stem for path in tmp_path.glob("*.png")} == pictures
-    assert all(path.read_bytes().startswith(PNG) for path in tmp_path.glob("*.png"))
+    (picture,) = tmp_path.glob("*.png")
+    assert picture.stem == name
+    assert picture.read_bytes().startswith(PNG)
     text = (tmp_path / f"{name}.md").read_text("utf-8")
     assert [part.split(".**")[0] for part in text.split("\n\n")] == [
         "**The report",

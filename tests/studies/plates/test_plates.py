@@ -71,10 +71,10 @@ def test_the_elastica():
     np.testing.assert_allclose(found, expected, atol=1.1e-3)
 
 
-@pytest.mark.parametrize(("thickness", "limit"), [(0.05, 0.01), (0.1, 0.01), (0.2, 0.01)])
-def test_thick_strips_lose_their_stiffness_where_the_solid_does(thickness, limit):
+@pytest.mark.parametrize("thickness", [0.05, 0.1, 0.2])
+def test_thick_strips_lose_their_stiffness_where_the_solid_does(thickness):
     strain = 1.0 - strip.critical_stretch(8, thickness)
-    assert strain == pytest.approx(1.0 - strip.exact_stretch(thickness), rel=limit)
+    assert strain == pytest.approx(1.0 - strip.exact_stretch(thickness), rel=0.01)
 
 
 def test_the_exact_strip_is_a_column_if_it_is_thin_and_a_half_space_if_it_is_thick():

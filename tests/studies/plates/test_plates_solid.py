@@ -114,14 +114,14 @@ def test_bricks_fill_the_walls_of_an_eighth():
     assert len(np.unique(points.round(9), axis=0)) == len(points)
 
 
-@pytest.mark.parametrize(("ends", "limit"), [(CLAMPED, 0.03), (HINGED, 0.03)])
-def test_plates_press_as_a_solid_does_through_buckling(ends, limit):
+@pytest.mark.parametrize("ends", [CLAMPED, HINGED])
+def test_plates_press_as_a_solid_does_through_buckling(ends):
     """Walls of 1 / 20, both on coarse meshes. `make plates_solid` has the rest."""
     solid = gate.solid(0.2, ends, EARLY, **COARSE)
     plates = gate.plates(0.2, ends, 2.0, 6)
     for at in EARLY[1:]:
-        assert plates.at(at) == pytest.approx(solid.at(at), rel=limit)
-    assert plates.kink() == pytest.approx(solid.kink(), rel=limit)
+        assert plates.at(at) == pytest.approx(solid.at(at), rel=0.03)
+    assert plates.kink() == pytest.approx(solid.kink(), rel=0.03)
 
 
 def test_peak_and_kink_of_a_curve():

@@ -4,7 +4,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.scene.lattice import build_scene
-from tests.studies.verify import MATERIAL
+from tests.support.designs.tables import MATERIAL
 
 DEPTH, THICKNESS, WALL = 12e-3, 0.8e-3, 12.5e-3 / 3
 LOADINGS = {

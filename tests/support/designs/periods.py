@@ -12,7 +12,7 @@ from sweep.design import period
 from sweep.design.drawing import welded
 from sweep.design.lattice import build_network
 from tests.support.designs.tables import lattice_with, material_with
-from tests.support.kernels.solving import at_rest, go_on, ramp, whole
+from tests.support.kernels.solving import at_rest, go_on, moves, ramp, whole
 
 Y, NU, L, DEPTH = 12e6, 0.48, 4e-3, 10e-3
 PLANE = Y / (1 - NU**2)
@@ -55,14 +55,7 @@ def follow(scene):
     """Matrix (n, free + 1) from the free coordinates and the height of the period to all
     coordinates.
     """
-    leader, images, driven = (
-        getattr(scene.terms.layout, name) for name in ("leader", "images", "driven")
-    )
-    free = np.setdiff1d(leader[leader >= 0], [*images[:, 0], driven])
-    follows = (leader[:, None] == [*free, driven]).astype(float)
-    for c, of, mean, times in images:
-        follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
-    return follows
+    return moves(scene.terms.layout)[1]
 
 
 def assert_derivatives(scene, x, args):

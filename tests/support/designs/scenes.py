@@ -7,7 +7,7 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.simulation.simulate import simulate
-from tests.studies.verify import MATERIAL
+from tests.support.designs.tables import MATERIAL
 
 UNDAMPED = dict(model="none")
 SEED = {}  # Rayleigh, as light as the seed's

@@ -3,8 +3,7 @@
 import numpy as np
 
 from sweep.config.case import Case
-from tests.studies.verify import MATERIAL
-from tests.support.designs.tables import lattice_with
+from tests.support.designs.tables import MATERIAL, lattice_with
 
 WALL, STRIKER = 2e-3, 0.05  # m, kg
 COLUMN = lattice_with(cells_x=1, cells_y=1, wall_thickness=WALL, imperfection=0.0)

@@ -10,9 +10,8 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.structures.structure import Structure
 from tests.support.converged import converged
-from tests.support.designs.tables import material_with
+from tests.support.designs.tables import MATERIAL
 
-MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 MM = 1e-3
 LENGTH, THICKNESS, DEPTH = 100.0, 1.0, 10.0  # mm
 BENDING = 12e6 * DEPTH * THICKNESS**3 / 12 * MM**4  # Y I, N m^2

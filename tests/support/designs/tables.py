@@ -11,6 +11,10 @@ def material_with(**values):
     return material(values)
 
 
+MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
+"""The linear material of closed forms and of the numbers of the README."""
+
+
 def lattice_with(**values):
     """The lattice of these values, pressed across its cells."""
     return lattice_of(values, DENSITY, along=False)

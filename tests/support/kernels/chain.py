@@ -59,8 +59,10 @@ class Chain(NamedTuple):
     neighbours: Neighbours
     buffers: Buffers
 
-    def begin(self, step, ahead, scratch):
-        """Nothing is measured from the start of a step."""
+    def nothing(self, *_):
+        """Nothing is remembered, tied or measured from the start of a step."""
+
+    begin = commit = roll_back = tie = forget = write_share = nothing
 
     def store(self, x, step, found):
         scene = self.scene
@@ -87,12 +89,6 @@ class Chain(NamedTuple):
         sums = found.sums[0]
         sums.potential, sums.friction, sums.dissipated = total, 0.0, 0.0
         return self.exchange(step, found)
-
-    def commit(self, x, step, found):
-        """Nothing is remembered."""
-
-    def roll_back(self, step):
-        """Nothing is kept."""
 
     def solved(self):
         """Which coordinates (n,) are unknown."""
@@ -151,9 +147,6 @@ class Chain(NamedTuple):
     def pull(self, move, direction):
         direction[:] = self.buffers.hessian[:, self.scene.coordinates.driven] * move
 
-    def tie(self, vector):
-        """Nothing follows another."""
-
     def travel(self, dx):
         return np.abs(dx).max()
 
@@ -186,17 +179,11 @@ class Chain(NamedTuple):
     def follow(self, dx, share, step, found):
         return True
 
-    def forget(self):
-        """Nothing is carried along."""
-
     def project(self, x):
         return False
 
     def covers_projection(self, x):
         return True
-
-    def write_share(self, out, k, state, found):
-        """Nothing: a row has only the values at its end."""
 
     def write(self, out, k, state, found):
         row, book, totals = out.rows[k], state.book[0], state.totals[0]

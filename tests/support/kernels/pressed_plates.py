@@ -12,16 +12,14 @@ import numpy as np
 
 from kernels.compile.reference import by_reference, referred
 from kernels.linear.supernodal.matrix import place
-from kernels.plates import neighbour_lists, potential
-from kernels.plates.contacts import friction
-from kernels.plates.contacts.touching import no_contacts
+from kernels.plates import potential
 from kernels.plates.element import shell
 from kernels.plates.problem import Plates
 from kernels.solve.problem import NO_ROOM, Step
 from sweep.config.case import Case
 from sweep.scene.plates.scene import build_scene
 from tests.support.designs.tables import material_with
-from tests.support.kernels.solving import Whole
+from tests.support.kernels.solving import Whole, neighbours_of
 from tests.support.kernels.terms import nowhere
 
 SIDE, T = 4e-3, 0.4e-3
@@ -127,18 +125,6 @@ class WholeOfPlates(Whole):
                         to
                     ]
         return np.tril(full) + np.tril(full, -1).T
-
-
-def neighbours_of(x, terms, move=0.0):
-    """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
-    listed, margin = neighbour_lists.list_pairs(terms, x, move)
-    lagged = friction.no_contacts(listed, terms.contact, terms.friction)
-    friction.lag(lagged, x, terms.contact, listed, 0.0, terms.friction)
-    matrix, touching = (
-        neighbour_lists.make_matrix(terms, listed, lagged),
-        no_contacts(terms.contact, listed),
-    )
-    return neighbour_lists.Neighbours(listed, x.copy(), margin, matrix, touching, lagged)
 
 
 def whole(of, x, seed=0, past=True):

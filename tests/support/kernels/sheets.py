@@ -62,11 +62,6 @@ def strain(stretches: Any, angle: float = 0.0) -> Floats:
     return np.array([c[0, 0] - 1.0, c[1, 1] - 1.0, c[0, 1]])
 
 
-def square(t: Any) -> Floats:
-    """A symmetric matrix from its upper triangle: 11, 12, 13, 22, 23, 33."""
-    return np.array([[t[0], t[1], t[2]], [t[1], t[3], t[4]], [t[2], t[4], t[5]]])
-
-
 def elastic_only(elastic: Any) -> RelaxingSheet:
     """A sheet as a law without branches."""
     return RelaxingSheet(elastic, np.empty(0), np.empty(0), elastic.shear_modulus)

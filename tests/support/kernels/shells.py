@@ -15,6 +15,7 @@ from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.element.shell import Shell
 from tests.support.kernels.sheets import elastic_only
 from tests.support.kernels.terms import Term
+from tests.support.materials import memory
 
 Floats = NDArray[np.float64]
 
@@ -175,9 +176,8 @@ def shaken(of: Structure, seed: int, size: float, turn: float) -> Floats:
 
 def virgin(of: Structure, law: RelaxingSheet) -> Memory:
     """Memory of all material points before any step."""
-    size, points = law.state_size(), (shell.POINTS_OF_LAYERS + 1) * len(of.walls.quads)
-    rows = points if size > 0 else 0
-    return Memory(np.zeros((rows, size)), np.zeros((rows, relaxing_shear.LINE)), law.make_pace())
+    points = (shell.POINTS_OF_LAYERS + 1) * len(of.walls.quads)
+    return memory.virgin(law, points, relaxing_shear.LINE)
 
 
 def stored(of: Structure, x: Floats, law: RelaxingSheet = LINEAR) -> Floats:

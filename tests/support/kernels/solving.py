@@ -7,7 +7,7 @@ from unittest.mock import patch
 import numpy as np
 
 from kernels.compile.reference import by_reference, referred
-from kernels.planar import neighbour_lists
+from kernels.linear.condensed import periodic_images
 from kernels.planar import problem as planar
 from kernels.planar.problem import Planar
 from kernels.shared.rows import ROW, STORED, Output
@@ -110,20 +110,13 @@ class Whole:
 
 
 def neighbours_of(x, terms, move=0.0):
-    """`Neighbours` at ``x`` for a ``move`` (m), with friction lagged there."""
-    found, margin, projection_pairs = neighbour_lists.list_neighbours(terms, x, move)
-    lagged = friction.no_contacts(found, terms.contact, terms.friction)
-    friction.lag(lagged, x, terms.contact, found, np.inf, terms.friction)
-    system = neighbour_lists.make_system(terms, x, found, lagged)
-    touching = contact.no_contacts(found)
-    return neighbour_lists.Neighbours(
-        found, x.copy(), margin, system, projection_pairs, touching, lagged
-    )
-
-
-def problem_of(terms, neighbours, buffers):
-    """The problem as a march has it."""
-    return Planar(by_reference(terms), by_reference(neighbours), by_reference(buffers))
+    """`Neighbours` at ``x`` for a ``move`` (m), in the plane or in space, with friction lagged
+    there and room for it.
+    """
+    found = terms.find_neighbours(x)
+    found.lagged_contacts.lag(x, terms.contact, found.pairs, 0.0, terms.friction)
+    (found.matrix if hasattr(found, "matrix") else found.system.matrix).missing[0] = 1
+    return terms.renew_neighbours(found, x, move)
 
 
 def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
@@ -135,9 +128,10 @@ def whole(scene, x, x0=None, dt=np.inf, v=None, factor=1.0, reach=0.0):
     dynamic = bool(dt < np.inf)
     h = dt if dynamic else 1.0
     x_pred = x0.copy() if v is None else x0 + dt * v
-    problem = problem_of(
-        terms, neighbours_of(x, terms, reach), terms.make_buffers(np.empty((0, 0)))
-    )
+    problem = Planar(
+        by_reference(terms), by_reference(neighbours_of(x, terms, reach)),
+        by_reference(terms.make_buffers(np.empty((0, 0)))),
+    )  # fmt: skip
     one = Step(x0, x0, x_pred, h, h, dynamic, factor, 1.0, 1.0, 0.0)
     problem.begin(one, nowhere(x.size), np.zeros(x.size))
     return Whole(problem, one)
@@ -147,6 +141,18 @@ def reduction(scene):
     """Matrix (n, free) from unknowns to coordinates: tied ones follow their leader."""
     leader, free = scene.terms.layout.leader, free_of(scene)
     return (leader[:, None] == np.array(free)).astype(float)
+
+
+def moves(layout):
+    """Coordinates (k,) that follow no other, the driven one last, and the moves (n, k) of all
+    coordinates by theirs: tied ones by their ratio, periodic images by two others.
+    """
+    images = getattr(layout, "images", periodic_images.NONE)
+    own = np.setdiff1d(np.flatnonzero(layout.leader == np.arange(layout.leader.size)), images[:, 0])
+    follows = (layout.leader[:, None] == own) * layout.ratio[:, None]
+    for c, of, mean, times in images:
+        follows[c] = times * follows[mean] + (follows[of] if of >= 0 else 0.0)
+    return own, follows
 
 
 def residual(scene, x, args):
@@ -182,7 +188,7 @@ def descend(
 ):
     """Minimise from ``start``, moved by ``move``, with the platen at ``target`` (where it is).
 
-    ``there``: ``start`` has been evaluated before.
+    evaluated: whether ``start`` has been evaluated before.
     """
     x, workspace = start.copy(), make_workspace(start.size, STORED)
     descent, problem, done = np.zeros(1, newton.DESCENT)[0], args.problem, 0

@@ -16,46 +16,31 @@ GRIP = dict(friction=0.3, slip_speed=0.1)  # smoothed below 0.1 mm in a step
 SLIDE = dict(friction=0.3, slip_speed=1e-4)
 
 
+def grid(elements=3, sizes=None, **tables):
+    """The scene of a 2 x 2 grid whose joints are points; sizes: of its lattice, m."""
+    cells = dict(cells_x=2, cells_y=2, nodes_per_wall=elements - 1)
+    usual = {"material": CURVE, "contact": GRIP, "solver": dict(joints="points")}
+    return build_scene(Case.of(lattice=cells | (sizes or {}), **usual | tables))
+
+
 def loaded(elements=3, platen="contact", damping=RAYLEIGH, size=1.0, **tables):
-    """A 2 x 2 grid, ``size`` times as large as the usual one, under as much stress as by 3 N. Its
-    joints are points.
-    """
-    lattice = dict(
-        cells_x=2, cells_y=2, nodes_per_wall=elements - 1, width=size * SIZE, height=size * SIZE,
-        depth=size * 12e-3, wall_thickness=size * 1.2e-3,
-    )  # fmt: skip
+    """A grid ``size`` times as large as the usual one, under as much stress as by 3 N."""
+    sizes = dict(width=SIZE, height=SIZE, depth=12e-3, wall_thickness=1.2e-3)
     loading = dict(force=3.0 * size**2, platen=platen, duration=0.01)
-    chosen = {
-        "material": CURVE,
-        "contact": GRIP,
-        "solver": dict(time_step=DT, joints="points"),
-    } | tables
-    return build_scene(Case.of(lattice=lattice, loading=loading, damping=damping, **chosen))
+    chosen = {"solver": dict(time_step=DT, joints="points")} | tables
+    scaled = {key: size * value for key, value in sizes.items()}
+    return grid(elements, scaled, loading=loading, damping=damping, **chosen)
 
 
 def driven(platen, elements=3):
-    """The same grid, pressed quasi-statically."""
-    return build_scene(
-        Case.of(
-            lattice=dict(cells_x=2, cells_y=2, nodes_per_wall=elements - 1),
-            loading=dict(mode="displacement", strain=0.5, platen=platen),
-            material=CURVE,
-            solver=dict(joints="points"),
-        )
-    )
+    """A grid that is pressed quasi-statically."""
+    loading = dict(mode="displacement", strain=0.5, platen=platen)
+    return grid(elements, loading=loading, contact={})
 
 
 def struck(platen):
-    """The same grid between a striker and a base that moves freely."""
-    return build_scene(
-        Case.of(
-            lattice=dict(cells_x=2, cells_y=2, nodes_per_wall=2),
-            loading=dict(striker_mass=0.05, target_mass=0.2, platen=platen),
-            material=CURVE,
-            contact=GRIP,
-            solver=dict(joints="points"),
-        )
-    )
+    """A grid between a striker and a base that moves freely."""
+    return grid(loading=dict(striker_mass=0.05, target_mass=0.2, platen=platen))
 
 
 def unit(scene):

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 
+from kernels.geometry.space import crossing
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates.contacts import contact, pairs
 from kernels.plates.contacts.touching import no_contacts
@@ -53,6 +54,12 @@ def placed(points, low=-1e3, high=1e3):
 def positions(x):
     """Positions (n, 3) in coordinates ``x``."""
     return x[:-2].reshape(-1, SIZE)[:, :3]
+
+
+def crossings(x, touch):
+    """Crossings of the triangles of a surface at ``x``, and pairs that are too close to tell."""
+    points = np.ascontiguousarray(positions(x))
+    return crossing.count(points, touch.triangles, touch.edges, np.empty((1, 2), np.int64))
 
 
 def contact_of(points, triangles, area, t, rest=None, stiffness=1.0, low=NOBODY, high=NOBODY):

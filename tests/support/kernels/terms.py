@@ -225,6 +225,19 @@ def differences(function, x: np.ndarray, step: np.ndarray) -> np.ndarray:
     return np.array(rows)
 
 
+def law_errors(respond, strain, step: float) -> tuple[float, float]:
+    """Largest errors of slopes and second derivatives of a law against differences.
+
+    respond: returns energy, slopes and the upper triangle of second derivatives, row by row, at the
+    components of a ``strain``.
+    """
+    at = np.atleast_1d(strain).astype(float)
+    _, slopes, second = respond(*at)
+    change = differences(lambda x: np.append(*respond(*x)[:2]), at, np.full(at.size, step))
+    by_slopes = change[:, 1:][np.triu_indices(at.size)]
+    return np.abs(change[:, 0] - slopes).max(), np.abs(by_slopes - second).max()
+
+
 def derivative_error(term, x: np.ndarray, unit=1.0, step: float = 1e-3) -> float:
     """Largest error of gradient and exact Hessian against differences, relative to their size.
 

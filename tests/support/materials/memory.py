@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from kernels.laws.elastic import ElasticCurve
 from kernels.laws.fibre import Fibre
@@ -10,6 +11,8 @@ from kernels.laws.law import Memory
 from kernels.laws.relaxation import Relaxing
 from kernels.laws.softening import Softening
 from kernels.laws.yielding import Yielding
+from sweep.scene.material import as_law, stress_law
+from tests.support.designs.tables import material_with
 
 NO_SOFTENING = (0.0, 0.0, 0.0)
 
@@ -43,13 +46,19 @@ def relaxing(curve: ElasticCurve, shares=(), times=(), softening=NO_SOFTENING) -
     )
 
 
-def virgin(law: Fibre, points=1) -> Memory:
-    """The memory of some points at rest."""
+def measured(name="ninjaflex"):
+    """The curve of a shipped material, in MPa."""
+    material = material_with(name=name)
+    return as_law(stress_law(material), 1e-6, material.modulus)
+
+
+def virgin(law, points=1, line=2) -> Memory:
+    """The memory of some points at rest, with a ``line`` of numbers of the step for each."""
     size = law.state_size()
-    return Memory(np.zeros((points, size)), np.zeros((points, 2)), law.make_pace())
+    return Memory(np.zeros((points, size)), np.zeros((points, line)), law.make_pace())
 
 
-def prepare(law: Fibre, memory: Memory, duration: float) -> None:
+def prepare(law, memory: Memory, duration: float) -> None:
     """Prepare the first point for a step."""
     law.set_pace(duration, memory.pace)
     law.begin(memory, 0)
@@ -74,3 +83,24 @@ def there_and_back(strain: float, steps: int) -> np.ndarray:
     """Even steps to a strain and back, (2 steps,)."""
     up = np.linspace(0.0, strain, steps + 1)
     return np.concatenate([up[1:], up[-2::-1]])
+
+
+def pulled(law: Fibre, strain: float, time: float, steps=50, cycles=2) -> list[float]:
+    """Work (J/m^3) of each cycle's loading of a strip, and of its release.
+
+    The ends move evenly, in ``time`` (s) each way. A strip that is longer than their distance hangs
+    slack, without stress.
+    """
+    memory, works, at, pull = virgin(law), [], 0.0, 0.0
+    ends = np.linspace(0.0, strain, steps + 1)
+    for way in [ends[1:], ends[-2::-1]] * cycles:
+        works.append(0.0)
+        for end in way:
+            prepare(law, memory, time / steps)
+            slack = law.respond(end, memory, 0)[1] < 0.0
+            now = brentq(lambda e: law.respond(e, memory, 0)[1], end, strain) if slack else end
+            stress = law.respond(now, memory, 0)[1]
+            law.commit(now, memory, 0)
+            works[-1] += 0.5 * (pull + stress) * (now - at)
+            at, pull = now, stress
+    return works

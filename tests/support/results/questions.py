@@ -1,12 +1,18 @@
 """Random sweeps and random questions, with values at the borders of limits and within round-off."""
 
 import numpy as np
-import pandas as pd
 
-from sweep.columns import HISTORY_COLUMNS, absorbed_energy_column
+from sweep.columns import absorbed_energy_column
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits
-from tests.support.results.specimens import HEIGHT, squeezed_cell, summary, write
+from tests.support.results.specimens import (
+    HEIGHT,
+    curve_of,
+    squeezed_cell,
+    summary,
+    travelled,
+    write,
+)
 
 FORCES = (20.0, 33.3333333333, 50.0)
 PANELS = (None, None, (0.1, 0.05), (0.066, 0.012), (0.0333, 0.03))
@@ -32,14 +38,9 @@ def curve(factor):
     """A crush by 4 mm and up again, in which the force (N) rises from 10 to 90 times ``factor``, in
     two humps.
     """
-    travel = 4e-3 * np.concatenate([np.linspace(0, 1, 15), np.linspace(1, 0, 15)[1:]])
-    force = factor * (10.0 + 2e4 * travel + 30.0 * np.sin(travel / 4e-3 * 2.0 * np.pi))
-    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
-    history = pd.DataFrame(0.0, index=range(len(travel)), columns=list(HISTORY_COLUMNS))
-    history["top_displacement_m"], history["strain"] = travel, travel / HEIGHT
-    history["reaction_top_N"] = history["reaction_bottom_N"] = force
-    history["work_in_J"], history["time_s"] = work, np.arange(len(travel)) * 1e-3
-    return history
+    travel = travelled(15)
+    force = 10.0 + 2e4 * travel + 30.0 * np.sin(travel / 4e-3 * 2.0 * np.pi)
+    return curve_of(travel, factor * force)
 
 
 def random_sweep(rng, other, count=16):

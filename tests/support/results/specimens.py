@@ -106,16 +106,28 @@ IMPACTS = summary(*(HIT | {"peak_force_N": force} for force in (76.0, 90.0))).as
 """Two impacts, the second without a filtered deceleration."""
 
 
-def there_and_back(rows=21):
-    """A block of 10 mm pressed by 4 mm at a rising force and let up at half of it."""
-    travel = 4e-3 * np.concatenate([np.linspace(0, 1, rows), np.linspace(1, 0, rows)[1:]])
-    force = 20.0 + 2e3 * travel
-    force[rows:] *= 0.5
+def travelled(rows):
+    """A way (2 rows - 1,) down by 4 mm and back, m."""
+    return 4e-3 * np.concatenate([np.linspace(0, 1, rows), np.linspace(1, 0, rows)[1:]])
+
+
+def curve_of(travel, force):
+    """History of a block of 10 mm that is pressed along a way (m) with a force (N)."""
     work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
     history = pd.DataFrame(0.0, index=range(len(travel)), columns=list(HISTORY_COLUMNS))
     history["top_displacement_m"], history["strain"] = travel, travel / HEIGHT
     history["reaction_top_N"] = history["reaction_bottom_N"] = force
     history["work_in_J"], history["time_s"] = work, np.arange(len(travel)) * 1e-3
+    return history
+
+
+def there_and_back(rows=21):
+    """A block pressed at a rising force and let up at half of it."""
+    travel = travelled(rows)
+    force = 20.0 + 2e3 * travel
+    force[rows:] *= 0.5
+    history = curve_of(travel, force)
+    work = history["work_in_J"]
     history["bend_J"], history["dissipated_friction_J"] = 0.7 * work, 0.3 * work
     history["kinetic_J"] = 1e-4 * work
     return history

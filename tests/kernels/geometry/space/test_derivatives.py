@@ -71,7 +71,7 @@ def turned(points, size):
     return (size * np.array(points, float) @ basis.T).ravel()
 
 
-@pytest.mark.parametrize("size", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("size", [1.0, 1e-3])
 @pytest.mark.parametrize("height", [0.03, 0.8])
 @pytest.mark.parametrize("place", PLACES)
 def test_of_a_point_and_a_triangle(place, height, size):
@@ -79,7 +79,7 @@ def test_of_a_point_and_a_triangle(place, height, size):
     assert derivative_error(TRIANGLE, y, size, 2e-4 * min(height, 0.2)) < 1e-6
 
 
-@pytest.mark.parametrize("size", [1.0, 1e-3, 1e3])
+@pytest.mark.parametrize("size", [1.0, 1e-3])
 @pytest.mark.parametrize("tilt", [1.0, 0.05])
 @pytest.mark.parametrize("shift", [-0.3, -1.999e-1, 0.4, 0.999, 1.3])
 def test_of_two_edges(shift, tilt, size):

@@ -33,7 +33,7 @@ def solved(matrix, b):
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e9, 1e-9])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_factor_and_solve(seed, scale):
     rng = np.random.default_rng(seed)
     joined = random_pattern(rng)
@@ -46,7 +46,7 @@ def test_factor_and_solve(seed, scale):
 
 @pytest.mark.parametrize("scale", [1.0, 1e6, 1e-6])
 @pytest.mark.parametrize("slot", range(3))
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_descent_along_a_negative_pivot(seed, slot, scale):
     rng = np.random.default_rng(seed)
     joined = random_pattern(rng)

@@ -19,7 +19,7 @@ from tests.support.kernels.webs import (
 )
 
 
-@pytest.mark.parametrize("pieces", [1, 2, 3, 4, 12, MIXED])
+@pytest.mark.parametrize("pieces", [3, MIXED])
 @pytest.mark.parametrize("coupled", COUPLINGS)
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_factor_and_solve(support, coupled, pieces):
@@ -41,14 +41,13 @@ def weakened(problem, c):
 
 @pytest.mark.parametrize("coupled", COUPLINGS)
 @pytest.mark.parametrize("support", SUPPORTS)
-@pytest.mark.parametrize("seed", range(4))
-def test_descent_along_a_negative_pivot(seed, support, coupled):
+def test_descent_along_a_negative_pivot(support, coupled):
     """d^T A d is that pivot; d is admissible: tied coordinates move together, held ones do not
     move.
     """
     of = web(MIXED)
-    problem = Problem(of, supported(of, support), couplings(of, coupled), seed)
-    rng = np.random.default_rng(seed)
+    problem = Problem(of, supported(of, support), couplings(of, coupled))
+    rng = np.random.default_rng(0)
     free = np.flatnonzero(problem.layout.leader == np.arange(problem.n))
     free = free[free != problem.layout.driven]
     for c in rng.choice(free, 12, replace=False):
@@ -102,11 +101,10 @@ def test_what_has_no_stiffness_inside_a_wall_gets_a_share_of_the_scale():
 
 
 @pytest.mark.parametrize("coupled", ["condensed", "some open", "all open", "in contact"])
-@pytest.mark.parametrize("pieces", [1, 3, MIXED])
 @pytest.mark.parametrize("size", [1.0, 1e6, 1e-6])
-def test_a_frame_that_floats_is_not_moved_as_a_whole(size, pieces, coupled):
+def test_a_frame_that_floats_is_not_moved_as_a_whole(size, coupled):
     """Without mass it has no stiffness against translations: no failure, and loads are borne."""
-    of = web(pieces)
+    of = web(MIXED)
     problem = Problem(of, layout_of(of), couplings(of, coupled), mass=0.0)
     problem.contacts = []
     for part in problem.stiffness:

@@ -29,9 +29,8 @@ def random_case(seed, nb, share, make):
 
 @pytest.mark.parametrize(("nb", "share"), SHAPES)
 @pytest.mark.parametrize("scale", [1.0, 1e9, 1e-9])
-@pytest.mark.parametrize("seed", range(3))
-def test_factor_and_solve(seed, scale, nb, share):
-    rng, full, matrix = random_case(seed, nb, share, lambda a: scale * dominant(a))
+def test_factor_and_solve(scale, nb, share):
+    rng, full, matrix = random_case(0, nb, share, lambda a: scale * dominant(a))
     assert factored(matrix, scale=scale) == (-1, 0.0)
     b = rng.uniform(-1, 1, len(full))
     x = solved(matrix, b)
@@ -39,7 +38,7 @@ def test_factor_and_solve(seed, scale, nb, share):
 
 
 @pytest.mark.parametrize(("nb", "share"), SHAPES)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_negative_pivots_are_negative_eigenvalues(seed, nb, share):
     rng, full, matrix = random_case(seed, nb, share, lambda a: a + 0.3 * np.eye(len(a)))
     assert factored(matrix, THROUGH) == (-1, 0.0)
@@ -75,7 +74,7 @@ def test_motions_without_stiffness_are_not_moved_along(loose, scale):
     np.testing.assert_allclose(full @ x, b, rtol=0, atol=1e-7 * scale)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_the_rotation_of_a_free_beam_is_no_instability(seed):
     """Its pivot is the round-off of a sum that is far larger than its diagonal."""
     rng = np.random.default_rng(seed)

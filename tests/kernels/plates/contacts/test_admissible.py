@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kernels.geometry.space import advancement, crossing, near
+from kernels.geometry.space import advancement, near
 from kernels.geometry.space.vectors import SIZE
 from kernels.plates.contacts import admissible, pairs
 from kernels.shared.moves import ADVANCE
@@ -11,6 +11,7 @@ from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,
     contact_of,
+    crossings,
     pairs_of,
     placed,
     positions,
@@ -25,28 +26,12 @@ def test_the_least_gap_of_parallel_sheets():
     assert admissible.least_gap(x, touch, pairs_of(x, touch), 0.0) == pytest.approx(0.4)
 
 
-def test_the_least_gap_holds_while_nodes_move():
-    x, touch = wavy(1)
-    listed = pairs_of(x, touch)
-    rng = np.random.default_rng(0)
-    for _ in range(5):
-        y = placed(positions(x) + rng.uniform(-0.3, 0.3, positions(x).shape))
-        drift = near.farthest(y, x, len(touch.area))
-        assert admissible.least_gap(y, touch, listed, drift) == pytest.approx(
-            admissible.least_gap(y, touch, pairs_of(y, touch), 0.0)
-        )
-
-
 def advanced(x, dx, touch):
     """Coordinates after the admissible share of a move, and that share."""
     far = near.longest(dx, len(touch.area))
     listed = pairs.find(x, touch, touch.reach + 2.0 * far)
     share = admissible.step_limit(x, dx, far, touch, listed, 0.0)
     return x + share * dx, share
-
-
-def crossings(x, touch):
-    return crossing.count(positions(x), touch.triangles, touch.edges, np.empty((1, 2), np.int64))
 
 
 @pytest.mark.parametrize("speed", [0.1, 1.0, 30.0, 1e4])

@@ -8,7 +8,7 @@ import pytest
 from kernels.geometry.space import near
 from kernels.geometry.space.vectors import SIZE
 from kernels.laws.barrier import barrier
-from kernels.plates.contacts import contact, touching
+from kernels.plates.contacts import admissible, contact, touching
 from tests.support.kernels.surfaces import (
     Sheet,
     between_platens,
@@ -51,7 +51,7 @@ def scaled(touch, length):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("gap", [0.05, 0.3, 0.6, 0.9])
+@pytest.mark.parametrize("gap", [0.05, 0.6])
 @pytest.mark.parametrize("meshes", MESHES)
 def test_parallel_sheets_count_once_at_any_mesh(meshes, gap):
     """Aligned and staggered nodes and diagonals: area x phi to round-off."""
@@ -129,7 +129,7 @@ X_JOINT = np.radians([0.0, 90.0, 180.0, 270.0])
 ANGLE = np.radians([0.0, 100.0])
 
 
-@pytest.mark.parametrize("fine", [1, 2, 5])
+@pytest.mark.parametrize("fine", [1, 5])
 @pytest.mark.parametrize("along", [0.05, 0.61])
 @pytest.mark.parametrize(
     ("angles", "place"),
@@ -145,18 +145,16 @@ def test_walls_that_meet_count_once_beyond_their_line(angles, place, fine, along
     assert energy_of_one((*place, along), angles, fine) == pytest.approx(expected, rel=1e-11)
 
 
-@pytest.mark.parametrize("length", [1.0, 1e-3, 1e3])
 @pytest.mark.parametrize("seed", range(3))
-def test_derivatives_of_shaken_sheets(seed, length):
+def test_derivatives_of_shaken_sheets(seed):
     x, touch = wavy(seed)
-    touch, y = scaled(touch, length), length * x
-    listed = pairs_of(y, touch)
+    listed = pairs_of(x, touch)
     found = touching.no_contacts(touch, listed)
-    touching.detect(y, touch, listed, 0.0, found)
+    touching.detect(x, touch, listed, 0.0, found)
     sizes = found.size[: found.count[0]]
     assert {2, 3, 4} <= set(sizes.tolist())
     assert (found.pair[: found.count[0]] >= 0).sum() > 5
-    assert derivative_error(term_of(y, touch, listed), y, length, 5e-5) < 1e-7
+    assert derivative_error(term_of(x, touch, listed), x, 1.0, 5e-5) < 1e-7
 
 
 @pytest.mark.parametrize("gap", [0.02, 0.3, 0.99])
@@ -231,15 +229,6 @@ def test_forces_have_no_resultant(seed):
     np.testing.assert_allclose(np.cross(positions(x), g).sum(axis=0), 0.0, atol=1e-12 * size)
 
 
-def test_a_rigid_motion_changes_no_energy():
-    x, touch = wavy(5)
-    basis, _ = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))
-    moved = placed(positions(x) @ basis.T + [7.0, -3.0, 2.0])
-    assert term_of(moved, touch).energy(moved) == pytest.approx(
-        term_of(x, touch).energy(x), rel=1e-11
-    )
-
-
 def test_units_change_nothing():
     x, touch = wavy(0)
     metre = scaled(touch, 1e-3)
@@ -272,6 +261,8 @@ def test_lists_with_a_margin_hold_while_nodes_move():
         expected = term_of(y, touch)
         assert energy == pytest.approx(expected.energy(y), rel=1e-12)
         np.testing.assert_allclose(g, expected.gradient(y), rtol=1e-9, atol=1e-12)
+        gap = admissible.least_gap(y, touch, pairs_of(y, touch), 0.0)
+        assert admissible.least_gap(y, touch, listed, drift) == pytest.approx(gap)
 
 
 @pytest.mark.parametrize(("low", "high"), [(-0.05, 3.07), (-0.02, 3.2), (1.2, 1.8)])

@@ -114,7 +114,7 @@ def test_loads_add_up_to_the_normal_force_of_contact_at_each_node(seed):
     np.testing.assert_allclose(total, expected, atol=1e-12 * expected.max())
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_friction_opposes_every_move(seed):
     x, touch = wavy(seed, gap=0.4)
     term, rng = term_of(x, lagged(x, touch), 1e-3), np.random.default_rng(seed)

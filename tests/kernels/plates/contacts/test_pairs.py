@@ -42,7 +42,7 @@ def test_a_wall_bent_to_its_limit_does_not_touch_itself_within_two_thicknesses()
     assert all(starts_at(p, T) < T * np.sin(p / T) for p in s)
 
 
-@pytest.mark.parametrize("fine", [4, 6, 9, 24])
+@pytest.mark.parametrize("fine", [4, 24])
 def test_a_crease_is_kept_open(fine):
     """A wall that is folded flat between two rows of nodes, whatever the size of the elements."""
     points, triangles, area = folded(0.0, fine)
@@ -59,7 +59,7 @@ def test_a_crease_is_kept_open(fine):
     assert energies[2] > 0.1
 
 
-@pytest.mark.parametrize("fine", [4, 6, 12, 20])
+@pytest.mark.parametrize("fine", [4, 12])
 @pytest.mark.parametrize("angle", [0.0, 1.0, 1.57, 2.0944, 2.6])
 def test_walls_at_rest_are_free_of_stress(angle, fine):
     points, triangles, area = folded(angle, fine)
@@ -101,13 +101,10 @@ def test_weights_of_a_flat_sheet():
     """-1 for each inner side, 1 for each inner corner, none at the rim; all see one surface."""
     x, touch = two_sheets(0.1, Sheet(3, 2, 0.3, 0.2), Sheet(1, 1, 0.1, 0.1))
     found = weights(x, touch, 12)
-    rim = (touch.rest[:12, 0] % 0.3 < 1e-9) | (touch.rest[:12, 1] % 0.2 < 1e-9)
-    inner = [f for f in found if f < len(touch.area)]
-    assert set(inner) == set(np.flatnonzero(~rim[:12])) or len(inner) == 2
-    assert all(found[f] == 1.0 for f in inner)
-    sides = [found[f] for f in found if f >= len(touch.area)]
-    assert sides == [-1.0] * len(sides)
-    assert 12 - len(sides) + len(inner) == 1
+    inner = {f: weight for f, weight in found.items() if f < len(touch.area)}
+    assert inner == {5: 1.0, 6: 1.0}
+    sides = [weight for f, weight in found.items() if f not in inner]
+    assert sides == [-1.0] * 13
 
 
 def test_weights_where_walls_meet():

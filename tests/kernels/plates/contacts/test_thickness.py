@@ -10,7 +10,8 @@ from kernels.plates.element import shell
 from kernels.shared.rows import CONTACT, STORED
 from kernels.solve import energy_book, workspace
 from sweep.scene.plates.scene import build_scene
-from tests.support.kernels.pressed_plates import CASES, neighbours_of, pinched, whole
+from tests.support.kernels.pressed_plates import CASES, pinched, whole
+from tests.support.kernels.solving import neighbours_of
 
 
 def fresh(name="glued"):

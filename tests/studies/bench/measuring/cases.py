@@ -4,10 +4,9 @@ from sweep.config.case import Case
 from sweep.design.lattice import build_network
 from sweep.scene.lattice import build_scene
 from sweep.scene.mesh import build_mesh
-from tests.support.designs.tables import lattice_with, material_with
+from tests.support.designs.tables import MATERIAL, lattice_with, material_with
 
 PITCH = 12.5e-3 / 3
-MATERIAL = material_with(modulus=12e6, density=1190.0, poisson=0.48, plane="stress")
 UNDAMPED = dict(model="none")
 APART = dict(model="none")
 SMOOTH, ROUGH = dict(friction=0.0), dict(friction=0.3)
