@@ -1,19 +1,14 @@
 """Turns centre lines into joints and walls: drawings are stretched to a box, clipped and welded."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sweep.design.geometry import Geometry
-from sweep.design.infill import drawer
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, drawer
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
