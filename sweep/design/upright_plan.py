@@ -39,11 +39,6 @@ class Plan(NamedTuple):
         """Length of every wall in the plan, (w,) m."""
         return lengths(self.points, self.walls)
 
-    @property
-    def copies(self) -> int:
-        """How many mirror images make the whole lattice."""
-        return 4 if np.isfinite(self.planes).all() else 1
-
 
 def lengths(points: Floats, walls: Indices) -> Floats:
     """Length of every wall, (w,) m."""
