@@ -12,7 +12,7 @@ from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, leaders, supports
+from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.scene import (
@@ -64,13 +64,9 @@ def build_scene(case: Case) -> Scene:
     )
     beams = build_beams(mesh, arms, case)
     printed = mass(network, lattice.depth, case.material.density)
-    base_moves = target_of(case.loading) is not None
-    fixed = np.union1d(supports(numbering, platen, base_moves), anchor(mesh, numbering, case))
-    if not bends(case):
-        fixed = np.union1d(fixed, numbering.rotation)
-    tied, below = follow_platens(numbering, platen, base_moves)
+    leader = leaders(numbering, case, anchor(mesh, numbering, case))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
-    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
+    layout = solved_by(mesh, walls, numbering, leader, case)
     masses = masses_of(mesh, numbering, printed, case.loading)
     touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
     touch = with_profiles(touch, mesh, network, numbering, case)
@@ -96,11 +92,29 @@ def build_scene(case: Case) -> Scene:
     )  # fmt: skip
 
 
-def follow_platens(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
-    """Coordinates that follow the upper and the lower platen; a held row follows neither."""
-    above = numbering.top if platen in BONDED else NONE
-    below = numbering.bottom if platen in (*BONDED, BASE) and base_moves else NONE
-    return 2 * above + 1, 2 * below + 1
+def leaders(numbering: Numbering, case: Case, held: Ints) -> Ints:
+    """The coordinate that each one follows, (size,): itself, a platen, or -1 if it never moves.
+
+    held: coordinates that never move, besides those that platens and a fixed base hold.
+    """
+    platen, bottom, top = gripped(case.loading), numbering.bottom, numbering.top
+    base = numbering.low if target_of(case.loading) is not None else -1
+    leader = np.arange(numbering.size)
+    leader[numbering.low] = base
+    if platen == "none":
+        leader[numbering.high] = -1
+    if platen != "contact":
+        leader[2 * bottom] = leader[numbering.rotation[bottom]] = -1
+        leader[2 * bottom + 1] = base
+    if platen in BONDED:
+        leader[2 * top + 1] = numbering.high
+        leader[numbering.rotation[top]] = -1
+    if platen == "glued":
+        leader[2 * top] = -1
+    if not bends(case):
+        leader[numbering.rotation] = -1
+    leader[held] = -1
+    return leader
 
 
 def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:
