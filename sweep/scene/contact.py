@@ -7,6 +7,7 @@ from kernels.planar import position_based
 from kernels.shared.moves import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints
 from sweep.config.case import Case
+from sweep.scene.beams import plane_factors
 from sweep.scene.coordinates import BASE, BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
 from sweep.scene.profiles import NO_PROFILES, gripped
@@ -34,13 +35,15 @@ def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
 
 
 def contact_of(
-    mesh: Mesh, numbering: Numbering, stiffness: float, case: Case, by_force: bool
+    mesh: Mesh, numbering: Numbering, case: Case, by_force: bool = True
 ) -> contact.Contact:
     """Contact of walls, unless the contact model is "none", and of nodes with platens.
 
-    by_force: True for the barrier, False for contact by position. The kind that the case does not
-    use is returned without pairs and nodes.
+    by_force: True for the barrier, of stiffness c Y' depth, False for contact by position. The kind
+    that the case does not use is returned without pairs and nodes.
     """
+    material, (in_stretch, _) = case.material, plane_factors(case.material)
+    stiffness = in_stretch * material.modulus * case.lattice.depth * case.contact.stiffness
     acts = by_force == (case.contact.model != "position_based")
     tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
     walls = acts and case.contact.model != "none"
@@ -51,7 +54,7 @@ def contact_of(
             mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
         )
     return contact.Contact(
-        stiffness=stiffness,
+        stiffness=stiffness if by_force else 0.0,
         reach=reach,
         most_move=_most_move(mesh, edges, reach),
         edges=edges,
@@ -92,4 +95,4 @@ def projection_of(
     """Contact by position: free coordinates with mass move apart in proportion to 1 / mass."""
     own = (layout.leader == np.arange(numbering.size)) & (masses > 0.0)
     ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
-    return position_based.Projection(contact_of(mesh, numbering, 0.0, case, by_force=False), ease)
+    return position_based.Projection(contact_of(mesh, numbering, case, by_force=False), ease)

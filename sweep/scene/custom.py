@@ -15,7 +15,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.structures.structure import Structure
 from sweep.constants import MM
-from sweep.design.network import Network, mass
+from sweep.design.network import Network
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
@@ -26,7 +26,6 @@ from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,
-    contact_stiffness,
     force_scale,
     masses_of,
     solved_by,
@@ -103,9 +102,8 @@ def build_structure(case: Case) -> Scene:
         leader[rotation] = -1
     layout = solved_by(mesh, walls, numbering, leader, case)
     layout, travel = _led(structure, layout, numbering, mesh)
-    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
-    printed = mass(network, case.lattice.depth, case.material.density)
-    masses = _masses(structure, masses_of(mesh, numbering, printed, case.loading))
+    touch = contact_of(mesh, numbering, case)
+    masses = _masses(structure, masses_of(case, network, numbering, mesh.node_area))
     parts = Parts(
         walls=walls,
         beams=beams,

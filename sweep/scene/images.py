@@ -17,15 +17,15 @@ from kernels.terms import contact
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.design.lattice import build_network
-from sweep.design.network import mass
 from sweep.design.period import Endless
 from sweep.scene.beams import build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
+from sweep.scene.lattice import load_of
 from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
-from sweep.scene.scene import Parts, contact_stiffness, force_scale, solved_by, walls_of
+from sweep.scene.scene import Parts, force_scale, masses_of, solved_by, walls_of
 
 Shift = Callable[[Floats], Floats]
 """Stress-free shift in x, m, at heights in m."""
@@ -140,7 +140,7 @@ def images_of(numbering: Repeated, leader: Ints, sizes: tuple[int, int], free: F
 def parts_of(
     case: Case, period: Period, numbering: Repeated, leader: Ints, images: Ints
 ) -> tuple[Parts, float]:
-    """The data of a period without loads, and a typical force, N.
+    """The data of a period, and a typical force, N.
 
     leader (n,): the coordinate that each one follows; images (k, 4): from `images_of`.
     """
@@ -151,8 +151,9 @@ def parts_of(
     inside = numbering.own[fold.nodes[:, 1]]
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = _layout(solved_by(mesh, walls, numbering, leader, case), numbering, images)
-    masses = _masses(mesh, numbering, mass(network, case.lattice.depth, case.material.density))
-    touch = contact_of(whole, numbering, contact_stiffness(case), case, by_force=True)
+    own = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)  # images have no mass
+    masses = masses_of(case, network, numbering, own)
+    touch = contact_of(whole, numbering, case)
     parts = Parts(
         walls=walls,
         beams=beams,
@@ -164,7 +165,7 @@ def parts_of(
         contact=_contact_of_period(touch, numbering),
         project=projection_of(whole, numbering, layout, masses, case),
         mass=masses,
-        load=np.zeros(numbering.size),
+        load=load_of(numbering, case),
     )
     return parts, force_scale(network, rigidity)
 
@@ -173,14 +174,6 @@ def _layout(layout: analysis.Layout, numbering: Repeated, images: Ints) -> analy
     """The layout with images."""
     origin = np.append(numbering.origin, numbering.n_nodes)
     return layout._replace(images=images, origin=origin, wall_of=layout.wall_of[origin])
-
-
-def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
-    """Lumped mass of each coordinate, kg: images have none."""
-    share = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)
-    masses = np.zeros(numbering.size)
-    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    return masses
 
 
 def _contact_of_period(touch: contact.Contact, numbering: Repeated) -> contact.Contact:

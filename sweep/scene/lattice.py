@@ -8,7 +8,6 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
-from sweep.design.network import mass
 from sweep.scene.beams import bends, build_beams
 from sweep.scene.bending import build_bend, build_fold
 from sweep.scene.contact import contact_of, projection_of
@@ -19,7 +18,6 @@ from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,
-    contact_stiffness,
     force_scale,
     masses_of,
     solved_by,
@@ -63,12 +61,11 @@ def build_scene(case: Case) -> Scene:
         row_nodes(network, mesh, network.top),
     )
     beams = build_beams(mesh, arms, case)
-    printed = mass(network, lattice.depth, case.material.density)
     leader = leaders(numbering, case, anchor(mesh, numbering, case))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = solved_by(mesh, walls, numbering, leader, case)
-    masses = masses_of(mesh, numbering, printed, case.loading)
-    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
+    masses = masses_of(case, network, numbering, mesh.node_area)
+    touch = contact_of(mesh, numbering, case)
     touch = with_profiles(touch, mesh, network, numbering, case)
     parts = Parts(
         walls=walls,

@@ -27,7 +27,7 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime, Static
 from sweep.config.kinds.steps import rows_in_load_step
-from sweep.design.network import Network
+from sweep.design.network import Network, mass
 from sweep.scene.beams import Beams, plane_factors
 from sweep.scene.coordinates import BetweenPlatens, Numbering
 from sweep.scene.material import law_in_stretch
@@ -171,13 +171,6 @@ def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
     return flags
 
 
-def contact_stiffness(case: Case) -> float:
-    """Stiffness c Y' depth of the barrier, N/m."""
-    in_stretch, _ = plane_factors(case.material)
-    modulus = in_stretch * case.material.modulus
-    return modulus * case.lattice.depth * case.contact.stiffness
-
-
 def walls_of(mesh: Mesh, rotation: Ints) -> elements.Walls:
     """The elements of every wall. rotation (m, 2): coordinates of rotations at their ends."""
     dofs = np.stack([2 * mesh.edges, 2 * mesh.edges + 1, rotation], axis=-1).reshape(-1, 6)
@@ -236,19 +229,16 @@ def target_of(loading: Loading) -> float | None:
     return loading.target_mass if isinstance(loading, Impact) else None
 
 
-def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
-    """Lumped mass of each coordinate, kg; the nodes sum to ``total`` in x and in y."""
-    share = mesh.node_area
+def masses_of(case: Case, network: Network, numbering: Numbering, area: Floats) -> Floats:
+    """Lumped mass of each coordinate, kg: of striker and free base, and, in x and in y, of the
+    nodes, which share the printed mass by the ``area`` (n,) of their walls, m^2.
+    """
+    printed = mass(network, case.lattice.depth, case.material.density)
     masses = np.zeros(numbering.size)
-    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    add_bodies(masses, numbering, loading)
+    masses[: 2 * numbering.n_nodes] = np.repeat(printed * area / area.sum(), 2)
+    masses[numbering.high] = striker_of(case.loading).mass
+    masses[numbering.low] = target_of(case.loading) or 0.0
     return masses
-
-
-def add_bodies(masses: Floats, numbering: BetweenPlatens, loading: Loading) -> None:
-    """Enter a striker and a base that moves freely among ``masses``, (n,) kg, in place."""
-    masses[numbering.high] = striker_of(loading).mass
-    masses[numbering.low] = target_of(loading) or 0.0
 
 
 def friction_of(case: Case) -> friction.Friction:

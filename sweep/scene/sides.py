@@ -12,9 +12,9 @@ import numpy as np
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
-from sweep.scene.lattice import initial_velocity, leaders, load_of, reported, rest_of
+from sweep.scene.lattice import initial_velocity, leaders, reported, rest_of
 from sweep.scene.mesh import bow, row_nodes
-from sweep.scene.scene import Scene, add_bodies, assemble
+from sweep.scene.scene import Scene, assemble
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,6 @@ def build_tied(case: Case) -> Scene:
     free = np.array([float(case.widens), 0.0])
     images = images_of(numbering, leader, (numbering.width, numbering.width), free)
     parts, force = parts_of(case, period, numbering, leader, images)
-    add_bodies(parts.mass, numbering, loading)
-    parts = parts._replace(load=load_of(numbering, case))
     rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
     return Scene(
         period.mesh, period.network, assemble(case, period.mesh, numbering, parts),
