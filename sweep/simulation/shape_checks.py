@@ -24,17 +24,21 @@ from sweep.design.area import covered_area
 Floats = NDArray[np.float64]
 Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]
+Strains = tuple[Floats, Floats, Floats]
+"""In every stored shape, (f, m) each: least and greatest strain of every element or quad, and the
+greatest of its surfaces.
+"""
 
 SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface over the fibre of `terms.bend`
 SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
 
-def strains_of(x: Floats, terms: PlanarScene) -> tuple[Floats, Floats]:
-    """`element_strains` and `surface_strains` of the stored shapes x (f, n)."""
+def strains_of(x: Floats, terms: PlanarScene) -> Strains:
+    """`element_strains`, twice, and `surface_strains` of the stored shapes x (f, n)."""
     deformation = deformations(x, terms.walls)
     strains = element_strains(deformation, terms.stretch)
-    return strains, surface_strains(deformation, strains, terms.bend)
+    return strains, strains, surface_strains(deformation, strains, terms.bend)
 
 
 def element_strains(deformation: Deformations, stretch: Stretch) -> Floats:
