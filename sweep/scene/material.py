@@ -57,13 +57,17 @@ class StressLaw:
 
     def at(self, strain: Floats) -> Floats:
         """Stress (n,) in Pa at strains (n,)."""
+        return self.with_slope(strain)[0]
+
+    def with_slope(self, strain: Floats) -> tuple[Floats, Floats]:
+        """Stress and its slope (n,) in Pa at strains (n,)."""
         last = len(self.coefficients) - 1
         piece = np.clip(np.searchsorted(self.knots, strain, side="right") - 1, 0, last)
         inside = np.clip(strain, self.knots[0], self.knots[-1])
         c, s = self.coefficients[piece].T, inside - self.knots[piece]
         tangent = c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
         stress: Floats = c[0] + s * (c[1] + s * (c[2] + s * c[3])) + tangent * (strain - inside)
-        return stress
+        return stress, np.asarray(tangent)
 
 
 def linear_law(slope: float) -> StressLaw:
