@@ -131,6 +131,12 @@ def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> Flags:
     return on
 
 
+def outer_rows(points: Floats) -> tuple[Indices, Indices]:
+    """The joints of least and of greatest y."""
+    y = points[:, 1]
+    return np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+
+
 def segments_of(drawing: Drawing) -> Floats:
     """All segments of all polylines, (s, 2, 2)."""
     pieces = [np.stack([lines[:, :-1], lines[:, 1:]], axis=2) for lines in drawing]

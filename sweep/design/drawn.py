@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, outer_rows
 from sweep.design.geometry import Drawing
 from sweep.design.network import Network
 
@@ -13,10 +13,8 @@ def build_drawn(drawing: Drawing, thickness: float) -> Network:
     """The walls of a drawing, of a mean thickness in m."""
     points, walls = np.array(drawing.joints), np.array(drawing.walls)
     share = np.array(drawing.shares) if drawing.shares else np.ones(len(walls))
-    y = points[:, 1]
-    bottom, top = (np.flatnonzero(y == end) for end in (y.min(), y.max()))
     part = _part(points, walls, share)
-    return Network(points, walls, thickness * share, bottom, top, part=part)
+    return Network(points, walls, thickness * share, *outer_rows(points), part=part)
 
 
 def loose_ends(network: Network) -> Indices:

@@ -18,6 +18,7 @@ from sweep.design.drawing import (
     Indices,
     clusters,
     extent,
+    outer_rows,
     segments_of,
     sketch,
     welded,
@@ -88,8 +89,7 @@ def build_period(geometry: Geometry) -> Endless:
         top = np.flatnonzero((shift == (0, 1)).all(axis=1))[:1]
         bottom = origin[top]
     else:
-        y = points[:, 1]
-        bottom, top = np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+        bottom, top = outer_rows(points)
     return Endless(
         points=points[origin] + shift * period,
         walls=np.argsort(order)[joint].reshape(2, -1).T,

@@ -14,6 +14,7 @@ from sweep.design.drawing import (
     Floats,
     clipped,
     on_outline,
+    outer_rows,
     segments_of,
     welded,
 )
@@ -38,9 +39,7 @@ def build_sliced(geometry: Geometry) -> Network:
         for side in (0.0, box[axis]):
             on = on_outline(points, walls, side, axis)
             thickness[on], gyration[on] = outline, 1.0
-    y = points[:, 1]
-    bottom, top = np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
-    return Network(points, walls, thickness, bottom, top, gyration=gyration)
+    return Network(points, walls, thickness, *outer_rows(points), gyration=gyration)
 
 
 def extruded_area(geometry: Geometry) -> float:
