@@ -5,7 +5,6 @@ of an even network buckle so that all arms of a joint turn alike and the arms of
 turn oppositely. Half a wave is then as long as a wall.
 """
 
-from collections import deque
 from typing import NamedTuple
 
 import numpy as np
@@ -90,24 +89,16 @@ def turns(joints: int, walls: Indices) -> Indices:
     """1 or -1 for each joint, (j,): how it turns as equal walls buckle.
 
     Neighbours turn oppositely; if closed paths have an odd number of walls this is not possible for
-    all of them, and joints turn oppositely to the neighbour from which they are first reached.
+    all of them, and the number of walls to the first joint decides.
     """
-    around: list[list[int]] = [[] for _ in range(joints)]
-    for a, b in walls.tolist():
-        around[a].append(b)
-        around[b].append(a)
-    turn = np.zeros(joints, np.int64)
-    for first in range(joints):
-        if turn[first]:
-            continue
-        turn[first], queue = 1, deque([first])
-        while queue:
-            here = queue.popleft()
-            for other in around[here]:
-                if not turn[other]:
-                    turn[other] = -turn[here]
-                    queue.append(other)
-    return turn
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import connected_components, dijkstra
+
+    graph = csr_array((np.ones(len(walls)), walls.T), shape=(joints, joints))
+    _, part = connected_components(graph, directed=False)
+    _, first = np.unique(part, return_index=True)
+    away = dijkstra(graph, directed=False, indices=first, unweighted=True, min_only=True)
+    return 1 - 2 * (away.astype(np.int64) % 2)
 
 
 def mirror_fault(network: Network) -> str:
