@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network
+from sweep.design.silhouette import next_arm
 from sweep.scene.joints import Arms, point_joints, solid_joints
 
 Floats = NDArray[np.float64]
@@ -79,11 +80,9 @@ class Mesh:
         bearing = np.arctan2(along[:, 1], along[:, 0])
         order = np.lexsort([bearing, node])
         node, other, bearing = node[order], other[order], bearing[order]
-        start = np.searchsorted(node, node, side="left")
-        count = np.searchsorted(node, node, side="right") - start
-        following = start + (np.arange(len(node)) - start + 1) % count
+        following = next_arm(node)
         opened = np.mod(bearing[following] - bearing, 2 * np.pi)
-        kept, element = count > 1, order // 2
+        kept, element = following != np.arange(len(node)), order // 2
         nodes = np.column_stack([other, node, other[following]])
         return nodes[kept], opened[kept], np.column_stack([element, element[following]])[kept]
 
