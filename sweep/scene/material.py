@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kernels.compile.simd import LANES
 from kernels.laws.elastic import ElasticCurve, FibreCurve
@@ -26,9 +25,8 @@ from kernels.laws.yielding import Yielding
 from kernels.terms.section import CRUSHED, BentSection
 from sweep.config.kinds.material import Material
 from sweep.config.materials.material_file import TOE, stress_at
+from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
-
-Floats = NDArray[np.float64]
 
 SECTION_FIBRES = 5  # with three, the moment has a dip of 2 to 4 % where walls fold
 FIBRE = np.sqrt(3.0 / 20.0)  # place of the outer of three Gauss points, as a share of the thickness

@@ -10,7 +10,6 @@ they reached, with the shortest element at 0.85 of its rest length.
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from shapely import intersects, linestrings
 
 from kernels.geometry import crossing
@@ -20,8 +19,8 @@ from kernels.terms.elements import Walls
 from kernels.terms.section import LEAST
 from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
+from sweep.scene.mesh import Floats, Ints
 
-Floats = NDArray[np.float64]
 Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]
 Strains = tuple[Floats, Floats, Floats]
@@ -116,7 +115,7 @@ def kept_area(frames: Frames) -> float:
     return covered_area(deepest, *walls) / covered_area(rest, *walls)
 
 
-def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:
+def shortening(frames: Frames, bottom: Ints, top: Ints) -> float:
     """1 - distance between the centres of two rows of nodes in the last shape / at rest.
 
     Rigid motions do not change it. NaN without rows.

@@ -8,7 +8,8 @@ from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.plates.element.shear import KAPPA
 from sweep.config.kinds.material import Material
-from sweep.scene.material import Floats, stress_law
+from sweep.scene.material import stress_law
+from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
 
 UNSTABLE = """\
