@@ -16,8 +16,8 @@ from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.structures.structure import Structure
 from sweep.constants import MM
 from sweep.design.network import Network
-from sweep.scene.beams import bends, build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.scene.beams import bends
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
@@ -96,7 +96,7 @@ def build_structure(case: Case) -> Scene:
     numbering = Ground(len(mesh.points), none, none, int(at_pin.sum()))
     rotation = numbering.rotation[mesh.edges]
     rotation[at_pin] = numbering.free_ends
-    beams, walls = build_beams(mesh, arms, case), walls_of(mesh, rotation)
+    walls = walls_of(mesh, rotation)
     leader = _leaders(structure, numbering)
     if not bends(case):
         leader[rotation] = -1
@@ -105,11 +105,10 @@ def build_structure(case: Case) -> Scene:
     touch = contact_of(mesh, numbering, case)
     masses = _masses(structure, masses_of(case, network, numbering, mesh.node_area))
     parts = Parts(
+        arms=arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
-        fold=build_fold(mesh, beams.rigidity, case),
+        fold=build_fold(mesh, case),
         contact=_on_floor(touch, structure, numbering),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -126,7 +125,7 @@ def build_structure(case: Case) -> Scene:
         bottom=np.array([numbering.low]),
         top=none,
         base=2 * np.arange(numbering.n_nodes) + 1,
-        force_scale=force_scale(network, beams.rigidity),
+        force_scale=force_scale(case, network),
         velocity=_velocity(structure, mesh, layout),
         probes=_probed(structure, numbering),
         travel=travel,

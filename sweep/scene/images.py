@@ -18,14 +18,13 @@ from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.design.lattice import build_network
 from sweep.design.period import Endless
-from sweep.scene.beams import build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.lattice import load_of
 from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
-from sweep.scene.scene import Parts, force_scale, masses_of, solved_by, walls_of
+from sweep.scene.scene import Parts, masses_of, solved_by, walls_of
 
 Shift = Callable[[Floats], Floats]
 """Stress-free shift in x, m, at heights in m."""
@@ -137,28 +136,23 @@ def images_of(numbering: Repeated, leader: Ints, sizes: tuple[int, int], free: F
     return np.concatenate(rows).astype(np.int64)
 
 
-def parts_of(
-    case: Case, period: Period, numbering: Repeated, leader: Ints, images: Ints
-) -> tuple[Parts, float]:
-    """The data of a period, and a typical force, N.
+def parts_of(case: Case, period: Period, numbering: Repeated, leader: Ints, images: Ints) -> Parts:
+    """The data of a period.
 
     leader (n,): the coordinate that each one follows; images (k, 4): from `images_of`.
     """
     mesh, whole, network = period.mesh, period.whole, period.network
-    beams = build_beams(mesh, period.arms, case)
-    rigidity = build_beams(whole, period.arms, case).rigidity
-    fold = build_fold(whole, rigidity, case)
+    fold = build_fold(whole, case)
     inside = numbering.own[fold.nodes[:, 1]]
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = _layout(solved_by(mesh, walls, numbering, leader, case), numbering, images)
     own = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)  # images have no mass
     masses = masses_of(case, network, numbering, own)
     touch = contact_of(whole, numbering, case)
-    parts = Parts(
+    return Parts(
+        arms=period.arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
@@ -167,7 +161,6 @@ def parts_of(
         mass=masses,
         load=load_of(numbering, case),
     )
-    return parts, force_scale(network, rigidity)
 
 
 def _layout(layout: analysis.Layout, numbering: Repeated, images: Ints) -> analysis.Layout:

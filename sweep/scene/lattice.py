@@ -8,8 +8,8 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
-from sweep.scene.beams import bends, build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.scene.beams import bends
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
@@ -60,7 +60,6 @@ def build_scene(case: Case) -> Scene:
         row_nodes(network, mesh, network.bottom),
         row_nodes(network, mesh, network.top),
     )
-    beams = build_beams(mesh, arms, case)
     leader = leaders(numbering, case, anchor(mesh, numbering, case))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = solved_by(mesh, walls, numbering, leader, case)
@@ -68,11 +67,10 @@ def build_scene(case: Case) -> Scene:
     touch = contact_of(mesh, numbering, case)
     touch = with_profiles(touch, mesh, network, numbering, case)
     parts = Parts(
+        arms=arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
-        fold=build_fold(mesh, beams.rigidity, case),
+        fold=build_fold(mesh, case),
         contact=touch,
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -82,7 +80,7 @@ def build_scene(case: Case) -> Scene:
         mesh, network, assemble(case, mesh, numbering, parts),
         standing(rest_of(mesh, numbering, parts.contact.node_thickness), touch),
         *reported(numbering, case.loading),
-        force_scale=force_scale(network, beams.rigidity),
+        force_scale=force_scale(case, network),
         velocity=initial_velocity(numbering, layout.leader, case.loading),
         standing=_on_base(mesh, numbering, touch, platen),
         solid_joint_share=float(arms.sheared.mean()),

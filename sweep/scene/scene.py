@@ -16,7 +16,6 @@ from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
 from kernels.terms import damping, elements, friction, spring, stretch
-from kernels.terms.bend import Bend
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.spring import Spring
@@ -28,8 +27,10 @@ from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime, Static
 from sweep.config.kinds.steps import rows_in_load_step
 from sweep.design.network import Network, mass
-from sweep.scene.beams import Beams, plane_factors
+from sweep.scene.beams import build_beams, plane_factors, rigidity_of
+from sweep.scene.bending import build_bend
 from sweep.scene.coordinates import BetweenPlatens, Numbering
+from sweep.scene.joints import Arms
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
@@ -89,15 +90,14 @@ class Scene:
 class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
-    walls: topology. beams: constants of the elements. layout: constraints and structure of the
-    linear system. mass (n,) in kg and load (n,) in N or N m of each coordinate. The others are
-    terms of the energy.
+    arms: ends of the walls. walls: topology. layout: constraints and structure of the linear
+    system. mass (n,) in kg and load (n,) in N or N m of each coordinate. The others are terms of
+    the energy.
     """
 
+    arms: Arms
     walls: elements.Walls
-    beams: Beams
     layout: analysis.Layout
-    bend: Bend
     fold: Fold
     contact: Contact
     project: Projection
@@ -109,14 +109,15 @@ class Parts(NamedTuple):
 def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> PlanarScene:
     """The data of all terms of a scene."""
     in_stretch, _ = plane_factors(case.material)
+    beams = build_beams(mesh, parts.arms, case)
     return PlanarScene(
         coordinates=coordinates_of(case, mesh, numbering, parts),
         law=law_in_stretch(case.material, in_stretch),
         walls=parts.walls,
         stretch=stretch.Stretch(
-            mesh.rest_length, parts.beams.area, parts.beams.arc, case.solver.hessian == "exact"
+            mesh.rest_length, beams.area, beams.arc, case.solver.hessian == "exact"
         ),
-        bend=parts.bend,
+        bend=build_bend(mesh, beams, case),
         fold=parts.fold,
         spring=parts.spring,
         contact=parts.contact,
@@ -268,7 +269,8 @@ def damp_of(case: Case) -> damping.Damp:
     return damping.Damp(0.0, 0.0, 0.0)
 
 
-def force_scale(network: Network, rigidity: Floats) -> float:
-    """Typical force, N: least Y' I / (longest wall)^2. rigidity (m,): Y' I of elements, N m^2."""
+def force_scale(case: Case, network: Network) -> float:
+    """Typical force, N: least Y' I / (longest wall)^2."""
     ends = network.points[network.walls]
+    rigidity = rigidity_of(case, network.wall_thickness, network.gyration)
     return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)

@@ -14,7 +14,7 @@ from sweep.config.kinds.cells import Cells
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
 from sweep.scene.lattice import initial_velocity, leaders, reported, rest_of
 from sweep.scene.mesh import bow, row_nodes
-from sweep.scene.scene import Scene, assemble
+from sweep.scene.scene import Scene, assemble, force_scale
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,13 @@ def build_tied(case: Case) -> Scene:
     leader = leaders(numbering, case, held)
     free = np.array([float(case.widens), 0.0])
     images = images_of(numbering, leader, (numbering.width, numbering.width), free)
-    parts, force = parts_of(case, period, numbering, leader, images)
+    parts = parts_of(case, period, numbering, leader, images)
     rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
     return Scene(
         period.mesh, period.network, assemble(case, period.mesh, numbering, parts),
         np.insert(rest, numbering.width, lattice.width),
         *reported(numbering, loading),
-        force_scale=force,
+        force_scale=force_scale(case, period.network),
         velocity=initial_velocity(numbering, parts.layout.leader, loading),
         around=period.around,
         solid_joint_share=float(period.arms.sheared.mean()),
