@@ -198,6 +198,16 @@ def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     return points, walls[np.argsort(~level, kind="stable")]
 
 
+def connected(pairs: Indices, count: int) -> Indices:
+    """The group of each of ``count`` points, (count,), of which ``pairs`` (k, 2) are connected."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(count, count))
+    _, group = connected_components(graph, directed=False)
+    return np.asarray(group)
+
+
 def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
     """The distinct values, ascending, and the index of each value among them."""
     order = np.argsort(values, kind="stable")

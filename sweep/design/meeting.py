@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, connected
 
 NEAR = 1e-4  # share of the greater side of the drawing
 FAR = 10.0  # greatest move of a point / `NEAR`
@@ -59,13 +59,10 @@ def _merged(ends: Floats, line: Indices, near: float) -> tuple[Floats, Indices, 
 
     Walls without length and all but the last of equal walls are left out.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
 
     pairs = KDTree(ends).query_pairs(near, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(ends),) * 2)
-    _, group = connected_components(graph, directed=False)
+    group = connected(pairs, len(ends))
     _, first, number = np.unique(group, return_index=True, return_inverse=True)
     points = ends[first]
     moved = np.abs(points[number] - ends).max(axis=1)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, connected
 from sweep.design.network import Network
 
 NEAR = 1e-9  # share of the size of the plan: points nearer than that are one point
@@ -92,11 +92,10 @@ def turns(joints: int, walls: Indices) -> Indices:
     all of them, and the number of walls to the first joint decides.
     """
     from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components, dijkstra
+    from scipy.sparse.csgraph import dijkstra
 
     graph = csr_array((np.ones(len(walls)), walls.T), shape=(joints, joints))
-    _, part = connected_components(graph, directed=False)
-    _, first = np.unique(part, return_index=True)
+    _, first = np.unique(connected(walls, joints), return_index=True)
     away = dijkstra(graph, directed=False, indices=first, unweighted=True, min_only=True)
     return 1 - 2 * (away.astype(np.int64) % 2)
 
