@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
@@ -24,8 +25,7 @@ STEP = 1e-3  # strain of a row
 
 def worked(strain, force):
     """Work (J) of the trapezoidal rule, (rows,)."""
-    mean = 0.5 * (force[1:] + force[:-1])
-    return np.append(0.0, np.cumsum(mean * np.diff(strain) * HEIGHT))
+    return cumulative_trapezoid(force, HEIGHT * strain, initial=0.0)
 
 
 def crushed(strains, forces):
