@@ -189,13 +189,21 @@ def clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
 
 def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     """Joints (j, 2) and walls (w, 2) of segments, duplicates removed."""
+    points, ends = distinct(segments, tolerance)
+    walls = np.unique(np.sort(ends, axis=1), axis=0)
+    level = points[walls[:, 0], 1] == points[walls[:, 1], 1]
+    return points, walls[np.argsort(~level, kind="stable")]
+
+
+def distinct(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+    """The ends of segments (s, 2, 2) as joints (j, 2), row by row from the bottom, and the joints
+    of each, (s, 2).
+    """
     x, column = clusters(segments[..., 0].ravel(), tolerance)
     y, row = clusters(segments[..., 1].ravel(), tolerance)
     joint, end = np.unique(row * len(x) + column, return_inverse=True)
-    walls = np.unique(np.sort(end.reshape(-1, 2), axis=1), axis=0)
     points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
-    level = points[walls[:, 0], 1] == points[walls[:, 1], 1]
-    return points, walls[np.argsort(~level, kind="stable")]
+    return points, end.reshape(-1, 2)
 
 
 def connected(pairs: Indices, count: int) -> Indices:

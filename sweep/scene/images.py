@@ -86,14 +86,7 @@ def draw(case: Case, lattice: Cells, imperfection: Shift, platen: str | None) ->
     arms = _arms(network, case, rows)
     pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
     mesh = split_walls(network, pieces, 0.0, arms.length)
-    inside = np.diff(mesh.start) - 1
-    first = len(network.points) + np.cumsum(inside) - inside
-    wall = np.repeat(np.arange(len(inside)), inside)
-    number = len(network.points) + np.arange(len(wall)) - first[wall]
-    inner = first[network.original[wall]] + number
-    copied = network.shift[network.walls[:, 0]]
-    origin = np.concatenate([network.origin, inner])
-    shift = np.concatenate([network.shift, copied[wall]])
+    origin, shift = network.copied(np.diff(mesh.start) - 1)
     points = mesh.points[origin]
     points[:, 0] += imperfection(points[:, 1])
     whole = replace(mesh, points=points + shift * network.period)

@@ -93,7 +93,9 @@ def extruded(
     if amplitude is not None:
         _bow_walls(rest, plan, wall_of[inner], share[inner], amplitude, right)
     frames, flat = _frames(plan, axis, wall_of)
-    origin, shift = _images(endless, along, wall_of, points)
+    origin, shift = np.arange(len(plane)), np.zeros((len(plane), 2), np.int64)
+    if endless is not None:
+        origin, shift = endless.copied(along - 1)
     frames, flat = frames[origin], flat[origin]
     strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
     quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]
@@ -131,25 +133,6 @@ def extruded(
         shift=np.repeat(shift, layers + 1, axis=0),
         period=np.full(2, np.inf) if endless is None else endless.period,
     )
-
-
-def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) -> tuple[Ints, Ints]:
-    """The column itself or the column that it copies, (c,), and by how many periods it is moved,
-    (c, 2).
-
-    wall_of (c,): the wall of a column inside it, else -1; the first columns are the ``joints``.
-    """
-    origin, shift = np.arange(len(wall_of)), np.zeros((len(wall_of), 2), np.int64)
-    if endless is None:
-        return origin, shift
-    first = joints + np.cumsum(along - 1) - (along - 1)  # column inside each wall
-    inner = np.arange(joints, len(wall_of))
-    wall = wall_of[inner]
-    of = endless.original[wall]
-    origin[:joints], shift[:joints] = endless.origin, endless.shift
-    origin[inner] = first[of] + inner - first[wall]
-    shift[inner] = endless.shift[endless.walls[wall, 0]] - endless.shift[endless.walls[of, 0]]
-    return origin, shift
 
 
 def _bow_walls(
