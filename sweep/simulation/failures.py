@@ -99,9 +99,7 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     error = isinstance(solver, InTime) and solver.step_error is not None
     needed = f"solver.step_error; try a larger one or {shorter}" if error else BALANCE
     damped = "" if case.loading.quasi_static or case.shells else " or add damping"
-    return ADVICE[outcome].format(
-        limit=limit, shorter=shorter, further=further, damped=damped, needed=needed
-    )
+    return ADVICE[outcome].format(limit=limit, further=further, damped=damped, needed=needed)
 
 
 def timed_out(case: Case, where: str) -> Failure:
