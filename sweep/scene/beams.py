@@ -90,19 +90,14 @@ def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
         )
     stiffness = factors * rigidity / l0
     joint = mesh.joint >= 0
-    if joint.any():
-        ends = mesh.joint[joint]
-        along, across = joint_elements(
-            ends % 2,
-            (l0 / t)[joint],
-            arms.compliance.reshape(-1, 4, 3)[ends],
-            contraction(material),
-        )
-        area[joint] = depth * l0[joint] * along
-        stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
-        if mesh.gyration is not None:
-            stiffness[:, joint] *= mesh.gyration[joint] ** 2
-        arc[:, joint] = 0.0
+    ends = mesh.joint[joint]
+    compliance = arms.compliance.reshape(-1, 4, 3)[ends]
+    along, across = joint_elements(ends % 2, (l0 / t)[joint], compliance, contraction(material))
+    area[joint] = depth * l0[joint] * along
+    stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
+    if mesh.gyration is not None:
+        stiffness[:, joint] *= mesh.gyration[joint] ** 2
+    arc[:, joint] = 0.0
     if not bends(case):
         arc, stiffness = np.zeros_like(arc), np.zeros_like(stiffness)
     return Beams(area, arc, rigidity, stiffness, shear, joint)

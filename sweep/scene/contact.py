@@ -28,12 +28,6 @@ def _most_move(mesh: Mesh, edges: Ints, reach: float) -> float:
     return max(radius - reach, reach) / MOVE_MARGIN
 
 
-def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """The result of `contact_near_joints.special_pairs` for a scene without contact of walls."""
-    start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
-    return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
-
-
 def contact_of(
     mesh: Mesh, numbering: Numbering, case: Case, by_force: bool = True
 ) -> contact.Contact:
@@ -48,11 +42,10 @@ def contact_of(
     tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
     walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
-    special, reach = _no_special_pairs(), thickness.max(initial=0.0)
-    if walls:
-        special = contact_near_joints.special_pairs(
-            mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
-        )
+    reach = thickness.max(initial=0.0)
+    special = contact_near_joints.special_pairs(
+        mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
+    )
     return contact.Contact(
         stiffness=stiffness if by_force else 0.0,
         reach=reach,
@@ -62,11 +55,11 @@ def contact_of(
         node_thickness=node_thickness,
         edge_thickness=thickness,
         subtract=contact_near_joints.owners(numbering.n_nodes, edges),
-        special_start=special[0],
-        special_node=special[1],
-        special_weight=special[2],
-        special_distance=special[3] if by_force else np.where(special[2] > 0.0, special[3], 0.0),
-        special_subtract=special[4],
+        special_start=special.start,
+        special_node=special.node,
+        special_weight=special.weight,
+        special_distance=np.where(by_force | (special.weight > 0.0), special.distance, 0.0),
+        special_subtract=special.subtract,
         platen_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
         low=numbering.low,
         high=numbering.high,
