@@ -317,8 +317,9 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
     Without densification the row is the last one.
     """
-    area, height = _area(case), case.height
-    strain, density = loading["strain"], loading["work_in_J"] / (area * height)
+    width, depth = case.footprint
+    area = width * depth
+    strain, density = loading["strain"], loading["work_in_J"] / (area * case.height)
     stress = loading["reaction_top_N"] / area
     eta = efficiency(stress, density)
     packed, share = packed_row(eta), weights(strain, eta)
@@ -339,12 +340,6 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
         *figures(strain, stress, density).values(),
     )
     return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))
-
-
-def _area(case: Case) -> float:
-    """The area that is pressed, m^2."""
-    width, depth = case.footprint
-    return width * depth
 
 
 def shape_columns(

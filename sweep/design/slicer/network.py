@@ -113,12 +113,9 @@ def _unturned(family: str, reach: int) -> Floats:
         ends = np.array([-2.0, 2.0]) * reach
         return np.stack([np.column_stack([np.full_like(y, x), y]) for x in ends], axis=1)
     cells = range(-reach, reach + 1)
-    points, walls = welded(segments_of(drawer(family, _upright(family))(cells, cells)), TOLERANCE)
+    draw = drawer(family, "pointy" if family == "hex" else None)
+    points, walls = welded(segments_of(draw(cells, cells)), TOLERANCE)
     return np.asarray(points[walls])
-
-
-def _upright(family: str) -> str | None:
-    return "pointy" if family == "hex" else None
 
 
 @lru_cache(maxsize=1024)

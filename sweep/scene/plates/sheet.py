@@ -103,10 +103,7 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     """The mesh of a net whose quads have this thickness (m,) in m."""
     period, n, repeats = net.box.size[:2], len(net.points), net.box.walls is None
     copies = [np.asarray(shift) for shift in (SHIFTS if repeats else SHIFTS[:1])]
-    near = [
-        _near(net, shift) if np.any(shift != 0) else np.ones(len(net.quads), bool)
-        for shift in copies
-    ]
+    near = [_near(net, shift) for shift in copies]
     place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
     node = np.concatenate([net.quads[rows] for rows in near])
     key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
