@@ -136,5 +136,4 @@ def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices
     ends = ends[np.all(within | ~repeats, axis=1)]
     shift = np.floor((ends + tolerance) / period).astype(np.int64) * repeats
     phase = ends - shift * period
-    points, ends = distinct(phase, tolerance)
-    return points, ends, shift[:, 1] - shift[:, 0]
+    return *distinct(phase, tolerance), shift[:, 1] - shift[:, 0]

@@ -139,8 +139,8 @@ def parts_of(case: Case, period: Period, numbering: Repeated, leader: Ints, imag
     inside = numbering.own[fold.nodes[:, 1]]
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = _layout(solved_by(mesh, walls, numbering, leader, case), numbering, images)
-    own = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)  # images have no mass
-    masses = masses_of(case, network, numbering, own)
+    area = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)  # images have no mass
+    masses = masses_of(case, network, numbering, area.astype(np.float64))
     touch = contact_of(whole, numbering, case)
     return Parts(
         arms=period.arms,
