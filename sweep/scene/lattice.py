@@ -87,10 +87,10 @@ def build_scene(case: Case) -> Scene:
     )  # fmt: skip
 
 
-def leaders(numbering: Numbering, case: Case, held: Ints) -> Ints:
+def leaders(numbering: Numbering, case: Case, fixed: Ints) -> Ints:
     """The coordinate that each one follows, (size,): itself, a platen, or -1 if it never moves.
 
-    held: coordinates that never move, besides those that platens and a fixed base hold.
+    fixed: coordinates that never move, besides those that platens and a base hold.
     """
     platen, bottom, top = gripped(case.loading), numbering.bottom, numbering.top
     base = numbering.low if target_of(case.loading) is not None else -1
@@ -108,7 +108,7 @@ def leaders(numbering: Numbering, case: Case, held: Ints) -> Ints:
         leader[2 * top] = -1
     if not bends(case):
         leader[numbering.rotation] = -1
-    leader[held] = -1
+    leader[fixed] = -1
     return leader
 
 

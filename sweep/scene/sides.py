@@ -39,8 +39,8 @@ def build_tied(case: Case) -> Scene:
     amplitude = lattice.imperfection * lattice.wall_thickness
     period = draw(case, lattice, lambda y: bow(y, amplitude, lattice.height), loading.platen)
     numbering = _numbering(period)
-    held = numbering.unused if case.widens else np.append(numbering.unused, numbering.width)
-    leader = leaders(numbering, case, held)
+    fixed = numbering.unused if case.widens else np.append(numbering.unused, numbering.width)
+    leader = leaders(numbering, case, fixed)
     free = np.array([float(case.widens), 0.0])
     images = images_of(numbering, leader, (numbering.width, numbering.width), free)
     parts = parts_of(case, period, numbering, leader, images)
