@@ -147,8 +147,6 @@ def _in_rows(points: Floats, walls: Indices, line: Indices, near: float) -> Meet
     for row in (points[:, 1].min(), points[:, 1].max()):
         points[np.abs(points[:, 1] - row) < near, 1] = row
     order = np.lexsort(points.T)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    walls = np.sort(rank[walls], axis=1)
+    walls = np.sort(np.argsort(order)[walls], axis=1)
     sequence = np.lexsort(walls.T[::-1])
     return Meeting(points[order], walls[sequence], line[sequence])

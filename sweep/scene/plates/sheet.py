@@ -149,9 +149,7 @@ def _numbered(keys: Ints) -> tuple[Ints, Ints]:
     """Distinct rows of ``keys`` (k, 3) in the order of their first places; their numbers (k,)."""
     rows, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
-    rank = np.empty(len(order), np.int64)
-    rank[order] = np.arange(len(order))
-    return rows[order], rank[number.ravel()]
+    return rows[order], np.argsort(order)[number.ravel()]
 
 
 def _near(net: Net, shift: Ints) -> np.ndarray:
