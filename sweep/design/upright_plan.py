@@ -36,13 +36,8 @@ class Plan(NamedTuple):
     @property
     def length(self) -> Floats:
         """Length of every wall in the plan, (w,) m."""
-        return lengths(self.points, self.walls)
-
-
-def lengths(points: Floats, walls: Indices) -> Floats:
-    """Length of every wall, (w,) m."""
-    start, end = points[walls].swapaxes(0, 1)
-    return np.asarray(np.linalg.norm(end - start, axis=1))
+        start, end = self.points[self.walls].swapaxes(0, 1)
+        return np.asarray(np.linalg.norm(end - start, axis=1))
 
 
 def plan_of(network: Network, quarter: bool = False) -> Plan:
@@ -50,7 +45,7 @@ def plan_of(network: Network, quarter: bool = False) -> Plan:
     points, walls = network.points, network.walls
     sign = turns(len(points), walls)[walls[:, 0]]
     whole = Plan(
-        points, walls, network.wall_thickness, lengths(points, walls), sign,
+        points, walls, network.wall_thickness, network.length, sign,
         np.full(2, np.inf), np.zeros((len(points), 2), np.bool_),
     )  # fmt: skip
     if not quarter:

@@ -122,8 +122,7 @@ def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     which a wall is no beam; in a sliced lattice none is shorter than a thickness, as the infill
     cuts the perimeters into pieces of any length.
     """
-    start, end = network.points[network.walls].swapaxes(0, 1)
-    free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
+    free = network.length - arms.length.sum(axis=1)
     sliced = network.gyration is not None
     least = (1.0 if sliced else SHORTEST) * network.wall_thickness
     fit = np.floor(free / least * (1.0 + ROUND_OFF)).astype(np.int64)
@@ -150,7 +149,7 @@ def split_walls(
     of_wall = np.repeat(np.arange(walls), inside)
     number = np.arange(len(of_wall)) - np.repeat(np.cumsum(inside) - inside, inside) + 1
     start, end = network.points[network.walls].swapaxes(0, 1)
-    length = np.linalg.norm(end - start, axis=1)
+    length = network.length
     equal = (length - joint_length.sum(axis=1)) / pieces
     place = joint_length[of_wall, 0] + (number - solid[of_wall, 0]) * equal[of_wall]
     share = (place / length[of_wall])[:, None]

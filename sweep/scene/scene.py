@@ -271,6 +271,5 @@ def damp_of(case: Case) -> damping.Damp:
 
 def force_scale(case: Case, network: Network) -> float:
     """Typical force, N: least Y' I / (longest wall)^2."""
-    ends = network.points[network.walls]
     rigidity = rigidity_of(case, network.wall_thickness, network.gyration)
-    return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)
+    return float(rigidity.min() / network.length.max() ** 2)

@@ -60,9 +60,8 @@ def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
         return 0.0
     sides = [(side, axis) for axis, size in enumerate(geometry.box) for side in (0.0, size)]
     outer = np.any([on_outline(points, walls, *side) for side in sides], axis=0)
-    ends = points[walls]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    drawn = _area(geometry, ends[~outer]) + float(length[outer] @ thickness[outer])
+    along = float(network.length[outer] @ thickness[outer])
+    drawn = _area(geometry, points[walls[~outer]]) + along
     return drawn / extruded_area(geometry)
 
 

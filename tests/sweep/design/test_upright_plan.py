@@ -9,7 +9,6 @@ from sweep.design.infill import families, trait
 from sweep.design.lattice import build_network
 from sweep.design.upright_plan import (
     layers_of,
-    lengths,
     mirror_fault,
     plan_of,
     quads_along,
@@ -77,7 +76,7 @@ def test_wall_that_is_cut_begins_at_its_joint_and_bows_as_before():
 
     def sides(plan):
         start, end = plan.points[plan.walls].swapaxes(0, 1)
-        along = (end - start) / lengths(plan.points, plan.walls)[:, None]
+        along = (end - start) / plan.length[:, None]
         return start, end, plan.sign[:, None] * np.column_stack([along[:, 1], -along[:, 0]])
 
     start, end, side = sides(whole)

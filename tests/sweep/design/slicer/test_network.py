@@ -66,8 +66,7 @@ def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
     network = build_network(drawn)
     points, walls = network.points, network.walls
     assert not connected(walls, len(points)).any()
-    ends = points[walls]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    ends, length = points[walls], network.length
     beside = np.any((ends == 0.0) | (ends == 20e-3), axis=(1, 2))
     assert length.min() >= LINE
     assert length[beside].min() > (2.0 - 1e-6) * LINE  # a line beside half of two perimeters
