@@ -229,11 +229,7 @@ def _rest(structure: Structure, mesh: Mesh, numbering: Ground) -> Floats:
 
 def _probed(structure: Structure, numbering: Ground) -> Ints:
     """Coordinates of the probes, three per node."""
-    probed = [
-        numbering.coordinate(node, direction)
-        for node in structure.probes
-        for direction in DIRECTIONS
-    ]
+    probed = [numbering.coordinate(node, way) for node in structure.probes for way in DIRECTIONS]
     return np.array(probed, np.int64)
 
 
