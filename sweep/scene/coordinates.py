@@ -1,7 +1,5 @@
-"""The order of the coordinates of a scene, and which of them move.
-
-The order: x and y of every node, the rotation of every node, the heights of the surfaces of the
-lower and the upper platen.
+"""The order of the coordinates of a scene: x and y of every node, the rotation of every node, the
+heights of the surfaces of the lower and the upper platen.
 """
 
 from dataclasses import dataclass
