@@ -55,7 +55,7 @@ from sweep.simulation.failures import (
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
-from sweep.simulation.striker import closing_speed, rests, second_stop, spent
+from sweep.simulation.striker import Curves, closing_speed, rests, second_stop, spent
 from sweep.simulation.summary import (
     BOOK_COLUMNS,
     OF_THE_WHOLE_RUN,
@@ -67,7 +67,6 @@ from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     MOST_LOST,
     OF_STRIKER,
-    Curves,
     momentum_share,
     striker_share,
 )
