@@ -5,12 +5,9 @@ shapes.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kernels.geometry import scanline, slabs
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from sweep.design.drawing import Floats, Indices
 
 LINES = 16  # scanlines across the thinnest wall: error 3e-4 with many walls, 1e-3 with one wall
 CHUNK = 1 << 19  # intervals held in memory at a time
@@ -29,7 +26,7 @@ def united_area(loops: Floats) -> float:
     return float(slabs.area(*polygons, np.sort(heights[:count])))
 
 
-def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:
+def covered_area(points: Floats, edges: Indices, thickness: Floats) -> float:
     """Area (m^2) of the union of walls with round ends, by scanlines.
 
     points (n, 2) and thickness (m,) of the elements in m; edges (m, 2): the nodes of each element.

@@ -11,6 +11,7 @@ from sweep.design.drawing import (
     Sketch,
     joints_and_walls,
     on_outline,
+    outer_rows,
     sample,
     sketch,
 )
@@ -27,10 +28,7 @@ def build_box(geometry: Geometry) -> Network:
     for on, outline in _outlines(geometry, points, walls):
         thickness[on] = outline
     thickness.flags.writeable = False
-    y = points[:, 1]
-    return Network(
-        points, walls, thickness, np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
-    )
+    return Network(points, walls, thickness, *outer_rows(points))
 
 
 def infill_walls(geometry: Geometry) -> tuple[Floats, Floats]:

@@ -1,19 +1,14 @@
 """Turns centre lines into joints and walls: drawings are stretched to a box, clipped and welded."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sweep.design.geometry import Geometry
-from sweep.design.infill import drawer
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, drawer
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -136,6 +131,12 @@ def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> Flags:
     return on
 
 
+def outer_rows(points: Floats) -> tuple[Indices, Indices]:
+    """The joints of least and of greatest y."""
+    y = points[:, 1]
+    return np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+
+
 def segments_of(drawing: Drawing) -> Floats:
     """All segments of all polylines, (s, 2, 2)."""
     pieces = [np.stack([lines[:, :-1], lines[:, 1:]], axis=2) for lines in drawing]
@@ -188,13 +189,31 @@ def clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
 
 def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     """Joints (j, 2) and walls (w, 2) of segments, duplicates removed."""
+    points, ends = distinct(segments, tolerance)
+    walls = np.unique(np.sort(ends, axis=1), axis=0)
+    level = points[walls[:, 0], 1] == points[walls[:, 1], 1]
+    return points, walls[np.argsort(~level, kind="stable")]
+
+
+def distinct(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+    """The ends of segments (s, 2, 2) as joints (j, 2), row by row from the bottom, and the joints
+    of each, (s, 2).
+    """
     x, column = clusters(segments[..., 0].ravel(), tolerance)
     y, row = clusters(segments[..., 1].ravel(), tolerance)
     joint, end = np.unique(row * len(x) + column, return_inverse=True)
-    walls = np.unique(np.sort(end.reshape(-1, 2), axis=1), axis=0)
     points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
-    level = points[walls[:, 0], 1] == points[walls[:, 1], 1]
-    return points, walls[np.argsort(~level, kind="stable")]
+    return points, end.reshape(-1, 2)
+
+
+def connected(pairs: Indices, count: int) -> Indices:
+    """The group of each of ``count`` points, (count,), of which ``pairs`` (k, 2) are connected."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(count, count))
+    _, group = connected_components(graph, directed=False)
+    return np.asarray(group)
 
 
 def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, connected, outer_rows
 from sweep.design.geometry import Drawing
 from sweep.design.network import Network
 
@@ -13,10 +13,8 @@ def build_drawn(drawing: Drawing, thickness: float) -> Network:
     """The walls of a drawing, of a mean thickness in m."""
     points, walls = np.array(drawing.joints), np.array(drawing.walls)
     share = np.array(drawing.shares) if drawing.shares else np.ones(len(walls))
-    y = points[:, 1]
-    bottom, top = (np.flatnonzero(y == end) for end in (y.min(), y.max()))
     part = _part(points, walls, share)
-    return Network(points, walls, thickness * share, bottom, top, part=part)
+    return Network(points, walls, thickness * share, *outer_rows(points), part=part)
 
 
 def loose_ends(network: Network) -> Indices:
@@ -30,9 +28,6 @@ def _part(points: Floats, walls: Indices, share: Floats) -> Floats:
 
     In a smooth line walls meet in pairs, are equally thick, and turn by less than `BENT`.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     order = np.argsort(walls.ravel(), kind="stable")
     joint = walls.ravel()[order]
     two = np.flatnonzero(np.bincount(joint) == 2)
@@ -42,8 +37,6 @@ def _part(points: Floats, walls: Indices, share: Floats) -> Floats:
     length = np.linalg.norm(away, axis=1)
     cosine = -np.einsum("ij,ij->i", away[first], away[second]) / (length[first] * length[second])
     smooth = (cosine > np.cos(np.radians(BENT))) & (share[first // 2] == share[second // 2])
-    pairs = first[smooth] // 2, second[smooth] // 2
-    graph = coo_array((np.ones(len(pairs[0])), pairs), shape=(len(walls),) * 2)
-    _, line = connected_components(graph, directed=False)
+    line = connected(np.column_stack([first, second])[smooth] // 2, len(walls))
     of_wall = length[::2]
     return np.asarray(of_wall / np.bincount(line, of_wall)[line])

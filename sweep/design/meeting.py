@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, connected
 
 NEAR = 1e-4  # share of the greater side of the drawing
 FAR = 10.0  # greatest move of a point / `NEAR`
@@ -59,13 +59,10 @@ def _merged(ends: Floats, line: Indices, near: float) -> tuple[Floats, Indices, 
 
     Walls without length and all but the last of equal walls are left out.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
 
     pairs = KDTree(ends).query_pairs(near, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(ends),) * 2)
-    _, group = connected_components(graph, directed=False)
+    group = connected(pairs, len(ends))
     _, first, number = np.unique(group, return_index=True, return_inverse=True)
     points = ends[first]
     moved = np.abs(points[number] - ends).max(axis=1)
@@ -150,8 +147,6 @@ def _in_rows(points: Floats, walls: Indices, line: Indices, near: float) -> Meet
     for row in (points[:, 1].min(), points[:, 1].max()):
         points[np.abs(points[:, 1] - row) < near, 1] = row
     order = np.lexsort(points.T)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    walls = np.sort(rank[walls], axis=1)
+    walls = np.sort(np.argsort(order)[walls], axis=1)
     sequence = np.lexsort(walls.T[::-1])
     return Meeting(points[order], walls[sequence], line[sequence])

@@ -28,6 +28,12 @@ class Network:
     gyration: Floats | None = field(default=None, kw_only=True)
     part: Floats | None = field(default=None, kw_only=True)
 
+    @cached_property
+    def length(self) -> Floats:
+        """Length of every wall, (w,) m."""
+        start, end = self.points[self.walls].swapaxes(0, 1)
+        return np.asarray(np.linalg.norm(end - start, axis=1))
+
     def pieces(self, most: int) -> Indices:
         """Number of elements of every wall, (w,): ``most`` in a smooth line of walls, at least
         1.

@@ -16,8 +16,9 @@ from sweep.design.drawing import (
     Flags,
     Floats,
     Indices,
-    clusters,
+    distinct,
     extent,
+    outer_rows,
     segments_of,
     sketch,
     welded,
@@ -60,6 +61,16 @@ class Endless(Network):
         inside = float(np.prod(size))
         return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
+    def copied(self, inside: Indices) -> tuple[Indices, Indices]:
+        """For each joint, then each of the ``inside`` (w,) places inside the walls, wall by wall:
+        itself or the place that it copies, (n,), and by how many periods it is moved, (n, 2).
+        """
+        first = len(self.points) + np.cumsum(inside) - inside
+        wall = np.repeat(np.arange(len(inside)), inside)
+        number = len(self.points) + np.arange(len(wall)) - first[wall]
+        origin = np.concatenate([self.origin, first[self.original[wall]] + number])
+        return origin, np.concatenate([self.shift, self.shift[self.walls[wall, 0]]])
+
 
 def own_parts(network: Network) -> tuple[int, int]:
     """Numbers of joints and of walls of one period."""
@@ -88,8 +99,7 @@ def build_period(geometry: Geometry) -> Endless:
         top = np.flatnonzero((shift == (0, 1)).all(axis=1))[:1]
         bottom = origin[top]
     else:
-        y = points[:, 1]
-        bottom, top = np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
+        bottom, top = outer_rows(points)
     return Endless(
         points=points[origin] + shift * period,
         walls=np.argsort(order)[joint].reshape(2, -1).T,
@@ -126,8 +136,4 @@ def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices
     ends = ends[np.all(within | ~repeats, axis=1)]
     shift = np.floor((ends + tolerance) / period).astype(np.int64) * repeats
     phase = ends - shift * period
-    x, column = clusters(phase[..., 0].ravel(), tolerance)
-    y, row = clusters(phase[..., 1].ravel(), tolerance)
-    joint, end = np.unique(row * len(x) + column, return_inverse=True)
-    points = np.column_stack([x[joint % len(x)], y[joint // len(x)]])
-    return points, end.reshape(-1, 2), shift[:, 1] - shift[:, 0]
+    return *distinct(phase, tolerance), shift[:, 1] - shift[:, 0]

@@ -64,21 +64,9 @@ def rib(x: float, radius: float, reach: float) -> Profile:
 
 
 def hull(points: Floats) -> Floats:
-    """The corners of the convex hull of ``points`` (n, 2), anticlockwise (A. M. Andrew, 1979)."""
-    ordered = np.unique(points, axis=0)
-    sides = [_half_hull(ordered), _half_hull(ordered[::-1])]
-    return np.concatenate([side[:-1] for side in sides])
+    """The corners of the convex hull of ``points`` (n, 2), anticlockwise from the leftmost one."""
+    import shapely  # few sweeps need it
 
-
-def _half_hull(points: Floats) -> Floats:
-    """The corners that turn left on the way through sorted ``points``."""
-    kept = list[Floats]()
-    for p in points:
-        while len(kept) > 1 and _turn(kept[-2], kept[-1], p) <= 0.0:
-            kept.pop()
-        kept.append(p)
-    return np.array(kept)
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    whole = shapely.convex_hull(shapely.multipoints(points))
+    clockwise = shapely.get_coordinates(shapely.normalize(whole))  # closed
+    return clockwise[:0:-1]

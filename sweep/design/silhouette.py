@@ -1,16 +1,14 @@
 """The printed area of a shape as polygons: walls of their true thickness, corners mitred."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from sweep.design.drawing import Floats, Indices
 
 BLUNT = 0.5  # a mitre ends at most (half a thickness) / BLUNT from its node
 STRAIGHT = 1e-9
 
 
-def silhouette(position: Floats, edges: Integers, thickness: Floats) -> list[Floats]:
+def silhouette(position: Floats, edges: Indices, thickness: Floats) -> list[Floats]:
     """Closed polygons (5, 2) whose union is the shape: one per element, one per mitred corner.
 
     position (n, 2) and thickness (m,) in m, edges (m, 2). All polygons run anticlockwise, so that a
@@ -24,7 +22,7 @@ def silhouette(position: Floats, edges: Integers, thickness: Floats) -> list[Flo
     return [*walls, *_mitres(position, edges.T.ravel(), arms, 0.5 * np.tile(thickness, 2))]
 
 
-def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floats:
+def _mitres(position: Floats, node: Indices, arm: Floats, half: Floats) -> Floats:
     """Corners (c, 5, 2) that fill the outer sides of bends.
 
     One arm for each end of an element: its node (a,), its unit direction away from the node (a, 2)
@@ -33,7 +31,7 @@ def _mitres(position: Floats, node: Integers, arm: Floats, half: Floats) -> Floa
     """
     order = np.lexsort((np.arctan2(arm[:, 1], arm[:, 0]), node))
     node, arm, half = node[order], arm[order], half[order, None]
-    following = _following(node)
+    following = next_arm(node)
     left, right, beyond = _left(arm), -_left(arm[following]), half[following]
     one, other = half * left, beyond * right
     tip = _tip(half, beyond, (left * right).sum(1, keepdims=True), left, right)
@@ -56,9 +54,9 @@ def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats
     return along * left + across * right
 
 
-def _following(node: Integers) -> Integers:
-    """Index of the next arm of the same node; arms are sorted by node. The first arm follows the
-    last.
+def next_arm(node: Indices) -> Indices:
+    """Index of the next arm of the same ``node`` (a,); arms are sorted by node. The first arm
+    follows the last.
     """
     following = np.arange(len(node)) + 1
     last = np.append(node[1:] != node[:-1], True)

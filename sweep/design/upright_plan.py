@@ -5,12 +5,11 @@ of an even network buckle so that all arms of a joint turn alike and the arms of
 turn oppositely. Half a wave is then as long as a wall.
 """
 
-from collections import deque
 from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.design.drawing import Floats, Indices, connected
 from sweep.design.network import Network
 
 NEAR = 1e-9  # share of the size of the plan: points nearer than that are one point
@@ -37,18 +36,8 @@ class Plan(NamedTuple):
     @property
     def length(self) -> Floats:
         """Length of every wall in the plan, (w,) m."""
-        return lengths(self.points, self.walls)
-
-    @property
-    def copies(self) -> int:
-        """How many mirror images make the whole lattice."""
-        return 4 if np.isfinite(self.planes).all() else 1
-
-
-def lengths(points: Floats, walls: Indices) -> Floats:
-    """Length of every wall, (w,) m."""
-    start, end = points[walls].swapaxes(0, 1)
-    return np.asarray(np.linalg.norm(end - start, axis=1))
+        start, end = self.points[self.walls].swapaxes(0, 1)
+        return np.asarray(np.linalg.norm(end - start, axis=1))
 
 
 def plan_of(network: Network, quarter: bool = False) -> Plan:
@@ -56,7 +45,7 @@ def plan_of(network: Network, quarter: bool = False) -> Plan:
     points, walls = network.points, network.walls
     sign = turns(len(points), walls)[walls[:, 0]]
     whole = Plan(
-        points, walls, network.wall_thickness, lengths(points, walls), sign,
+        points, walls, network.wall_thickness, network.length, sign,
         np.full(2, np.inf), np.zeros((len(points), 2), np.bool_),
     )  # fmt: skip
     if not quarter:
@@ -95,24 +84,15 @@ def turns(joints: int, walls: Indices) -> Indices:
     """1 or -1 for each joint, (j,): how it turns as equal walls buckle.
 
     Neighbours turn oppositely; if closed paths have an odd number of walls this is not possible for
-    all of them, and joints turn oppositely to the neighbour from which they are first reached.
+    all of them, and the number of walls to the first joint decides.
     """
-    around: list[list[int]] = [[] for _ in range(joints)]
-    for a, b in walls.tolist():
-        around[a].append(b)
-        around[b].append(a)
-    turn = np.zeros(joints, np.int64)
-    for first in range(joints):
-        if turn[first]:
-            continue
-        turn[first], queue = 1, deque([first])
-        while queue:
-            here = queue.popleft()
-            for other in around[here]:
-                if not turn[other]:
-                    turn[other] = -turn[here]
-                    queue.append(other)
-    return turn
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import dijkstra
+
+    graph = csr_array((np.ones(len(walls)), walls.T), shape=(joints, joints))
+    _, first = np.unique(connected(walls, joints), return_index=True)
+    away = dijkstra(graph, directed=False, indices=first, unweighted=True, min_only=True)
+    return 1 - 2 * (away.astype(np.int64) % 2)
 
 
 def mirror_fault(network: Network) -> str:

@@ -67,13 +67,18 @@ def contraction(material: Material) -> float:
     return nu if material.plane == "stress" else nu / (1.0 - nu)
 
 
+def rigidity_of(case: Case, thickness: Floats, gyration: Floats | None) -> Floats:
+    """Y' I of walls, (k,) N m^2. thickness (k,) m; gyration (k,): as in `Network`."""
+    modulus = plane_factors(case.material)[1] * case.material.modulus
+    rigidity = modulus * case.lattice.depth * thickness**3 / 12.0
+    return rigidity if gyration is None else rigidity * gyration**2
+
+
 def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
     """The constants of the elements of a ``mesh`` whose walls end in ``arms``."""
     material, depth, t, l0 = case.material, case.lattice.depth, mesh.thickness, mesh.rest_length
     modulus = plane_factors(material)[1] * material.modulus
-    area, rigidity = depth * t, modulus * depth * t**3 / 12.0
-    if mesh.gyration is not None:
-        rigidity = rigidity * mesh.gyration**2
+    area, rigidity = depth * t, rigidity_of(case, t, mesh.gyration)
     rigid_in_shear = SHEAR_COEFFICIENT * material.modulus / (2.0 * (1.0 + material.poisson)) * area
     shear = np.where(arms.sheared[mesh.wall], 12.0 * rigidity / (rigid_in_shear * l0**2), 0.0)
     if case.solver.element == "classical":
@@ -85,19 +90,14 @@ def build_beams(mesh: Mesh, arms: Arms, case: Case) -> Beams:
         )
     stiffness = factors * rigidity / l0
     joint = mesh.joint >= 0
-    if joint.any():
-        ends = mesh.joint[joint]
-        along, across = joint_elements(
-            ends % 2,
-            (l0 / t)[joint],
-            arms.compliance.reshape(-1, 4, 3)[ends],
-            contraction(material),
-        )
-        area[joint] = depth * l0[joint] * along
-        stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
-        if mesh.gyration is not None:
-            stiffness[:, joint] *= mesh.gyration[joint] ** 2
-        arc[:, joint] = 0.0
+    ends = mesh.joint[joint]
+    compliance = arms.compliance.reshape(-1, 4, 3)[ends]
+    along, across = joint_elements(ends % 2, (l0 / t)[joint], compliance, contraction(material))
+    area[joint] = depth * l0[joint] * along
+    stiffness[:, joint] = modulus * depth * t[joint] ** 2 * across
+    if mesh.gyration is not None:
+        stiffness[:, joint] *= mesh.gyration[joint] ** 2
+    arc[:, joint] = 0.0
     if not bends(case):
         arc, stiffness = np.zeros_like(arc), np.zeros_like(stiffness)
     return Beams(area, arc, rigidity, stiffness, shear, joint)

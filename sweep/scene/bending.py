@@ -4,7 +4,7 @@ import numpy as np
 
 from kernels.terms import bend, fold
 from sweep.config.case import Case
-from sweep.scene.beams import Beams, bends, contraction, plane_factors
+from sweep.scene.beams import Beams, bends, contraction, plane_factors, rigidity_of
 from sweep.scene.material import FIBRE, OUTER, law_of_hinge, law_of_section
 from sweep.scene.mesh import Floats, Mesh
 
@@ -47,9 +47,10 @@ def _sections(mesh: Mesh, beams: Beams, case: Case) -> tuple[Floats, Floats, Flo
     return np.stack([across, along]), volume, shear
 
 
-def build_fold(mesh: Mesh, rigidity: Floats, case: Case) -> fold.Fold:
+def build_fold(mesh: Mesh, case: Case) -> fold.Fold:
     """Fold barrier between neighbouring elements of every node; K: half elements in series."""
     nodes, opened, ends = (a[: None if bends(case) else 0] for a in mesh.openings)
     limit = np.minimum(fold.LIMIT, 0.5 * opened)
+    rigidity = rigidity_of(case, mesh.thickness, mesh.gyration)
     one, two = (2.0 * rigidity / mesh.rest_length)[ends].T
     return fold.Fold(nodes, limit, one * two / (one + two) * (0.5 * opened) ** 2)

@@ -7,6 +7,7 @@ from kernels.planar import position_based
 from kernels.shared.moves import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints
 from sweep.config.case import Case
+from sweep.scene.beams import plane_factors
 from sweep.scene.coordinates import BASE, BONDED, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh
 from sweep.scene.profiles import NO_PROFILES, gripped
@@ -27,31 +28,26 @@ def _most_move(mesh: Mesh, edges: Ints, reach: float) -> float:
     return max(radius - reach, reach) / MOVE_MARGIN
 
 
-def _no_special_pairs() -> tuple[Ints, Ints, Floats, Floats, Floats]:
-    """The result of `contact_near_joints.special_pairs` for a scene without contact of walls."""
-    start, node = np.zeros(1, np.int64), np.empty(0, np.int64)
-    return start, node, np.empty(0), np.empty(0), np.empty((0, 2))
-
-
 def contact_of(
-    mesh: Mesh, numbering: Numbering, stiffness: float, case: Case, by_force: bool
+    mesh: Mesh, numbering: Numbering, case: Case, by_force: bool = True
 ) -> contact.Contact:
     """Contact of walls, unless the contact model is "none", and of nodes with platens.
 
-    by_force: True for the barrier, False for contact by position. The kind that the case does not
-    use is returned without pairs and nodes.
+    by_force: True for the barrier, of stiffness c Y' depth, False for contact by position. The kind
+    that the case does not use is returned without pairs and nodes.
     """
+    material, (in_stretch, _) = case.material, plane_factors(case.material)
+    stiffness = in_stretch * material.modulus * case.lattice.depth * case.contact.stiffness
     acts = by_force == (case.contact.model != "position_based")
     tributary, node_thickness = mesh.node_length, mesh.node_area / mesh.node_length
     walls = acts and case.contact.model != "none"
     edges, thickness = mesh.edges[: None if walls else 0], mesh.thickness[: None if walls else 0]
-    special, reach = _no_special_pairs(), thickness.max(initial=0.0)
-    if walls:
-        special = contact_near_joints.special_pairs(
-            mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
-        )
+    reach = thickness.max(initial=0.0)
+    special = contact_near_joints.special_pairs(
+        mesh.points.ravel(), edges, mesh.rest_length, node_thickness, thickness, tributary
+    )
     return contact.Contact(
-        stiffness=stiffness,
+        stiffness=stiffness if by_force else 0.0,
         reach=reach,
         most_move=_most_move(mesh, edges, reach),
         edges=edges,
@@ -59,11 +55,11 @@ def contact_of(
         node_thickness=node_thickness,
         edge_thickness=thickness,
         subtract=contact_near_joints.owners(numbering.n_nodes, edges),
-        special_start=special[0],
-        special_node=special[1],
-        special_weight=special[2],
-        special_distance=special[3] if by_force else np.where(special[2] > 0.0, special[3], 0.0),
-        special_subtract=special[4],
+        special_start=special.start,
+        special_node=special.node,
+        special_weight=special.weight,
+        special_distance=np.where(by_force | (special.weight > 0.0), special.distance, 0.0),
+        special_subtract=special.subtract,
         platen_nodes=_loose(numbering, case) if acts else np.empty(0, np.int64),
         low=numbering.low,
         high=numbering.high,
@@ -92,4 +88,4 @@ def projection_of(
     """Contact by position: free coordinates with mass move apart in proportion to 1 / mass."""
     own = (layout.leader == np.arange(numbering.size)) & (masses > 0.0)
     ease = np.divide(1.0, masses, out=np.zeros_like(masses), where=own)
-    return position_based.Projection(contact_of(mesh, numbering, 0.0, case, by_force=False), ease)
+    return position_based.Projection(contact_of(mesh, numbering, case, by_force=False), ease)

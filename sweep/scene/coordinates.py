@@ -1,7 +1,5 @@
-"""The order of the coordinates of a scene, and which of them move.
-
-The order: x and y of every node, the rotation of every node, the heights of the surfaces of the
-lower and the upper platen.
+"""The order of the coordinates of a scene: x and y of every node, the rotation of every node, the
+heights of the surfaces of the lower and the upper platen.
 """
 
 from dataclasses import dataclass
@@ -73,38 +71,3 @@ class Numbering(BetweenPlatens):
         along = np.tile([0, 1], self.n_nodes)
         platens = np.append(np.zeros(self._others - 2, np.int64), [1, 0])
         return np.concatenate([along, np.full(self.n_nodes, 2), platens])
-
-
-def supports(numbering: Numbering, platen: str | None, base_moves: bool = False) -> Indices:
-    """Coordinates that never move: those in clamped rows, and the lower platen.
-
-    base_moves: the lower platen moves in y, and so does the row that is clamped to it.
-    """
-    bottom, top = numbering.bottom, numbering.top
-    height = (2 * bottom + 1)[: 0 if base_moves else None]
-    clamped = [2 * bottom, height, numbering.rotation[bottom]]
-    turning = numbering.rotation[top]
-    low, high = np.array([numbering.low]), np.array([numbering.high])
-    low = low[: 0 if base_moves else None]
-    if platen == "contact":
-        return low
-    if platen == BASE:
-        return np.concatenate([*clamped, low])
-    if platen in BONDED:
-        along = 2 * top if platen == "glued" else top[:0]
-        return np.concatenate([*clamped, along, turning, low])
-    return np.concatenate([*clamped, low, high])
-
-
-def leaders(
-    numbering: Numbering, supports: Indices, tied: Indices, below: Indices = NONE
-) -> Indices:
-    """The coordinate that each one follows, (size,).
-
-    It is the upper platen for coordinates in ``tied``, the lower one for those in ``below``, -1 for
-    those in ``supports``, and else the coordinate itself.
-    """
-    leader = np.arange(numbering.size)
-    leader[tied], leader[below] = numbering.high, numbering.low
-    leader[supports] = -1
-    return leader

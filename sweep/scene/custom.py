@@ -15,9 +15,9 @@ from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.structures.structure import Structure
 from sweep.constants import MM
-from sweep.design.network import Network, mass
-from sweep.scene.beams import bends, build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.design.network import Network
+from sweep.scene.beams import bends
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
@@ -26,7 +26,6 @@ from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,
-    contact_stiffness,
     force_scale,
     masses_of,
     solved_by,
@@ -97,21 +96,21 @@ def build_structure(case: Case) -> Scene:
     numbering = Ground(len(mesh.points), none, none, int(at_pin.sum()))
     rotation = numbering.rotation[mesh.edges]
     rotation[at_pin] = numbering.free_ends
-    beams, walls = build_beams(mesh, arms, case), walls_of(mesh, rotation)
-    leader = _leaders(structure, numbering)
+    walls = walls_of(mesh, rotation)
+    travel = _travel(structure, mesh)
+    driver = numbering.high if travel else -1
+    leader = _leaders(structure, numbering, driver)
     if not bends(case):
         leader[rotation] = -1
     layout = solved_by(mesh, walls, numbering, leader, case)
-    layout, travel = _led(structure, layout, numbering, mesh)
-    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
-    printed = mass(network, case.lattice.depth, case.material.density)
-    masses = _masses(structure, masses_of(mesh, numbering, printed, case.loading))
+    layout = layout._replace(ratio=_ratio(structure, numbering, travel), driven=driver)
+    touch = contact_of(mesh, numbering, case)
+    masses = _masses(structure, masses_of(case, network, numbering, mesh.node_area))
     parts = Parts(
+        arms=arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
-        fold=build_fold(mesh, beams.rigidity, case),
+        fold=build_fold(mesh, case),
         contact=_on_floor(touch, structure, numbering),
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -128,7 +127,7 @@ def build_structure(case: Case) -> Scene:
         bottom=np.array([numbering.low]),
         top=none,
         base=2 * np.arange(numbering.n_nodes) + 1,
-        force_scale=force_scale(network, beams.rigidity),
+        force_scale=force_scale(case, network),
         velocity=_velocity(structure, mesh, layout),
         probes=_probed(structure, numbering),
         travel=travel,
@@ -153,44 +152,36 @@ def _distances(structure: Structure, pairs: Iterable[tuple[int, int]]) -> Floats
     return np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
 
 
-def _leaders(structure: Structure, numbering: Ground) -> Ints:
-    """The coordinate that each one follows: itself, the driver, or -1.
+def _travel(structure: Structure, mesh: Mesh) -> float:
+    """The largest prescribed move, m; rotations count by the mean length of elements."""
+    levers = {"rotation": float(mesh.rest_length.mean())}
+    moves = (abs(part.move) * levers.get(part.direction, 1.0) for part in structure.prescribed)
+    return max(moves, default=0.0)
 
-    -1: held, or the unused rotation of a pin.
+
+def _leaders(structure: Structure, numbering: Ground, driver: int) -> Ints:
+    """The coordinate that each one follows: itself, the ``driver``, or -1.
+
+    -1: held, or the unused rotation of a pin; also the driver, if all prescribed moves are zero.
     """
     leader = np.arange(numbering.size)
     leader[[numbering.low, numbering.ceiling]] = -1
+    leader[numbering.high] = driver
     for node, direction in structure.restraints:
         leader[numbering.coordinate(node, direction)] = -1
     for node in structure.pins:
         leader[numbering.coordinate(node, "rotation")] = -1
     for part in structure.prescribed:
-        leader[numbering.coordinate(part.node, part.direction)] = numbering.high
-    if not structure.prescribed:
-        leader[numbering.high] = -1
+        leader[numbering.coordinate(part.node, part.direction)] = driver
     return leader
 
 
-def _led(
-    structure: Structure, layout: analysis.Layout, numbering: Ground, mesh: Mesh
-) -> tuple[analysis.Layout, float]:
-    """The layout with the prescribed moves, and the travel of the driver: the largest move, m."""
-    moves = {
-        numbering.coordinate(part.node, part.direction): part.move for part in structure.prescribed
-    }
-    lever = mesh.rest_length.mean()
-    travels = [
-        abs(move) * (lever if c >= 2 * numbering.n_nodes else 1.0) for c, move in moves.items()
-    ]
-    travel = max(travels, default=0.0)
-    if travel == 0.0:  # all prescribed moves are zero
-        leader = layout.leader.copy()
-        leader[[*moves, numbering.high]] = -1
-        return layout._replace(leader=leader, driven=-1), 0.0
-    ratio = layout.ratio.copy()
-    for c, move in moves.items():
-        ratio[c] = move / travel
-    return layout._replace(ratio=ratio, driven=numbering.high), travel
+def _ratio(structure: Structure, numbering: Ground, travel: float) -> Floats:
+    """Motion of each coordinate / motion of the driver."""
+    ratio = np.ones(numbering.size)
+    for part in structure.prescribed if travel else ():
+        ratio[numbering.coordinate(part.node, part.direction)] = part.move / travel
+    return ratio
 
 
 def _springs(structure: Structure) -> spring.Spring:
@@ -238,11 +229,7 @@ def _rest(structure: Structure, mesh: Mesh, numbering: Ground) -> Floats:
 
 def _probed(structure: Structure, numbering: Ground) -> Ints:
     """Coordinates of the probes, three per node."""
-    probed = [
-        numbering.coordinate(node, direction)
-        for node in structure.probes
-        for direction in DIRECTIONS
-    ]
+    probed = [numbering.coordinate(node, way) for node in structure.probes for way in DIRECTIONS]
     return np.array(probed, np.int64)
 
 

@@ -17,15 +17,14 @@ from kernels.terms import contact
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.design.lattice import build_network
-from sweep.design.network import mass
 from sweep.design.period import Endless
-from sweep.scene.beams import build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
+from sweep.scene.lattice import load_of
 from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
-from sweep.scene.scene import Parts, contact_stiffness, force_scale, solved_by, walls_of
+from sweep.scene.scene import Parts, masses_of, solved_by, walls_of
 
 Shift = Callable[[Floats], Floats]
 """Stress-free shift in x, m, at heights in m."""
@@ -87,14 +86,7 @@ def draw(case: Case, lattice: Cells, imperfection: Shift, platen: str | None) ->
     arms = _arms(network, case, rows)
     pieces = elements_of(network, lattice.nodes_per_wall + 1, arms)
     mesh = split_walls(network, pieces, 0.0, arms.length)
-    inside = np.diff(mesh.start) - 1
-    first = len(network.points) + np.cumsum(inside) - inside
-    wall = np.repeat(np.arange(len(inside)), inside)
-    number = len(network.points) + np.arange(len(wall)) - first[wall]
-    inner = first[network.original[wall]] + number
-    copied = network.shift[network.walls[:, 0]]
-    origin = np.concatenate([network.origin, inner])
-    shift = np.concatenate([network.shift, copied[wall]])
+    origin, shift = network.copied(np.diff(mesh.start) - 1)
     points = mesh.points[origin]
     points[:, 0] += imperfection(points[:, 1])
     whole = replace(mesh, points=points + shift * network.period)
@@ -137,50 +129,37 @@ def images_of(numbering: Repeated, leader: Ints, sizes: tuple[int, int], free: F
     return np.concatenate(rows).astype(np.int64)
 
 
-def parts_of(
-    case: Case, period: Period, numbering: Repeated, leader: Ints, images: Ints
-) -> tuple[Parts, float]:
-    """The data of a period without loads, and a typical force, N.
+def parts_of(case: Case, period: Period, numbering: Repeated, leader: Ints, images: Ints) -> Parts:
+    """The data of a period.
 
     leader (n,): the coordinate that each one follows; images (k, 4): from `images_of`.
     """
     mesh, whole, network = period.mesh, period.whole, period.network
-    beams = build_beams(mesh, period.arms, case)
-    rigidity = build_beams(whole, period.arms, case).rigidity
-    fold = build_fold(whole, rigidity, case)
+    fold = build_fold(whole, case)
     inside = numbering.own[fold.nodes[:, 1]]
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
     layout = _layout(solved_by(mesh, walls, numbering, leader, case), numbering, images)
-    masses = _masses(mesh, numbering, mass(network, case.lattice.depth, case.material.density))
-    touch = contact_of(whole, numbering, contact_stiffness(case), case, by_force=True)
-    parts = Parts(
+    area = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)  # images have no mass
+    masses = masses_of(case, network, numbering, area.astype(np.float64))
+    touch = contact_of(whole, numbering, case)
+    return Parts(
+        arms=period.arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
         fold=fold._replace(
             nodes=fold.nodes[inside], limit=fold.limit[inside], stiffness=fold.stiffness[inside]
         ),
         contact=_contact_of_period(touch, numbering),
         project=projection_of(whole, numbering, layout, masses, case),
         mass=masses,
-        load=np.zeros(numbering.size),
+        load=load_of(numbering, case),
     )
-    return parts, force_scale(network, rigidity)
 
 
 def _layout(layout: analysis.Layout, numbering: Repeated, images: Ints) -> analysis.Layout:
     """The layout with images."""
     origin = np.append(numbering.origin, numbering.n_nodes)
     return layout._replace(images=images, origin=origin, wall_of=layout.wall_of[origin])
-
-
-def _masses(mesh: Mesh, numbering: Repeated, total: float) -> Floats:
-    """Lumped mass of each coordinate, kg: images have none."""
-    share = np.bincount(numbering.origin, mesh.node_area, numbering.n_nodes)
-    masses = np.zeros(numbering.size)
-    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    return masses
 
 
 def _contact_of_period(touch: contact.Contact, numbering: Repeated) -> contact.Contact:

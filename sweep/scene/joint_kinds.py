@@ -83,10 +83,7 @@ def _joint(around: tuple[float, ...], glued: tuple[bool, ...]) -> Joint | None:
     length = np.empty(len(arms))
     for place, arm in enumerate(arms):
         part = "all" if kind not in AXIS else "axis" if place == AXIS[kind] else "side"
-        values = _arm(kind, part, float(angle))
-        if values is None:
-            return None
-        compliance[arm], length[arm] = values
+        compliance[arm], length[arm] = _arm(kind, part, float(angle))
     return _read_only(compliance, length)
 
 
@@ -134,16 +131,15 @@ def _has(kind: str, angle: float) -> bool:
 
 
 @lru_cache(maxsize=256)
-def _arm(kind: str, part: str, angle: float) -> tuple[Floats, float] | None:
-    """C (4, 3) and x of an arm; None if it would have to be longer than all `LENGTHS`."""
+def _arm(kind: str, part: str, angle: float) -> tuple[Floats, float]:
+    """C (4, 3) and x of an arm, the least of `LENGTHS` that is stable."""
     angles, columns = table()[kind, part]
     mm, mv, vv, nn, vv_nu, nn_nu = (np.interp(angle, angles, column) for column in columns)
     c = np.array([[mm, 0.0, 0.0], [mv, MV_NU, 0.0], [vv, vv_nu, 0.0], [nn, nn_nu, 0.0]])
     least = np.min(
         [np.linalg.eigvalsh(flexibility(c, LENGTHS, nu))[:, 0] for nu in CONTRACTIONS], axis=0
     )
-    stable = np.flatnonzero(least >= LEAST)
-    return (c, float(LENGTHS[stable[0]])) if len(stable) else None
+    return c, float(LENGTHS[np.argmax(least >= LEAST)])
 
 
 def flexibility(compliance: Floats, x: Floats, nu: float) -> Floats:

@@ -73,7 +73,6 @@ def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints)
     """
     count = len(joints)
     start, end = network.points[network.walls[:count]].swapaxes(0, 1)
-    length = np.linalg.norm(end - start, axis=1)
     thickness = network.wall_thickness[:count]
     bearing = np.degrees(np.arctan2(*(end - start).T[::-1]))
     bearings = np.column_stack([bearing, bearing + 180.0]) % 360.0
@@ -101,7 +100,7 @@ def find_arms(network: Network, joints: Ints, rows: Iterable[Ints], plain: Ints)
         length_of[ends[standing]] = (joint.length * t)[standing]
     arms.sheared[:] = has_joint.reshape(-1, 2).all(axis=1)
     arms.length[~arms.sheared] = 0.0
-    _fit(arms, length)
+    _fit(arms, network.length[:count])
     return arms
 
 

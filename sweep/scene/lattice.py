@@ -8,18 +8,16 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
-from sweep.design.network import mass
-from sweep.scene.beams import bends, build_beams
-from sweep.scene.bending import build_bend, build_fold
+from sweep.scene.beams import bends
+from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
-from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering, leaders, supports
+from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering
 from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.scene import (
     Parts,
     Scene,
     assemble,
-    contact_stiffness,
     force_scale,
     masses_of,
     solved_by,
@@ -62,24 +60,17 @@ def build_scene(case: Case) -> Scene:
         row_nodes(network, mesh, network.bottom),
         row_nodes(network, mesh, network.top),
     )
-    beams = build_beams(mesh, arms, case)
-    printed = mass(network, lattice.depth, case.material.density)
-    base_moves = target_of(case.loading) is not None
-    fixed = np.union1d(supports(numbering, platen, base_moves), anchor(mesh, numbering, case))
-    if not bends(case):
-        fixed = np.union1d(fixed, numbering.rotation)
-    tied, below = follow_platens(numbering, platen, base_moves)
+    leader = leaders(numbering, case, anchor(mesh, numbering, case))
     walls = walls_of(mesh, numbering.rotation[mesh.edges])
-    layout = solved_by(mesh, walls, numbering, leaders(numbering, fixed, tied, below), case)
-    masses = masses_of(mesh, numbering, printed, case.loading)
-    touch = contact_of(mesh, numbering, contact_stiffness(case), case, by_force=True)
+    layout = solved_by(mesh, walls, numbering, leader, case)
+    masses = masses_of(case, network, numbering, mesh.node_area)
+    touch = contact_of(mesh, numbering, case)
     touch = with_profiles(touch, mesh, network, numbering, case)
     parts = Parts(
+        arms=arms,
         walls=walls,
-        beams=beams,
         layout=layout,
-        bend=build_bend(mesh, beams, case),
-        fold=build_fold(mesh, beams.rigidity, case),
+        fold=build_fold(mesh, case),
         contact=touch,
         project=projection_of(mesh, numbering, layout, masses, case),
         mass=masses,
@@ -89,18 +80,36 @@ def build_scene(case: Case) -> Scene:
         mesh, network, assemble(case, mesh, numbering, parts),
         standing(rest_of(mesh, numbering, parts.contact.node_thickness), touch),
         *reported(numbering, case.loading),
-        force_scale=force_scale(network, beams.rigidity),
+        force_scale=force_scale(case, network),
         velocity=initial_velocity(numbering, layout.leader, case.loading),
         standing=_on_base(mesh, numbering, touch, platen),
         solid_joint_share=float(arms.sheared.mean()),
     )  # fmt: skip
 
 
-def follow_platens(numbering: Numbering, platen: str, base_moves: bool) -> tuple[Ints, Ints]:
-    """Coordinates that follow the upper and the lower platen; a held row follows neither."""
-    above = numbering.top if platen in BONDED else NONE
-    below = numbering.bottom if platen in (*BONDED, BASE) and base_moves else NONE
-    return 2 * above + 1, 2 * below + 1
+def leaders(numbering: Numbering, case: Case, fixed: Ints) -> Ints:
+    """The coordinate that each one follows, (size,): itself, a platen, or -1 if it never moves.
+
+    fixed: coordinates that never move, besides those that platens and a base hold.
+    """
+    platen, bottom, top = gripped(case.loading), numbering.bottom, numbering.top
+    base = numbering.low if target_of(case.loading) is not None else -1
+    leader = np.arange(numbering.size)
+    leader[numbering.low] = base
+    if platen == "none":
+        leader[numbering.high] = -1
+    if platen != "contact":
+        leader[2 * bottom] = leader[numbering.rotation[bottom]] = -1
+        leader[2 * bottom + 1] = base
+    if platen in BONDED:
+        leader[2 * top + 1] = numbering.high
+        leader[numbering.rotation[top]] = -1
+    if platen == "glued":
+        leader[2 * top] = -1
+    if not bends(case):
+        leader[numbering.rotation] = -1
+    leader[fixed] = -1
+    return leader
 
 
 def _on_base(mesh: Mesh, numbering: Numbering, touch: Contact, platen: str) -> Ints:

@@ -101,7 +101,8 @@ def _stages(case: Case, scene: Scene | PlateScene) -> list[Phase]:
     loading, solver, longest = case.loading, case.solver, time_step(case)
     fall = inf
     if isinstance(loading, DeadLoad) and solver.integrator == "backward_euler":
-        fall = _time_of_fall(case, scene)
+        mass = float(scene.terms.coordinates.mass.sum()) / 2.0  # nodes have it in x and in y
+        fall = sqrt(2.0 * mass * case.height / loading.force)  # the load moves it by the height
     start, travel = _course(case, scene)
     cycle = list[Phase]()
     for ramp in loading.ramps(solver):
@@ -131,13 +132,6 @@ def _stage(ramp: Ramp, longest: float, dynamic: bool, start: float, travel: floa
     factor0, factor1 = ramp.load
     driven0, driven1 = (start + share * travel for share in ramp.way)
     return march.Stage(steps or 1, duration, dynamic, factor0, factor1, driven0, driven1)
-
-
-def _time_of_fall(case: Case, scene: Scene | PlateScene) -> float:
-    """The time in which the load of a case would move its free masses by the height, s."""
-    assert isinstance(case.loading, DeadLoad)
-    mass = float(scene.terms.coordinates.mass.sum()) / 2.0  # nodes have it in x and in y
-    return sqrt(2.0 * mass * case.height / case.loading.force)
 
 
 def _repeated(cycle: list[Phase], cycles: int) -> list[Phase]:

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kernels.compile.simd import LANES
 from kernels.laws.elastic import ElasticCurve, FibreCurve
@@ -26,9 +25,8 @@ from kernels.laws.yielding import Yielding
 from kernels.terms.section import CRUSHED, BentSection
 from sweep.config.kinds.material import Material
 from sweep.config.materials.material_file import TOE, stress_at
+from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
-
-Floats = NDArray[np.float64]
 
 SECTION_FIBRES = 5  # with three, the moment has a dip of 2 to 4 % where walls fold
 FIBRE = np.sqrt(3.0 / 20.0)  # place of the outer of three Gauss points, as a share of the thickness
@@ -36,7 +34,7 @@ OUTER = 5.0 / 18.0  # weight of this point
 RADIAL = 0.5  # strain at which c of `kernels.terms.section` is found
 LINEAR = 5.0 / 3.0  # least c, for a linear curve
 MIDDLE = 1e-9  # share of half a thickness: nearer points are in the middle
-LOWER_WEIGHT, UPPER_WEIGHT = 0.7, 0.3
+UPPER_WEIGHT = 0.3  # of `upper`; the rest is of `lower`
 COMPRESSION = -np.array(
     [
         *(0.7, 0.65, 0.6, 0.55, 0.5, 0.45, 0.4, 0.35, 0.3, 0.25),
@@ -57,13 +55,17 @@ class StressLaw:
 
     def at(self, strain: Floats) -> Floats:
         """Stress (n,) in Pa at strains (n,)."""
+        return self.with_slope(strain)[0]
+
+    def with_slope(self, strain: Floats) -> tuple[Floats, Floats]:
+        """Stress and its slope (n,) in Pa at strains (n,)."""
         last = len(self.coefficients) - 1
         piece = np.clip(np.searchsorted(self.knots, strain, side="right") - 1, 0, last)
         inside = np.clip(strain, self.knots[0], self.knots[-1])
         c, s = self.coefficients[piece].T, inside - self.knots[piece]
         tangent = c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
         stress: Floats = c[0] + s * (c[1] + s * (c[2] + s * c[3])) + tangent * (strain - inside)
-        return stress
+        return stress, np.asarray(tangent)
 
 
 def linear_law(slope: float) -> StressLaw:
@@ -216,18 +218,16 @@ def with_compression(
     """
     pulled = np.array(curve_strain) >= 0.0
     strain, stress = np.array(curve_strain)[pulled], np.array(curve_stress)[pulled]
-    knots, values, slopes = _knots(tuple(strain.tolist()), tuple(stress.tolist()))
-    tension = knots >= 0.0
-    pressed, _ = _compression(
-        COMPRESSION, knots[tension], values[tension], slopes[tension], 1.0 - cauchy, cauchy
-    )
-    return np.r_[COMPRESSION, strain], np.r_[pressed, stress]
+    _, values, _ = _knots(tuple(strain.tolist()), tuple(stress.tolist()), cauchy)
+    return np.r_[COMPRESSION, strain], np.r_[values[: len(COMPRESSION)], stress]
 
 
 def _knots(
-    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...]
+    curve_strain: tuple[float, ...], curve_stress: tuple[float, ...], cauchy: float = UPPER_WEIGHT
 ) -> tuple[Floats, Floats, Floats]:
-    """Strains (k,), stresses (k,) and slopes (k,) of the law at its knots."""
+    """Strains (k,), stresses (k,) and slopes (k,) of the law at its knots; cauchy: the share of
+    `upper` in the compression of a record without its own.
+    """
     strain, stress = np.array(curve_strain), np.array(curve_stress)
     own, above = strain < 0.0, strain > TOE
     toe = stress_at(TOE, curve_strain, curve_stress)
@@ -237,7 +237,7 @@ def _knots(
     slopes[own.sum() : own.sum() + 2] = toe / TOE  # both ends of the straight line
     if own.any():
         return knots, values, slopes
-    values_below, slopes_below = _compression(COMPRESSION, knots, values, slopes)
+    values_below, slopes_below = _compression(COMPRESSION, knots, values, slopes, cauchy)
     return (
         np.r_[COMPRESSION, knots],
         np.r_[values_below, values],
@@ -252,20 +252,15 @@ def _shape_preserving_slopes(knots: Floats, values: Floats) -> Floats:
 
 
 def _compression(
-    strain: Floats,
-    knots: Floats,
-    values: Floats,
-    slopes: Floats,
-    lower_weight: float = LOWER_WEIGHT,
-    upper_weight: float = UPPER_WEIGHT,
+    strain: Floats, knots: Floats, values: Floats, slopes: Floats, cauchy: float
 ) -> tuple[Floats, Floats]:
     """Stress and slope at compressive strains, derived from the tension curve."""
     stretch = 1.0 + strain
     lower, lower_slope = _tension(-strain, knots, values, slopes)
-    cauchy, cauchy_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
-    stress = -lower_weight * lower - upper_weight * cauchy / stretch**2
-    upper_slope = cauchy_slope / stretch**4 + 2.0 * cauchy / stretch**3
-    return stress, lower_weight * lower_slope + upper_weight * upper_slope
+    upper, upper_slope = _tension(1.0 / stretch - 1.0, knots, values, slopes)
+    stress = -(1.0 - cauchy) * lower - cauchy * upper / stretch**2
+    slope = upper_slope / stretch**4 + 2.0 * upper / stretch**3
+    return stress, (1.0 - cauchy) * lower_slope + cauchy * slope
 
 
 def _tension(

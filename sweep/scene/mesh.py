@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network
+from sweep.design.silhouette import next_arm
 from sweep.scene.joints import Arms, point_joints, solid_joints
 
 Floats = NDArray[np.float64]
@@ -79,11 +80,9 @@ class Mesh:
         bearing = np.arctan2(along[:, 1], along[:, 0])
         order = np.lexsort([bearing, node])
         node, other, bearing = node[order], other[order], bearing[order]
-        start = np.searchsorted(node, node, side="left")
-        count = np.searchsorted(node, node, side="right") - start
-        following = start + (np.arange(len(node)) - start + 1) % count
+        following = next_arm(node)
         opened = np.mod(bearing[following] - bearing, 2 * np.pi)
-        kept, element = count > 1, order // 2
+        kept, element = following != np.arange(len(node)), order // 2
         nodes = np.column_stack([other, node, other[following]])
         return nodes[kept], opened[kept], np.column_stack([element, element[following]])[kept]
 
@@ -123,8 +122,7 @@ def elements_of(network: Network, most: int, arms: Arms) -> Ints:
     which a wall is no beam; in a sliced lattice none is shorter than a thickness, as the infill
     cuts the perimeters into pieces of any length.
     """
-    start, end = network.points[network.walls].swapaxes(0, 1)
-    free = np.linalg.norm(end - start, axis=1) - arms.length.sum(axis=1)
+    free = network.length - arms.length.sum(axis=1)
     sliced = network.gyration is not None
     least = (1.0 if sliced else SHORTEST) * network.wall_thickness
     fit = np.floor(free / least * (1.0 + ROUND_OFF)).astype(np.int64)
@@ -151,7 +149,7 @@ def split_walls(
     of_wall = np.repeat(np.arange(walls), inside)
     number = np.arange(len(of_wall)) - np.repeat(np.cumsum(inside) - inside, inside) + 1
     start, end = network.points[network.walls].swapaxes(0, 1)
-    length = np.linalg.norm(end - start, axis=1)
+    length = network.length
     equal = (length - joint_length.sum(axis=1)) / pieces
     place = joint_length[of_wall, 0] + (number - solid[of_wall, 0]) * equal[of_wall]
     share = (place / length[of_wall])[:, None]

@@ -11,7 +11,7 @@ from sweep.config.kinds.cells import Cells
 from sweep.scene.beams import bends
 from sweep.scene.images import Repeated, draw, images_of, parts_of
 from sweep.scene.mesh import Floats, Ints
-from sweep.scene.scene import Scene, assemble
+from sweep.scene.scene import Scene, assemble, force_scale
 
 
 def build_periodic(case: Case) -> Scene:
@@ -24,14 +24,14 @@ def build_periodic(case: Case) -> Scene:
     numbering = Repeated(n_nodes, rows, rows, period.origin, period.shift)
     leader = _leaders(numbering, anchor, case)
     images = images_of(numbering, leader, (numbering.low, numbering.high), np.ones(2))
-    parts, force = parts_of(case, period, numbering, leader, images)
+    parts = parts_of(case, period, numbering, leader, images)
     return Scene(
         period.mesh, network, assemble(case, period.mesh, numbering, parts),
         np.concatenate([period.whole.points.ravel(), np.zeros(n_nodes), network.period]),
         bottom=rows,
         top=np.array([numbering.high]),
         base=np.array([2 * anchor + 1]),
-        force_scale=force,
+        force_scale=force_scale(case, network),
         velocity=np.zeros(numbering.size),
         around=period.around,
         solid_joint_share=float(period.arms.sheared.mean()),

@@ -78,15 +78,13 @@ def profiles_of(
     shapes: list[Profile], carrier: Ints, mesh: Mesh, touch: contact.Contact
 ) -> Profiles:
     """The data of profiles. carrier (k,): coordinate of the platen that each one replaces."""
-    radius = np.array([shape.radius for shape in shapes])
-    rounded = list(zip(shapes, radius, strict=True))
     return Profiles(
         start=np.cumsum([0, *(len(shape.chain) for shape in shapes)]),
         vertex=np.concatenate([shape.chain for shape in shapes]),
         weight=np.concatenate([_weight(shape, mesh) for shape in shapes]),
-        radius=radius,
+        radius=np.array([shape.radius for shape in shapes]),
         carrier=carrier,
-        box=np.array([np.ravel(np.column_stack(_box(shape, r))) for shape, r in rounded]),
+        box=np.array([_box(shape) for shape in shapes]),
         nodes=np.arange(len(mesh.points)),
         edges=mesh.edges,
         subtract=contact_near_joints.owners(len(mesh.points), mesh.edges),
@@ -96,9 +94,10 @@ def profiles_of(
     )
 
 
-def _box(shape: Profile, radius: float) -> tuple[Floats, Floats]:
-    """The least and the greatest coordinates of a profile."""
-    return shape.chain.min(axis=0) - radius, shape.chain.max(axis=0) + radius
+def _box(shape: Profile) -> Floats:
+    """Least and greatest x, least and greatest y of a profile, (4,) m."""
+    ends = shape.chain.min(axis=0) - shape.radius, shape.chain.max(axis=0) + shape.radius
+    return np.column_stack(ends).ravel()
 
 
 def _weight(shape: Profile, mesh: Mesh) -> Floats:

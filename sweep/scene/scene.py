@@ -16,7 +16,6 @@ from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import FREE, HELD, LED, TIED, Coordinates
 from kernels.terms import damping, elements, friction, spring, stretch
-from kernels.terms.bend import Bend
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.spring import Spring
@@ -27,9 +26,11 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime, Static
 from sweep.config.kinds.steps import rows_in_load_step
-from sweep.design.network import Network
-from sweep.scene.beams import Beams, plane_factors
+from sweep.design.network import Network, mass
+from sweep.scene.beams import build_beams, plane_factors, rigidity_of
+from sweep.scene.bending import build_bend
 from sweep.scene.coordinates import BetweenPlatens, Numbering
+from sweep.scene.joints import Arms
 from sweep.scene.material import law_in_stretch
 from sweep.scene.mesh import Floats, Ints, Mesh
 
@@ -89,15 +90,14 @@ class Scene:
 class Parts(NamedTuple):
     """The data that depend on the kind of scene.
 
-    walls: topology. beams: constants of the elements. layout: constraints and structure of the
-    linear system. mass (n,) in kg and load (n,) in N or N m of each coordinate. The others are
-    terms of the energy.
+    arms: ends of the walls. walls: topology. layout: constraints and structure of the linear
+    system. mass (n,) in kg and load (n,) in N or N m of each coordinate. The others are terms of
+    the energy.
     """
 
+    arms: Arms
     walls: elements.Walls
-    beams: Beams
     layout: analysis.Layout
-    bend: Bend
     fold: Fold
     contact: Contact
     project: Projection
@@ -109,14 +109,15 @@ class Parts(NamedTuple):
 def assemble(case: Case, mesh: Mesh, numbering: Numbering, parts: Parts) -> PlanarScene:
     """The data of all terms of a scene."""
     in_stretch, _ = plane_factors(case.material)
+    beams = build_beams(mesh, parts.arms, case)
     return PlanarScene(
         coordinates=coordinates_of(case, mesh, numbering, parts),
         law=law_in_stretch(case.material, in_stretch),
         walls=parts.walls,
         stretch=stretch.Stretch(
-            mesh.rest_length, parts.beams.area, parts.beams.arc, case.solver.hessian == "exact"
+            mesh.rest_length, beams.area, beams.arc, case.solver.hessian == "exact"
         ),
-        bend=parts.bend,
+        bend=build_bend(mesh, beams, case),
         fold=parts.fold,
         spring=parts.spring,
         contact=parts.contact,
@@ -169,13 +170,6 @@ def heavy(layout: analysis.Layout | LayoutOfPlates, mass: Floats) -> Floats:
     flags = np.zeros(mass.size)
     flags[moving] = (moved[leader] > 0.0) & (leader != layout.driven)
     return flags
-
-
-def contact_stiffness(case: Case) -> float:
-    """Stiffness c Y' depth of the barrier, N/m."""
-    in_stretch, _ = plane_factors(case.material)
-    modulus = in_stretch * case.material.modulus
-    return modulus * case.lattice.depth * case.contact.stiffness
 
 
 def walls_of(mesh: Mesh, rotation: Ints) -> elements.Walls:
@@ -236,19 +230,16 @@ def target_of(loading: Loading) -> float | None:
     return loading.target_mass if isinstance(loading, Impact) else None
 
 
-def masses_of(mesh: Mesh, numbering: Numbering, total: float, loading: Loading) -> Floats:
-    """Lumped mass of each coordinate, kg; the nodes sum to ``total`` in x and in y."""
-    share = mesh.node_area
+def masses_of(case: Case, network: Network, numbering: Numbering, area: Floats) -> Floats:
+    """Lumped mass of each coordinate, kg: of striker and free base, and, in x and in y, of the
+    nodes, which share the printed mass by the ``area`` (n,) of their walls, m^2.
+    """
+    printed = mass(network, case.lattice.depth, case.material.density)
     masses = np.zeros(numbering.size)
-    masses[: 2 * numbering.n_nodes] = np.repeat(total * share / share.sum(), 2)
-    add_bodies(masses, numbering, loading)
+    masses[: 2 * numbering.n_nodes] = np.repeat(printed * area / area.sum(), 2)
+    masses[numbering.high] = striker_of(case.loading).mass
+    masses[numbering.low] = target_of(case.loading) or 0.0
     return masses
-
-
-def add_bodies(masses: Floats, numbering: BetweenPlatens, loading: Loading) -> None:
-    """Enter a striker and a base that moves freely among ``masses``, (n,) kg, in place."""
-    masses[numbering.high] = striker_of(loading).mass
-    masses[numbering.low] = target_of(loading) or 0.0
 
 
 def friction_of(case: Case) -> friction.Friction:
@@ -278,7 +269,7 @@ def damp_of(case: Case) -> damping.Damp:
     return damping.Damp(0.0, 0.0, 0.0)
 
 
-def force_scale(network: Network, rigidity: Floats) -> float:
-    """Typical force, N: least Y' I / (longest wall)^2. rigidity (m,): Y' I of elements, N m^2."""
-    ends = network.points[network.walls]
-    return float(np.min(rigidity) / np.max(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)) ** 2)
+def force_scale(case: Case, network: Network) -> float:
+    """Typical force, N: least Y' I / (longest wall)^2."""
+    rigidity = rigidity_of(case, network.wall_thickness, network.gyration)
+    return float(rigidity.min() / network.length.max() ** 2)

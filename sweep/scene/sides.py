@@ -11,12 +11,10 @@ import numpy as np
 
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
-from sweep.scene.beams import bends
-from sweep.scene.coordinates import leaders, supports
 from sweep.scene.images import Period, Repeated, draw, images_of, parts_of
-from sweep.scene.lattice import follow_platens, initial_velocity, load_of, reported, rest_of
-from sweep.scene.mesh import Ints, bow, row_nodes
-from sweep.scene.scene import Scene, add_bodies, assemble, target_of
+from sweep.scene.lattice import initial_velocity, leaders, reported, rest_of
+from sweep.scene.mesh import bow, row_nodes
+from sweep.scene.scene import Scene, assemble, force_scale
 
 
 @dataclass(frozen=True)
@@ -41,18 +39,17 @@ def build_tied(case: Case) -> Scene:
     amplitude = lattice.imperfection * lattice.wall_thickness
     period = draw(case, lattice, lambda y: bow(y, amplitude, lattice.height), loading.platen)
     numbering = _numbering(period)
-    leader = _leaders(numbering, case)
+    fixed = numbering.unused if case.widens else np.append(numbering.unused, numbering.width)
+    leader = leaders(numbering, case, fixed)
     free = np.array([float(case.widens), 0.0])
     images = images_of(numbering, leader, (numbering.width, numbering.width), free)
-    parts, force = parts_of(case, period, numbering, leader, images)
-    add_bodies(parts.mass, numbering, loading)
-    parts = parts._replace(load=load_of(numbering, case))
+    parts = parts_of(case, period, numbering, leader, images)
     rest = rest_of(period.whole, numbering, parts.contact.node_thickness)
     return Scene(
         period.mesh, period.network, assemble(case, period.mesh, numbering, parts),
         np.insert(rest, numbering.width, lattice.width),
         *reported(numbering, loading),
-        force_scale=force,
+        force_scale=force_scale(case, period.network),
         velocity=initial_velocity(numbering, parts.layout.leader, loading),
         around=period.around,
         solid_joint_share=float(period.arms.sheared.mean()),
@@ -67,14 +64,3 @@ def _numbering(period: Period) -> BesideEachOther:
         for joints in (network.bottom, network.top)
     )
     return BesideEachOther(len(period.origin), bottom, top, period.origin, period.shift)
-
-
-def _leaders(numbering: BesideEachOther, case: Case) -> Ints:
-    """The coordinate that each coordinate follows."""
-    platen, base_moves = case.loading.platen or "none", target_of(case.loading) is not None
-    fixed = np.concatenate([supports(numbering, platen, base_moves), numbering.unused])
-    if not case.widens:
-        fixed = np.append(fixed, numbering.width)
-    if not bends(case):
-        fixed = np.union1d(fixed, numbering.rotation)
-    return leaders(numbering, fixed, *follow_platens(numbering, platen, base_moves))

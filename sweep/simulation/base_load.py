@@ -2,7 +2,6 @@
 freely.
 """
 
-from collections.abc import Mapping
 from math import nan
 
 import numpy as np
@@ -12,7 +11,7 @@ from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.impact import Impact
 from sweep.scene.mesh import Floats
 from sweep.simulation.filter_class import filtered_force
-from sweep.simulation.striker import rebound
+from sweep.simulation.striker import Curves, rebound
 from sweep.simulation.time_resolution import peak_row
 
 OF_A_HIT = ("base_impulse_Ns", "target_speed_m_per_s", "peak_target_acceleration_m_per_s2")
@@ -26,7 +25,7 @@ def patch_width(case: Case) -> float:
     return nan if isinstance(loading, CustomLoading) else min(loading.base_patch, case.footprint[0])
 
 
-def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
+def base_columns(case: Case, history: Curves) -> dict[str, float]:
     """The columns of the base: greatest pressure and its place, impulse, motion of the target."""
     loading, pressure = case.loading, history["base_pressure_Pa"]
     row = None if np.isnan(pressure).any() else peak_row(loading, pressure)
@@ -38,7 +37,7 @@ def base_columns(case: Case, history: Mapping[str, Floats]) -> dict[str, float]:
     return columns | (hit_columns(loading, history) if isinstance(loading, Impact) else {})
 
 
-def force_on_support(loading: Impact, history: Mapping[str, Floats]) -> Floats:
+def force_on_support(loading: Impact, history: Curves) -> Floats:
     """Force of an impact on the support behind its filter, (rows,) N; in the end it bears the
     weight.
     """
@@ -46,7 +45,7 @@ def force_on_support(loading: Impact, history: Mapping[str, Floats]) -> Floats:
     return filtered_force(time, force, loading.filter_class, (0.0, loading.weight))
 
 
-def hit_columns(loading: Impact, history: Mapping[str, Floats]) -> dict[str, float]:
+def hit_columns(loading: Impact, history: Curves) -> dict[str, float]:
     """Impulse on the base until the rebound of the striker; speed of the target at that time, and
     its greatest acceleration, filtered; NaN if the base is fixed.
     """

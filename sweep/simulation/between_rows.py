@@ -11,9 +11,8 @@ allowed force rarely lie at a row.
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from sweep.design.drawing import Floats
 
 POINTS = 1024  # points, evenly spaced in strain, besides the rows
 CURVE = ("strain", "top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")

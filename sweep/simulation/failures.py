@@ -51,6 +51,16 @@ APART = (
     "the minimisation stalled, as the load presses walls that nothing keeps apart; "
     'try contact.model "barrier" or a smaller load'
 )
+MOVES_DOWN = "the striker still moves down; try a longer loading.duration"
+PUSHED_BACK = "the lattice still pushes the striker back; try a longer loading.duration"
+SLIPPED_OFF = (
+    "the striker lost the lattice: it missed or slipped off, or ribs let the lattice through; "
+    "try another loading.striker_at or loading.base_span, or a smaller strain"
+)
+TIPPED_OVER = (
+    "the lattice tipped over between the loose platens, and bears nothing at full stroke; "
+    'try more solver.load_steps, a wider lattice, or a loading.platen of "glued"'
+)
 BALANCE = "its energy to balance; try a larger load, or another solver.integrator"
 LOST = "no equilibrium within the shortest arc; try a smaller solver.arc_length"
 
@@ -63,6 +73,11 @@ def stopped(case: Case, outcome: int, where: str, driven: bool) -> Failure:
     if outcome == outcomes.INTERRUPTED:
         return Status.STOPPED, f"interrupted {where}; run again to complete it"
     why = LOST if isinstance(case.solver, Arcs) else _advice(case, outcome, driven)
+    return stopped_as(why, where)
+
+
+def stopped_as(why: str, where: str) -> Failure:
+    """The case has no result: ``why``, with what to try, and ``where`` it is, in words."""
     what, _, advice = why.partition("; ")
     return Status.STOPPED, f"{what} {where}; {advice}"
 
@@ -84,9 +99,7 @@ def _advice(case: Case, outcome: int, driven: bool) -> str:
     error = isinstance(solver, InTime) and solver.step_error is not None
     needed = f"solver.step_error; try a larger one or {shorter}" if error else BALANCE
     damped = "" if case.loading.quasi_static or case.shells else " or add damping"
-    return ADVICE[outcome].format(
-        limit=limit, shorter=shorter, further=further, damped=damped, needed=needed
-    )
+    return ADVICE[outcome].format(limit=limit, further=further, damped=damped, needed=needed)
 
 
 def timed_out(case: Case, where: str) -> Failure:
@@ -102,42 +115,10 @@ def energy_gained(case: Case) -> Failure:
     return Status.STOPPED, f"the time integration gained energy; {advice}"
 
 
-def unbalanced(where: str) -> Failure:
-    """The energy book of a case that has finished does not balance."""
-    return Status.STOPPED, f"work and energies do not balance {where}; {SOUNDER}"
-
-
-def still_moving_down(where: str) -> Failure:
-    """The striker of a case that has finished still moves down."""
-    return Status.STOPPED, f"the striker still moves down {where}; try a longer loading.duration"
-
-
 def passed_lattice(case: Case, where: str) -> Failure:
     """The striker of a case that has finished is below the base."""
     is_flat = isinstance(case.loading, Impact) and not case.loading.is_shaped
     return Status.SLIPPED, (BELOW if is_flat else PASSED).format(where)
-
-
-def slipped_off() -> Failure:
-    """The striker of a crush misses the lattice, or the lattice slips away from it or between
-    ribs.
-    """
-    why = "the striker lost the lattice: it missed or slipped off, or ribs let the lattice through"
-    advice = "try another loading.striker_at or loading.base_span, or a smaller strain"
-    return Status.SLIPPED, f"{why}; {advice}"
-
-
-def tipped_over() -> Failure:
-    """The walls of a crush between loose flat platens bear nothing at full stroke."""
-    why = "the lattice tipped over between the loose platens, and bears nothing at full stroke"
-    advice = 'try more solver.load_steps, a wider lattice, or a loading.platen of "glued"'
-    return Status.SLIPPED, f"{why}; {advice}"
-
-
-def still_pushed_back(where: str) -> Failure:
-    """The striker of a case that has finished is still accelerated upwards."""
-    why = "the lattice still pushes the striker back"
-    return Status.STOPPED, f"{why} {where}; try a longer loading.duration"
 
 
 def energy_unresolved(case: Case, share: float) -> Failure:

@@ -14,11 +14,9 @@ from math import ceil, nan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sweep.constants import FILTER_CLASS, SAMPLES
-
-Floats = NDArray[np.float64]
+from sweep.design.drawing import Floats
 
 CORNER = 2.0775  # corner over the class, Hz
 RINGING = 5.0  # times 1 / corner after which the filter has settled

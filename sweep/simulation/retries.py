@@ -51,7 +51,8 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
     spent, attempts = float(best.summary["cpu_s"]), list[str]()
     for words, changed in _changes(best) if best.curable and case.solver.retry else ():
         left = due - time.monotonic()
-        if stop[0] or left <= 0.0 or _is_final(best):
+        # A lattice that tips over is curable: it may stand in shorter load steps.
+        if stop[0] or left <= 0.0 or (best.status in ENDED and not best.curable):
             break
         last = simulate(changed, stop, left)
         spent += float(last.summary["cpu_s"])
@@ -59,11 +60,6 @@ def simulate_again(case: Case, stop: np.ndarray | None = None) -> Result:
         if _reach(last) > _reach(best) and not _is_cut_short(last, case):
             best = replace(last, summary={**last.summary, "retry": words})
     return _final_result(case, best, attempts, spent)
-
-
-def _is_final(best: Result) -> bool:
-    """Whether nothing more is tried. A lattice that tips over may stand in shorter load steps."""
-    return best.status in ENDED and not best.curable
 
 
 def _is_coarse(case: Case) -> bool:

@@ -10,7 +10,6 @@ they reached, with the shortest element at 0.85 of its rest length.
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from shapely import intersects, linestrings
 
 from kernels.geometry import crossing
@@ -20,21 +19,25 @@ from kernels.terms.elements import Walls
 from kernels.terms.section import LEAST
 from kernels.terms.stretch import Stretch
 from sweep.design.area import covered_area
+from sweep.scene.mesh import Floats, Ints
 
-Floats = NDArray[np.float64]
 Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]
+Strains = tuple[Floats, Floats, Floats]
+"""In every stored shape, (f, m) each: least and greatest strain of every element or quad, and the
+greatest of its surfaces.
+"""
 
 SURFACE = np.sqrt(5.0 / 3.0)  # place of the surface over the fibre of `terms.bend`
 SQUEEZED = -0.3  # element strain below which the model does not hold
 CHUNK = 1 << 16  # pairs in one call of shapely
 
 
-def strains_of(x: Floats, terms: PlanarScene) -> tuple[Floats, Floats]:
-    """`element_strains` and `surface_strains` of the stored shapes x (f, n)."""
+def strains_of(x: Floats, terms: PlanarScene) -> Strains:
+    """`element_strains`, twice, and `surface_strains` of the stored shapes x (f, n)."""
     deformation = deformations(x, terms.walls)
     strains = element_strains(deformation, terms.stretch)
-    return strains, surface_strains(deformation, strains, terms.bend)
+    return strains, strains, surface_strains(deformation, strains, terms.bend)
 
 
 def element_strains(deformation: Deformations, stretch: Stretch) -> Floats:
@@ -112,7 +115,7 @@ def kept_area(frames: Frames) -> float:
     return covered_area(deepest, *walls) / covered_area(rest, *walls)
 
 
-def shortening(frames: Frames, bottom: NDArray[np.int64], top: NDArray[np.int64]) -> float:
+def shortening(frames: Frames, bottom: Ints, top: Ints) -> float:
     """1 - distance between the centres of two rows of nodes in the last shape / at rest.
 
     Rigid motions do not change it. NaN without rows.

@@ -37,6 +37,11 @@ from sweep.scene.sides import build_tied
 from sweep.simulation.base_load import patch_width
 from sweep.simulation.custom_history import structure_columns
 from sweep.simulation.failures import (
+    ADVICE,
+    MOVES_DOWN,
+    PUSHED_BACK,
+    SLIPPED_OFF,
+    TIPPED_OVER,
     Failure,
     break_message,
     broke,
@@ -44,17 +49,13 @@ from sweep.simulation.failures import (
     energy_unresolved,
     momentum_unresolved,
     passed_lattice,
-    slipped_off,
-    still_moving_down,
-    still_pushed_back,
     stopped,
+    stopped_as,
     timed_out,
-    tipped_over,
-    unbalanced,
 )
 from sweep.simulation.plate_shapes import plate_frames, plate_strains
 from sweep.simulation.shape_checks import strains_of
-from sweep.simulation.striker import closing_speed, rests, second_stop, spent
+from sweep.simulation.striker import Curves, closing_speed, rests, second_stop, spent
 from sweep.simulation.summary import (
     BOOK_COLUMNS,
     OF_THE_WHOLE_RUN,
@@ -66,7 +67,6 @@ from sweep.simulation.time_limit import WATCH
 from sweep.simulation.time_resolution import (
     MOST_LOST,
     OF_STRIKER,
-    Curves,
     momentum_share,
     striker_share,
 )
@@ -117,7 +117,7 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
         curves = structure_columns(curves, run.probed[: run.done], scene, case)
         curves |= path_columns(run.arc, run.done)
     frames, (_, shapes) = run.frames(), run.shapes()
-    strains: tuple[Floats, ...] = (
+    strains = (
         plate_strains(shapes, scene)
         if isinstance(scene, PlateScene)
         else strains_of(shapes, scene.terms)
@@ -128,9 +128,9 @@ def _simulated(case: Case, stop: np.ndarray, seconds: float) -> Result:
     if status == Status.CONVERGED:
         status, message = _of_impact(case, summary, curves, run.where())
     if status == Status.CONVERGED and not bears:
-        status, message = slipped_off()
+        status, message = Status.SLIPPED, SLIPPED_OFF
     if not stands:
-        status, message = tipped_over()
+        status, message = Status.SLIPPED, TIPPED_OVER
     if status == Status.CONVERGED and broke(summary, case):
         message = break_message(summary)
     unresolved = status == Status.UNRESOLVED or _removes_energy(case, summary, curves)
@@ -164,10 +164,10 @@ def _of_impact(
     travel, last = curves["top_displacement_m"], len(curves["time_s"]) - 1
     if travel.argmax() == last and not rests(curves):
         gone = travel[last] > case.height and not case.shells
-        return passed_lattice(case, where) if gone else still_moving_down(where)
+        return passed_lattice(case, where) if gone else stopped_as(MOVES_DOWN, where)
     speed = closing_speed(curves)
     if travel[last] > 0.0 > speed[last] and speed.argmin() == last:
-        return still_pushed_back(where)
+        return stopped_as(PUSHED_BACK, where)
     return Status.CONVERGED, ""
 
 
@@ -288,7 +288,7 @@ class _Run:
             if noisy or round_off_decides(self.case, self.scene, phase.stage):
                 return self._failed(outcomes.UNRESOLVED, phase)
             self.curable = True
-            return unbalanced(self.where())
+            return stopped_as(ADVICE[outcomes.UNBALANCED], self.where())
         return Status.CONVERGED, ""
 
     def is_loaded(self) -> bool:

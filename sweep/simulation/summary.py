@@ -36,6 +36,7 @@ from sweep.simulation.load_step_error import load_step_error, peak_step_error
 from sweep.simulation.plate_shapes import surface_crossings
 from sweep.simulation.shape_checks import (
     Frames,
+    Strains,
     crossings,
     kept_area,
     moment_of,
@@ -143,16 +144,14 @@ def summarise(  # noqa: PLR0913  of one case each
     scene: Scene | PlateScene,
     history: dict[str, Floats],
     frames: Frames,
-    strains: tuple[Floats, ...],
+    strains: Strains,
     cycles: list[CycleRows],
     peaks: tuple[float, float],
 ) -> dict[str, float | int | str]:
     """Summary columns of a run.
 
-    strains (f, m): of the elements in the stored shapes, and of their most stretched surfaces; for
-    plates, see `plate_shapes.plate_strains`. cycles: rows at which each cycle is loaded and
-    unloaded; energies and the curve of the loading belong to the first cycle. peaks: from
-    `peaks_of`.
+    cycles: rows at which each cycle is loaded and unloaded; energies and the curve of the loading
+    belong to the first cycle. peaks: from `peaks_of`.
     """
     curves = history | {"work_in_J": work_on_lattice(case, history)}
     if moves(case):
@@ -198,21 +197,8 @@ def summarise(  # noqa: PLR0913  of one case each
         **base_columns(case, history),
         **crush_columns(case, loading),
         **(dict.fromkeys(PEAKS, peak) if is_whole else {}),
-        **_shape_columns(case, scene, frames, strains, loading),
+        **shape_columns(case, scene, frames, strains, loading),
     }
-
-
-def _shape_columns(
-    case: Case,
-    scene: Scene | PlateScene,
-    frames: Frames,
-    strains: tuple[Floats, ...],
-    loading: dict[str, Floats],
-) -> dict[str, float | int]:
-    if isinstance(scene, PlateScene):
-        return plate_columns(case, scene, frames, strains, loading)
-    along, surface = strains
-    return shape_columns(case, scene, frames, (along, surface), loading)
 
 
 def printed_mass(case: Case) -> float:
@@ -331,8 +317,9 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
 
     Without densification the row is the last one.
     """
-    area, height = _area(case), case.height
-    strain, density = loading["strain"], loading["work_in_J"] / (area * height)
+    width, depth = case.footprint
+    area = width * depth
+    strain, density = loading["strain"], loading["work_in_J"] / (area * case.height)
     stress = loading["reaction_top_N"] / area
     eta = efficiency(stress, density)
     packed, share = packed_row(eta), weights(strain, eta)
@@ -355,81 +342,75 @@ def packing_columns(case: Case, loading: dict[str, Floats]) -> tuple[int, Floats
     return row, share, dict(zip(OF_A_CRUSH, map(float, values), strict=True))
 
 
-def _area(case: Case) -> float:
-    """The area that is pressed, m^2."""
-    width, depth = case.footprint
-    return width * depth
+def shape_columns(
+    case: Case,
+    scene: Scene | PlateScene,
+    frames: Frames,
+    strains: Strains,
+    loading: dict[str, Floats],
+) -> dict[str, float | int]:
+    """Columns from the stored shapes, and the work done while the model holds."""
+    least, greatest, surface = strains
+    columns = {
+        "residual_strain": np.nan,
+        "least_element_strain": float(least.min()),
+        "greatest_element_strain": float(greatest.max()),
+        "kept_area": np.nan,
+        "greatest_fibre_strain": float(surface.max()),
+        "broke_at_strain": np.nan,
+        "stretch_over_curve": stretch_over_curve(case.material, strains),
+    }
+    if isinstance(scene, PlateScene):
+        return columns | plate_columns(case, scene, frames, loading)
+    return columns | wall_columns(case, scene, frames, strains, loading)
 
 
 def plate_columns(
-    case: Case,
-    scene: PlateScene,
-    frames: Frames,
-    strains: tuple[Floats, ...],
-    loading: dict[str, Floats],
+    case: Case, scene: PlateScene, frames: Frames, loading: dict[str, Floats]
 ) -> dict[str, float | int]:
-    """Columns from the stored shapes of plates, as in `shape_columns`.
+    """The columns of plates among `shape_columns`.
 
     The work within the model counts until the walls, whose volume is constant, fill the pressed
-    area. strains: from `plate_shapes.plate_strains`.
+    area.
     """
-    least, greatest, surface = strains
     solid = 1.0 - filled(case, scene)
     strain, work = loading["strain"], loading["work_in_J"]
     within = work[-1] if strain[-1] <= solid else np.interp(solid, strain, work)
     height = np.ptp(frames["position_m"][..., 2], axis=1)
     return {
         "residual_strain": float(1.0 - height[-1] / height[0]),
-        "least_element_strain": float(least.min()),
-        "greatest_element_strain": float(greatest.max()),
-        "kept_area": np.nan,
-        "greatest_fibre_strain": float(surface.max()),
-        "broke_at_strain": np.nan,
-        "stretch_over_curve": stretch_over_curve(case.material, (greatest, surface)),
         "absorbed_energy_within_model_J": float(within),
         "max_crossings": surface_crossings(frames["position_m"], scene.mesh),
     }
 
 
-def shape_columns(
-    case: Case,
-    scene: Scene,
-    frames: Frames,
-    strains: tuple[Floats, Floats],
-    loading: dict[str, Floats],
+def wall_columns(
+    case: Case, scene: Scene, frames: Frames, strains: Strains, loading: dict[str, Floats]
 ) -> dict[str, float | int]:
-    """Columns from the stored shapes, and the work done while the model holds.
-
-    strains (f, m): of the elements, and of their most stretched surfaces.
-    """
-    network, (along, surface) = scene.network, strains
+    """The columns of walls in the plane among `shape_columns`."""
+    network, (least, _, surface) = scene.network, strains
     limit = given_or(case.material.fracture_strain, np.inf)
     broken = moment_of(surface.max(axis=1), limit, frames["time_s"])
     broke_at = np.interp(broken, loading["time_s"], loading["strain"])
     walls = np.concatenate([frames["edges"], scene.around])
     return {
         "residual_strain": shortening(frames, network.bottom, network.top),
-        "least_element_strain": float(along.min()),
-        "greatest_element_strain": float(along.max()),
         "kept_area": kept_area(frames),
-        "greatest_fibre_strain": float(surface.max()),
         "broke_at_strain": float("nan") if np.isnan(broken) else float(broke_at),
-        "stretch_over_curve": stretch_over_curve(case.material, strains),
         "absorbed_energy_within_model_J": work_within_model(
-            along, broken, frames["time_s"], loading["time_s"], loading["work_in_J"]
+            least, broken, frames["time_s"], loading["time_s"], loading["work_in_J"]
         ),
         "max_crossings": crossings({**frames, "edges": walls}),
     }
 
 
-def stretch_over_curve(material: Material, strains: tuple[Floats, Floats]) -> float:
+def stretch_over_curve(material: Material, strains: Strains) -> float:
     """Greatest stretch for which the curve of a material gives the stress / last strain of the
-    curve.
+    curve; the stretch of surfaces counts if bending follows the curve.
 
-    NaN without a curve. strains (f, m): of the elements, and of their most stretched surfaces,
-    which count if bending follows the curve.
+    NaN without a curve.
     """
     if not material.curve_strain:
         return float("nan")
-    counted = strains[1] if material.through_fibres else strains[0]
+    counted = strains[2] if material.through_fibres else strains[1]
     return float(counted.max()) / max(material.curve_strain)

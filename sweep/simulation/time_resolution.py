@@ -23,7 +23,6 @@ with q the momentum of the lattice at the end, q^2 <= 2 m_l K_l. Damping of the 
 alpha takes alpha sum q dt of it.
 """
 
-from collections.abc import Mapping
 from math import inf, nan
 
 import numpy as np
@@ -34,9 +33,8 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime
 from sweep.scene.mesh import Floats
-from sweep.simulation.striker import closing_speed, kinetic
+from sweep.simulation.striker import Curves, closing_speed, kinetic
 
-Curves = Mapping[str, Floats]
 MOST_LOST = 0.2  # share of energy or momentum that an impact may lose to its steps
 OF_STRIKER = 0.05  # share of its energy that a striker may lose to steps of backward Euler
 LOCAL = {"backward_euler": (1, 1 / 2), "newmark": (2, 1 / 12), "bdf2": (2, 2 / 9)}

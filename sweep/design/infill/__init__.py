@@ -18,15 +18,15 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    Floats = NDArray[np.float64]
-    Drawing = list[Floats]
-    Draw = Callable[[Sequence[int], Sequence[int]], Drawing]
+Floats: TypeAlias = "NDArray[np.float64]"
+Drawing: TypeAlias = "list[Floats]"
+Draw = Callable[[Sequence[int], Sequence[int]], Drawing]
 
 
 @cache

@@ -1,14 +1,10 @@
 """Offset squares: courses of bricks; every second course has half a brick at either end."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing, Floats
+from sweep.design.infill import Drawing, Floats
 
 STAGGERED = True
 

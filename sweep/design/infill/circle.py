@@ -3,17 +3,11 @@
 Rows are not staggered: in a close packing the gaps between rings close at 15 % relative density.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 ANGLE = np.arange(13) * np.pi / 6
 CELL = 0.5 + 0.5 * np.column_stack([np.cos(ANGLE), np.sin(ANGLE)])

@@ -1,14 +1,8 @@
 """Grid at 45 degrees, clipped by the box: diamonds whose corners touch its sides."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 CELL = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5), (0.5, 0)]
 

@@ -1,14 +1,8 @@
 """Honeycomb: staggered rows of hexagons with a corner upwards; "flat": with a side upwards."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 ORIENTED = True
 STAGGERED = True

@@ -1,14 +1,8 @@
 """Kagome: triangles and hexagons between straight lines in three directions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 STAGGERED = True
 RISE = 0.75**0.5  # height of a regular triangle of side 1

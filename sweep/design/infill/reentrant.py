@@ -3,15 +3,9 @@
 Vertical walls are twice as long as the inclined ones, which rise by 30 degrees.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 ORIENTED = True
 STAGGERED = True

@@ -1,14 +1,8 @@
 """Square grid. Closed forms of its counts and its opening avoid a drawing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 CELL = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]
 

@@ -1,14 +1,8 @@
 """Triangles in rows between horizontal lines; the sides of the lattice are zigzags."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from sweep.design.infill import tile
-
-if TYPE_CHECKING:
-    from sweep.design.infill import Drawing
+from sweep.design.infill import Drawing, tile
 
 STAGGERED = True
 RISE = 0.75**0.5  # height of a regular triangle of side 1

@@ -10,7 +10,7 @@ become one.
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.drawing import TOLERANCE, Floats, Indices, pieces, welded, with_outline
+from sweep.design.drawing import TOLERANCE, Floats, Indices, connected, pieces, welded, with_outline
 
 Mask = NDArray[np.bool_]
 
@@ -59,11 +59,7 @@ def _groups(points: Floats, short: Indices, box: Floats, apart: float) -> tuple[
     """The group of every point, connected by ``short`` walls, and whether its joints on the outline
     are as far from one another as ``apart``, in width or height.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(short)), short.T), shape=(len(points),) * 2)
-    _, group = connected_components(graph, directed=False)
+    group = connected(short, len(points))
     on = _on_outline(points, box)
     low, high = np.full_like(points, np.inf), np.full_like(points, -np.inf)
     np.minimum.at(low, group[on], points[on])

@@ -14,6 +14,7 @@ from sweep.design.drawing import (
     Floats,
     clipped,
     on_outline,
+    outer_rows,
     segments_of,
     welded,
 )
@@ -38,9 +39,7 @@ def build_sliced(geometry: Geometry) -> Network:
         for side in (0.0, box[axis]):
             on = on_outline(points, walls, side, axis)
             thickness[on], gyration[on] = outline, 1.0
-    y = points[:, 1]
-    bottom, top = np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
-    return Network(points, walls, thickness, bottom, top, gyration=gyration)
+    return Network(points, walls, thickness, *outer_rows(points), gyration=gyration)
 
 
 def extruded_area(geometry: Geometry) -> float:
@@ -61,9 +60,8 @@ def drawn_over_extruded(network: Network, geometry: Geometry) -> float:
         return 0.0
     sides = [(side, axis) for axis, size in enumerate(geometry.box) for side in (0.0, size)]
     outer = np.any([on_outline(points, walls, *side) for side in sides], axis=0)
-    ends = points[walls]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    drawn = _area(geometry, ends[~outer]) + float(length[outer] @ thickness[outer])
+    along = float(network.length[outer] @ thickness[outer])
+    drawn = _area(geometry, points[walls[~outer]]) + along
     return drawn / extruded_area(geometry)
 
 
@@ -114,12 +112,9 @@ def _unturned(family: str, reach: int) -> Floats:
         ends = np.array([-2.0, 2.0]) * reach
         return np.stack([np.column_stack([np.full_like(y, x), y]) for x in ends], axis=1)
     cells = range(-reach, reach + 1)
-    points, walls = welded(segments_of(drawer(family, _upright(family))(cells, cells)), TOLERANCE)
+    draw = drawer(family, "pointy" if family == "hex" else None)
+    points, walls = welded(segments_of(draw(cells, cells)), TOLERANCE)
     return np.asarray(points[walls])
-
-
-def _upright(family: str) -> str | None:
-    return "pointy" if family == "hex" else None
 
 
 @lru_cache(maxsize=1024)

@@ -18,11 +18,9 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sweep.design.surfaces.level_set import Floats, LevelSet
-
-Ints = NDArray[np.int64]
+from sweep.design.drawing import Floats, Indices
+from sweep.design.surfaces.level_set import LevelSet
 
 ROUNDS = 30  # rounds of smoothing
 STRIDE = 0.5  # share of the way to the mean of the neighbours, in a round
@@ -75,18 +73,18 @@ class Net:
 
     box: Box
     points: Floats
-    quads: Ints
-    shift: Ints
-    wall: Ints
-    face: Ints
+    quads: Indices
+    shift: Indices
+    wall: Indices
+    face: Indices
 
     @property
-    def bottom(self) -> Ints:
+    def bottom(self) -> Indices:
         """Nodes on the plane z = 0."""
         return np.flatnonzero(self.face[:, 2] < 0)
 
     @property
-    def top(self) -> Ints:
+    def top(self) -> Indices:
         """Nodes on the plane z = height."""
         return np.flatnonzero(self.face[:, 2] > 0)
 
@@ -143,16 +141,17 @@ class Net:
         return np.asarray(0.5 * np.linalg.norm(parts, axis=2).sum(axis=1))
 
 
-def best_net(box: Box, cells: tuple[int, int, int]) -> Net:
-    """The first net of good quads, else the best one, on a grid of about so many cells.
+def best_net(box: Box, period: float, quads: int) -> Net:
+    """The first net of good quads, else the best one; about ``quads`` in a ``period`` (m).
 
     The position of the grid on the surface decides which quads meet at a node, and so how slender
     some of them are. The box of a panel may move along x and y without any other change; up to two
     more cells along each axis are tried, too.
     """
     best, good = None, GOOD if box.walls is None else GOOD_BESIDE_WALLS
+    x, y, z = (max(round(quads * side / period), 2) for side in box.size)
     for more in MORE:
-        grid = (cells[0] + more[0], cells[1] + more[1], cells[2] + more[2])
+        grid = (x + more[0], y + more[1], z + more[2])
         for place in PLACES if box.walls is None else ((0.0, 0.0),):
             start = box.phase[:, :2] @ (np.array(place) * box.size[:2] / np.array(grid[:2]))
             net = build_net(replace(box, origin=box.origin + start), grid)
@@ -184,7 +183,7 @@ def build_net(box: Box, cells: tuple[int, int, int]) -> Net:
     return _smoothed(_padded(net, side) if box.walls else net, float(step.max()))
 
 
-def _padded(net: Net, side: Ints) -> Net:
+def _padded(net: Net, side: Indices) -> Net:
     """The net with a row of quads on both sides of each curve in which the surface meets a wall.
 
     Without these, a quad with three corners on such a curve would become a triangle. side (m,): on
@@ -221,7 +220,7 @@ def _grid_values(box: Box, cells: tuple[int, int, int]) -> Floats:
     return box.value(points).reshape(cells)
 
 
-def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Ints:
+def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Indices:
     """The cells round each edge along ``axis`` that the surface cuts, (k, 4, 3).
 
     Cells are numbered along x and y of a panel without regard to the period.
@@ -239,7 +238,7 @@ def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Ints:
     return np.asarray(edges)
 
 
-def _on_walls(inside: np.ndarray, axis: int) -> tuple[Ints, Ints]:
+def _on_walls(inside: np.ndarray, axis: int) -> tuple[Indices, Indices]:
     """The cells at the corners of the quads of both walls across ``axis``, (k, 4, 3), and the side
     of the surface on which each quad is, (k,): 1 inside, else -1.
     """
@@ -274,7 +273,7 @@ def _smoothed(net: Net, cell: float) -> Net:
     return replace(net, points=points)
 
 
-def _sides(net: Net) -> tuple[Ints, Ints, Floats]:
+def _sides(net: Net) -> tuple[Indices, Indices, Floats]:
     """Both directions along each side of a quad: from node, to node, and shift of the latter in
     m.
     """

@@ -4,7 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from sweep.design.surfaces.level_set import LEVEL_SETS, Floats
+from sweep.design.drawing import Floats
+from sweep.design.surfaces.level_set import LEVEL_SETS
 from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import Box, Net, best_net
 
@@ -23,8 +24,7 @@ def net_of(name: str, turned: bool, period: float, height: float, quads: int) ->
     axes = DIAGONAL if turned else np.eye(3)
     phase = 2.0 * np.pi / period * axes.T
     box = Box(LEVEL_SETS[name], size, phase, phase[:, 2] * cut.start * period)
-    across, along, up = (max(round(quads * side / period), 2) for side in size)
-    return best_net(box, (across, along, up))
+    return best_net(box, period, quads)
 
 
 @lru_cache(maxsize=4)
@@ -38,8 +38,7 @@ def net_of_block(
     phase = 2.0 * np.pi / period * np.eye(3)
     origin = 2.0 * np.pi * np.array(SHEETS[name].corner)
     box = Box(LEVEL_SETS[name], np.array(size), phase, origin, walls)
-    across, along, up = (max(round(quads * side / period), 2) for side in size)
-    return best_net(box, (across, along, up))
+    return best_net(box, period, quads)
 
 
 def printed_thickness(line: float, layer: float, normals: Floats, along: bool) -> Floats:

@@ -8,7 +8,8 @@ from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.plates.element.shear import KAPPA
 from sweep.config.kinds.material import Material
-from sweep.scene.material import Floats, StressLaw, stress_law
+from sweep.scene.material import stress_law
+from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
 
 UNSTABLE = """\
@@ -39,9 +40,14 @@ def _elastic(material: Material, factor: float) -> sheet.Sheet:
     if material.stretch == "linear":
         return sheet.neo_hookean(factor * material.modulus)
     curve = stress_law(material)
-    slope = float(_with_slope(curve, np.zeros(1), factor)[1][0])
+
+    def instantaneous(strain: Floats) -> tuple[Floats, Floats]:
+        stress, slope = curve.with_slope(strain)
+        return factor * stress, factor * slope
+
+    at_rest = float(instantaneous(np.zeros(1))[1][0])
     try:
-        return sheet.measured(lambda e: _with_slope(curve, e, factor), curve.knots[0], slope)
+        return sheet.measured(instantaneous, curve.knots[0], at_rest)
     except ValueError as error:
         raise UnstableMaterialError(UNSTABLE) from error
 
@@ -52,12 +58,3 @@ def shear_moduli(material: Material) -> tuple[float, float]:
     """
     instant = KAPPA * law_of_sheet(material).shear_modulus
     return instant, instant / relaxation_of(material).instant
-
-
-def _with_slope(curve: StressLaw, strain: Floats, factor: float) -> tuple[Floats, Floats]:
-    """Stress and its slope (n,) in Pa at strains (n,), times ``factor``."""
-    last = len(curve.coefficients) - 1
-    piece = np.clip(np.searchsorted(curve.knots, strain, side="right") - 1, 0, last)
-    c, s = curve.coefficients[piece].T, np.clip(strain, *curve.knots[[0, -1]]) - curve.knots[piece]
-    slope = c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
-    return factor * curve.at(strain), factor * np.asarray(slope)

@@ -17,7 +17,7 @@ STRAIGHT = 1e-9  # sine of the angle below which two walls are in one plane
 UP = np.array([0.0, 0.0, 1.0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PlateMesh(ShellMesh):
     """Upright walls, divided into quads: c columns of nodes one above another.
 
@@ -27,55 +27,17 @@ class PlateMesh(ShellMesh):
     where all of its quads are in one plane, else x, y and z. Nodes are bowed by the imperfection,
     whereas sizes belong to flat quads, and triangles have alternate diagonals.
 
-    wall (m,): in the plan. level (n,): of a node. is_on (n, 2): `on`.
+    wall (m,): in the plan. level (n,): of a node.
     """
 
     plan: Plan
     wall: Ints
     level: Ints
-    is_on: np.ndarray
-
-    @property
-    def on(self) -> np.ndarray:
-        """See `ShellMesh`."""
-        return self.is_on
-
-    @property
-    def planes(self) -> Floats:
-        """See `ShellMesh`."""
-        return self.plan.planes
-
-    @property
-    def smooth_corners(self) -> Ints:
-        """A number for each pair of a node and a wall, (m, 4)."""
-        pairs = self.original[self.quads] * len(self.plan.walls) + self.wall[:, None]
-        _, place = np.unique(pairs, return_inverse=True)
-        return np.asarray(place.reshape(self.quads.shape))
-
-    @property
-    def cell(self) -> float:
-        """Mean width of the walls, m."""
-        return float(self.plan.span.mean())
-
-    @property
-    def force(self) -> float:
-        """See `ShellMesh`."""
-        return float(np.min(self.plan.thickness**3 / (12.0 * self.plan.span)))
 
     @property
     def layers(self) -> int:
         """Number of quads up the height."""
         return int(self.level.max())
-
-    @property
-    def bottom(self) -> Ints:
-        """Nodes of the lower ends of the walls."""
-        return np.flatnonzero(self.level == 0)
-
-    @property
-    def top(self) -> Ints:
-        """Nodes of the upper ends of the walls."""
-        return np.flatnonzero(self.level == self.layers)
 
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
         """Flat rectangles, without stress in the bowed shape at rest."""
@@ -131,7 +93,9 @@ def extruded(
     if amplitude is not None:
         _bow_walls(rest, plan, wall_of[inner], share[inner], amplitude, right)
     frames, flat = _frames(plan, axis, wall_of)
-    origin, shift = _images(endless, along, wall_of, points)
+    origin, shift = np.arange(len(plane)), np.zeros((len(plane), 2), np.int64)
+    if endless is not None:
+        origin, shift = endless.copied(along - 1)
     frames, flat = frames[origin], flat[origin]
     strip = columns[:, [0, 1, 1, 0]][:, None] * (layers + 1)
     quads = strip + np.array([0, 0, 1, 1]) + np.arange(layers)[:, None]
@@ -141,6 +105,9 @@ def extruded(
     wall, quads = np.repeat(of_wall, layers), quads.reshape(-1, 4)
     level = np.tile(level, len(plane))
     own = slice(None if endless is None else int(np.searchsorted(wall, endless.own)))
+    original = (origin[:, None] * (layers + 1) + np.arange(layers + 1)).ravel()
+    of_node_and_wall = original[quads[own]] * walls + wall[own][:, None]
+    _, smooth = np.unique(of_node_and_wall, return_inverse=True)
     return PlateMesh(
         plan=plan,
         height=height,
@@ -154,31 +121,18 @@ def extruded(
         directors=np.repeat(directors, layers, axis=0)[own],
         flat=np.repeat(flat, layers + 1),
         level=level,
-        is_on=np.repeat(on, layers + 1, axis=0),
+        bottom=np.flatnonzero(level == 0),
+        top=np.flatnonzero(level == layers),
+        smooth_corners=smooth.reshape(-1, 4),
+        planes=plan.planes,
+        on=np.repeat(on, layers + 1, axis=0),
+        cell=float(plan.span.mean()),
+        force=float(np.min(plan.thickness**3 / (12.0 * plan.span))),
         triangles=cut(quads, (np.repeat(number, layers) + level[quads[:, 0]]) % 2 == 0),
-        original=(origin[:, None] * (layers + 1) + np.arange(layers + 1)).ravel(),
+        original=original,
         shift=np.repeat(shift, layers + 1, axis=0),
         period=np.full(2, np.inf) if endless is None else endless.period,
     )
-
-
-def _images(endless: Endless | None, along: Ints, wall_of: Ints, joints: int) -> tuple[Ints, Ints]:
-    """The column itself or the column that it copies, (c,), and by how many periods it is moved,
-    (c, 2).
-
-    wall_of (c,): the wall of a column inside it, else -1; the first columns are the ``joints``.
-    """
-    origin, shift = np.arange(len(wall_of)), np.zeros((len(wall_of), 2), np.int64)
-    if endless is None:
-        return origin, shift
-    first = joints + np.cumsum(along - 1) - (along - 1)  # column inside each wall
-    inner = np.arange(joints, len(wall_of))
-    wall = wall_of[inner]
-    of = endless.original[wall]
-    origin[:joints], shift[:joints] = endless.origin, endless.shift
-    origin[inner] = first[of] + inner - first[wall]
-    shift[inner] = endless.shift[endless.walls[wall, 0]] - endless.shift[endless.walls[of, 0]]
-    return origin, shift
 
 
 def _bow_walls(

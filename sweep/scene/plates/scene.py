@@ -30,7 +30,7 @@ NONE = np.empty(0, np.int64)
 class Scene:
     """A case as arrays, like `scene.scene.Scene`, with plates.
 
-    Forces and energies belong to the walls in ``mesh``, one of `Plan.copies` equal parts.
+    Forces and energies belong to the walls in ``mesh``, one of `ShellMesh.copies` equal parts.
     """
 
     mesh: ShellMesh

@@ -21,7 +21,7 @@ VERTICAL = 1e-6  # sine of the angle from the vertical, below which a normal is 
 SHIFTS = [(0, 0)] + [(i, j) for i in range(-2, 3) for j in range(-2, 3) if (i, j) != (0, 0)]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SheetMesh(ShellMesh):
     """A sheet as quads. Nodes of the period come first. The axes of a node are horizontal, rising,
     and its normal; where the sheet meets a wall, or two walls meet, they are x, y and z. Sizes are
@@ -31,36 +31,6 @@ class SheetMesh(ShellMesh):
     """
 
     net: Net
-
-    @property
-    def bottom(self) -> Ints:
-        """See `ShellMesh`."""
-        return self.net.bottom
-
-    @property
-    def top(self) -> Ints:
-        """See `ShellMesh`."""
-        return self.net.top
-
-    @property
-    def capped(self) -> bool:
-        """See `ShellMesh`."""
-        return VERTICAL_AXIS in (self.net.box.walls or ())
-
-    @property
-    def smooth_corners(self) -> Ints:
-        """See `ShellMesh`."""
-        return np.asarray(4 * self.original[self.quads] + self.net.wall[:, None] + 1)
-
-    @property
-    def cell(self) -> float:
-        """Half of a period of the surface, m."""
-        return float(np.pi / np.linalg.norm(self.net.box.phase, axis=0).max())
-
-    @property
-    def force(self) -> float:
-        """See `ShellMesh`."""
-        return float(np.min(self.thickness) ** 3 / (12.0 * self.cell))
 
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> shell.Shell:
         """Quads of any shape."""
@@ -133,10 +103,7 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     """The mesh of a net whose quads have this thickness (m,) in m."""
     period, n, repeats = net.box.size[:2], len(net.points), net.box.walls is None
     copies = [np.asarray(shift) for shift in (SHIFTS if repeats else SHIFTS[:1])]
-    near = [
-        _near(net, shift) if np.any(shift != 0) else np.ones(len(net.quads), bool)
-        for shift in copies
-    ]
+    near = [_near(net, shift) for shift in copies]
     place = np.concatenate([net.shift[near[k]] + shift for k, shift in enumerate(copies)])
     node = np.concatenate([net.quads[rows] for rows in near])
     key = np.concatenate([node[..., None], place], axis=2).reshape(-1, 3)
@@ -150,6 +117,7 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
     side = np.linalg.norm(np.roll(net.corners, -1, axis=1) - net.corners, axis=2)
     own = quads[: len(net.quads)]
     frames, flat = _frames(net)
+    cell = float(np.pi / np.linalg.norm(net.box.phase, axis=0).max())  # half of a period
     directors = np.einsum("mcji,mcj->mci", frames[net.quads], net.corner_normals)
     return SheetMesh(
         height=float(net.box.size[2]),
@@ -166,6 +134,14 @@ def build_sheet(net: Net, thickness: Floats) -> SheetMesh:
         net=net,
         flat=flat[original],
         quad_area=net.area,
+        bottom=net.bottom,
+        top=net.top,
+        capped=VERTICAL_AXIS in (net.box.walls or ()),
+        smooth_corners=4 * original[own] + net.wall[:, None] + 1,
+        planes=np.full(2, np.inf),
+        on=np.zeros((len(original), 2), np.bool_),
+        cell=cell,
+        force=float(np.min(thickness) ** 3 / (12.0 * cell)),
     )
 
 
@@ -173,9 +149,7 @@ def _numbered(keys: Ints) -> tuple[Ints, Ints]:
     """Distinct rows of ``keys`` (k, 3) in the order of their first places; their numbers (k,)."""
     rows, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)
-    rank = np.empty(len(order), np.int64)
-    rank[order] = np.arange(len(order))
-    return rows[order], rank[number.ravel()]
+    return rows[order], np.argsort(order)[number.ravel()]
 
 
 def _near(net: Net, shift: Ints) -> np.ndarray:

@@ -15,7 +15,7 @@ from kernels.plates.element.shell import Shell
 from sweep.scene.mesh import Floats, Ints
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ShellMesh(ABC):
     """n nodes, m quads; the last axis of a node is the normal of its wall, if it has one wall.
 
@@ -26,7 +26,12 @@ class ShellMesh(ABC):
     each quad, then of their copies. original (n,): the node itself or, for an image, its original;
     shift (n, 2): by how many periods it is moved along x and y. period (2,), m; infinite if nothing
     repeats. quad_area (m,): of each quad, m^2. flat (n,): whether all quads of a node have one
-    tangent plane: nothing resists a turn there about its normal, the third axis.
+    tangent plane: nothing resists a turn there about its normal, the third axis. bottom, top: nodes
+    at the platens. capped: whether walls lie on the platens. smooth_corners (m, 4): a number for
+    all corners of quads that share a node and a normal there. planes (2,): places of the mirror
+    planes of x and y, m; infinite if there are none. on (n, 2): whether a node is on each of them.
+    cell: typical width of a wall, m. force: typical force over modulus, m^2: the least t^3 / (12 l)
+    of a wall of width l.
     """
 
     height: float
@@ -42,50 +47,18 @@ class ShellMesh(ABC):
     period: Floats
     quad_area: Floats
     flat: np.ndarray
-
-    @property
-    @abstractmethod
-    def bottom(self) -> Ints:
-        """Nodes at the lower platen."""
-
-    @property
-    @abstractmethod
-    def top(self) -> Ints:
-        """Nodes at the upper platen."""
-
-    @property
-    @abstractmethod
-    def smooth_corners(self) -> Ints:
-        """A number for all corners of quads that share a node and a normal there, (m, 4)."""
-
-    @property
-    @abstractmethod
-    def cell(self) -> float:
-        """Typical width of a wall, m."""
-
-    @property
-    @abstractmethod
-    def force(self) -> float:
-        """Typical force over modulus, m^2: the least t^3 / (12 l) of a wall of width l."""
+    bottom: Ints
+    top: Ints
+    capped: bool = False
+    smooth_corners: Ints
+    planes: Floats
+    on: np.ndarray
+    cell: float
+    force: float
 
     @abstractmethod
     def shells(self, x_rest: Floats, moduli: tuple[float, float]) -> Shell:
         """The shells, without stress at ``x_rest``; moduli: from `law.shear_moduli`, Pa."""
-
-    @property
-    def capped(self) -> bool:
-        """Whether walls lie on the platens."""
-        return False
-
-    @property
-    def planes(self) -> Floats:
-        """Places of the mirror planes of x and y, (2,) m; infinite if there are none."""
-        return np.full(2, np.inf)
-
-    @property
-    def on(self) -> np.ndarray:
-        """Whether a node is on the mirror plane of x and of y, (n, 2)."""
-        return np.zeros((self.n_nodes, 2), np.bool_)
 
     @property
     def copies(self) -> int:

@@ -27,8 +27,7 @@ class Unfolded:
     def positions(self, part: Floats) -> Floats:
         """Positions (f, N, 3) in m from the positions of the part, (f, n, 3)."""
         whole = part[:, self.node]
-        if np.isfinite(self.planes).all():
-            whole[..., :2] = np.where(self.at, 2.0 * self.planes - whole[..., :2], whole[..., :2])
+        whole[..., :2] = np.where(self.at, 2.0 * self.planes - whole[..., :2], whole[..., :2])
         return whole
 
 

@@ -32,11 +32,7 @@ class Nominal:
 
     def __call__(self, strain: Floats) -> tuple[Floats, Floats]:
         """Stress and slope (n,) in Pa at strains (n,)."""
-        law, last = self.law, len(self.law.coefficients) - 1
-        piece = np.clip(np.searchsorted(law.knots, strain, side="right") - 1, 0, last)
-        c = law.coefficients[piece].T
-        s = np.clip(strain, law.knots[0], law.knots[-1]) - law.knots[piece]
-        return law.at(strain), c[1] + s * (2.0 * c[2] + s * 3.0 * c[3])
+        return self.law.with_slope(strain)
 
 
 def nominal(name: str) -> Nominal:

@@ -18,15 +18,13 @@ from sweep.scene.material import (
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER, RUBBERS
 
-NAMES = RUBBERS
-
 
 def polynomial(law):
     """The law as scipy evaluates it."""
     return PPoly(law.coefficients[:, ::-1].T, law.knots)
 
 
-@pytest.fixture(params=NAMES)
+@pytest.fixture(params=RUBBERS)
 def material(request):
     return material_with(name=request.param)
 
@@ -74,25 +72,6 @@ def test_tension_is_the_shape_preserving_cubic_of_scipy(material):
     assert polynomial(law)(strain) == pytest.approx(
         CubicHermiteSpline(knots, values, slopes)(strain), rel=1e-12
     )
-
-
-def test_slopes_of_a_record_that_falls_and_rises_are_those_of_scipy(own_record):
-    path = own_record(HEADER + "0.01,2e4\n0.05,1e5\n0.1,8e4\n0.2,8e4\n0.3,9e5\n0.31,8e5\n0.5,8e6\n")
-    law = stress_law(material_with(name=str(path)))
-    knots = law.knots[law.knots >= 0.0]
-    slopes = PchipInterpolator(knots, polynomial(law)(knots)).derivative()(knots)
-    assert polynomial(law)(knots[2:], 1) == pytest.approx(slopes[2:], rel=1e-12)
-    assert slopes[3:6] == pytest.approx(0.0)
-
-
-def test_stress_and_tangent_are_continuous(material):
-    law = stress_law(material)
-    width = np.diff(law.knots)[:-1]
-    c0, c1, c2, c3 = law.coefficients.T
-    stress = c0[:-1] + width * (c1[:-1] + width * (c2[:-1] + width * c3[:-1]))
-    tangent = c1[:-1] + width * (2 * c2[:-1] + width * 3 * c3[:-1])
-    assert stress == pytest.approx(c0[1:], rel=1e-9, abs=1e-6)
-    assert tangent == pytest.approx(c1[1:], rel=1e-9)
 
 
 def test_toe_is_straight(material):

@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.simulation.between_rows import CURVE, between_rows
 
 
 def curve(strain, force, height=0.02):
     """A crush with this force (N), and the work of the trapezoidal rule."""
-    work = np.concatenate(
-        [[0.0], np.cumsum(0.5 * np.diff(strain) * height * (force[1:] + force[:-1]))]
-    )
+    work = cumulative_trapezoid(force, height * strain, initial=0.0)
     return dict(zip(CURVE, (strain, strain * height, force, 0.9 * force, work), strict=True))
 
 

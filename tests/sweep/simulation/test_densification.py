@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.config.case import Case
 from sweep.simulation.densification import BAND, efficiency, near_maxima, packed_row, span, weights
@@ -23,11 +24,10 @@ OLD = (
 
 def measured(force, names=NEW):
     """Columns of a crush with this force (N) at `STRAIN`."""
-    steps = 0.5 * (force[1:] + force[:-1]) * np.diff(STRAIN) * HEIGHT
     loading = {
         "strain": STRAIN,
         "top_displacement_m": STRAIN * HEIGHT,
-        "work_in_J": np.append(0.0, np.cumsum(steps)),
+        "work_in_J": cumulative_trapezoid(force, HEIGHT * STRAIN, initial=0.0),
         "reaction_top_N": force,
         "reaction_bottom_N": force,
     }
@@ -37,8 +37,7 @@ def measured(force, names=NEW):
 
 def gained(force):
     """Efficiency of a crush with this force (N) at `STRAIN`."""
-    work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(STRAIN)))
-    return efficiency(force / AREA, work / AREA)
+    return efficiency(force / AREA, cumulative_trapezoid(force, STRAIN, initial=0.0) / AREA)
 
 
 def two_rows(second):
@@ -84,7 +83,7 @@ def slope(force):
     For a mean of x: the bound of x itself, and range of x times change of the weights / their
     integral.
     """
-    eta, work = gained(force), np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * 1e-3))
+    eta, work = gained(force), cumulative_trapezoid(force, STRAIN, initial=0.0)
     near = eta > (1.0 - BAND) * eta.max()
     peak = np.maximum.accumulate(force)
     change = (2.0 - BAND) * (2.0 * STRAIN / peak.clip(1e-9))[near].max()  # of a weight

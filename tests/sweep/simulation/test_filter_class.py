@@ -4,6 +4,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.simulation.filter_class import filtered, filtered_force, filtered_peak
 
@@ -15,8 +16,7 @@ def half_sine(duration, step, height=100.0):
     """Time and velocity of a striker that a half sine of ``height`` (m/s^2) stops and lifts."""
     time = np.arange(0.0, 1.5 * duration, step)
     pulse = np.where(time < duration, height * np.sin(pi * time / duration), 0.0)
-    moved = np.append(0.0, np.cumsum(0.5 * (pulse[1:] + pulse[:-1]) * np.diff(time)))
-    return time, moved - 1.0
+    return time, cumulative_trapezoid(pulse, time, initial=0.0) - 1.0
 
 
 def recursion(signal, step):

@@ -10,7 +10,7 @@ from sweep.config.case import Case
 from sweep.scene.plates.scene import build_scene
 from sweep.simulation.plate_shapes import plate_frames
 from sweep.simulation.simulate import simulate
-from sweep.simulation.summary import plate_columns
+from sweep.simulation.summary import shape_columns
 from tests.support.designs.tables import material_with
 
 LINEAR = material_with(name="ultimaker_tpu95a", stretch="linear")
@@ -98,7 +98,7 @@ def test_energy_within_the_model_ends_where_walls_fill_the_area(stroke, within):
     frames = plate_frames(x, np.zeros(2), np.zeros(2), scene)
     strain = np.linspace(0.0, stroke, 50)
     loading = {"strain": strain, "work_in_J": 2.0 * strain}
-    columns = plate_columns(tube(), scene, frames, (flat, flat, flat), loading)
+    columns = shape_columns(tube(), scene, frames, (flat, flat, flat), loading)
     assert columns["absorbed_energy_within_model_J"] == pytest.approx(within)
 
 

@@ -181,12 +181,3 @@ def test_crossings_where_rounding_would_tell():
     edges = np.arange(12).reshape(6, 2)
     for shape in shapes:
         assert crossings(frames(shape, edges=edges)) == crossings_by_shapely([shape], edges)
-
-
-def test_kept_area_of_walls_of_two_thicknesses():
-    """The thicker wall covers the thinner one when it lies on it."""
-    apart = [[0, 0], [10, 0], [0, 1], [10, 1]]
-    over = [[0, 0], [10, 0], [0, 0], [10, 0]]
-    cell = frames(apart, over, edges=[[0, 1], [2, 3]])
-    cell["edge_thickness_m"] = np.array([0.1, 0.3])
-    assert kept_area(cell) == pytest.approx(0.75, abs=5e-3)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.config.case import Case
 from sweep.scene.loading import CycleRows
@@ -24,8 +25,7 @@ STEP = 1e-3  # strain of a row
 
 def worked(strain, force):
     """Work (J) of the trapezoidal rule, (rows,)."""
-    mean = 0.5 * (force[1:] + force[:-1])
-    return np.append(0.0, np.cumsum(mean * np.diff(strain) * HEIGHT))
+    return cumulative_trapezoid(force, HEIGHT * strain, initial=0.0)
 
 
 def crushed(strains, forces):
@@ -178,7 +178,8 @@ def test_nothing_comes_back_where_no_platen_moves_back(loading, rows):
 def test_stretch_is_compared_with_the_end_of_the_measured_curve():
     curve = {"curve_strain": (-0.9, 0.01, 0.1, 0.4), "curve_stress": (-9e6, 1e5, 1e6, 3e6)}
     given = curve | {"name": "mine", "modulus": 1e7, "density": 1200.0}
-    strains = np.array([[0.0, 0.1], [-0.8, 0.2]]), np.array([[0.0, 0.3], [0.5, 0.2]])
+    along, surface = np.array([[0.0, 0.1], [-0.8, 0.2]]), np.array([[0.0, 0.3], [0.5, 0.2]])
+    strains = along, along, surface
     assert stretch_over_curve(material_with(**given), strains) == pytest.approx(0.5 / 0.4)
     taut = material_with(**given, bend="linear")
     assert stretch_over_curve(taut, strains) == pytest.approx(0.2 / 0.4)

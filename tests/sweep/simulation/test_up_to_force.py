@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
 from sweep.simulation.up_to_force import absorbed_until, stroke_until
 
 STRAIN = np.linspace(0.0, 0.6, 601)
 FORCE = np.interp(STRAIN, [0.0, 0.1, 0.5, 0.6], [0.0, 10.0, 10.0, 50.0])
-WORK = np.append(0.0, np.cumsum(0.5 * (FORCE[1:] + FORCE[:-1]) * np.diff(STRAIN) * 10e-3))
+WORK = cumulative_trapezoid(FORCE, 10e-3 * STRAIN, initial=0.0)
 
 
 def test_absorbed_until_a_force():

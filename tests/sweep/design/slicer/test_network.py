@@ -4,9 +4,8 @@ from math import radians
 
 import numpy as np
 import pytest
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from sweep.design.drawing import connected
 from sweep.design.geometry import Geometry
 from sweep.design.lattice import build_network
 from sweep.design.slicer.network import extruded_area, infill
@@ -66,10 +65,8 @@ def test_networks_are_in_one_piece_and_have_no_slivers(pattern, angle, share):
     drawn = geometry(pattern, share, angle)
     network = build_network(drawn)
     points, walls = network.points, network.walls
-    graph = coo_array((np.ones(len(walls)), walls.T), shape=(len(points),) * 2)
-    assert connected_components(graph, directed=False)[0] == 1
-    ends = points[walls]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    assert not connected(walls, len(points)).any()
+    ends, length = points[walls], network.length
     beside = np.any((ends == 0.0) | (ends == 20e-3), axis=(1, 2))
     assert length.min() >= LINE
     assert length[beside].min() > (2.0 - 1e-6) * LINE  # a line beside half of two perimeters

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case
-from sweep.config.kinds.table import TABLES
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
 from sweep.scene.plates.mesh import build_mesh
@@ -12,9 +10,7 @@ from tests.support.designs.plates import BOX, T, along
 
 
 def built(platen="glued", model="auto", **lattice):
-    case = along(platen, **lattice)
-    tables = {name: getattr(case, name) for name in TABLES}
-    case = Case.of(**tables | {"contact": dict(model=model)})
+    case = along(platen, **lattice).changed(contact=dict(model=model))
     mesh = build_mesh(case.lattice)
     return mesh, contact_of(mesh, Numbering(mesh.n_nodes), case), mirror_of(mesh, case)
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from sweep.config.case import Case
 from sweep.design.upright_plan import plan_of, quads_along
 from sweep.scene.plates.mesh import build_mesh, extruded
 from tests.support.designs.plates import BOX, FAMILIES, T, along, network
@@ -85,8 +84,6 @@ def test_triangles_cover_the_quads_and_share_their_edges(mesh):
     wanted = np.where(on_end, 1, 2)
     wanted[at_joint] = arms[column[at_joint, 0]]
     assert np.array_equal(uses, wanted)
-    faces = len(mesh.triangles)
-    assert 3 * faces == uses.sum()
 
 
 def test_a_wall_through_a_straight_joint_is_one_plane():
@@ -111,7 +108,6 @@ def test_custom_structure_has_its_own_subdivision(tmp_path):
     )
     case = along(kind="custom", file=str(file), wall_thickness=0.45e-3)
     mesh = build_mesh(case.lattice)
-    assert isinstance(case, Case)
     assert (mesh.wall == 0).sum() == 5 * mesh.layers
     assert (mesh.wall == 1).sum() == 2 * mesh.layers
     assert mesh.height == 7e-3

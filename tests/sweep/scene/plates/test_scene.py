@@ -6,16 +6,13 @@ import pytest
 from kernels.plates.element import shell
 from kernels.solve.problem import HELD, LED, TIED
 from sweep.config.case import Case
-from sweep.config.kinds.table import TABLES
 from sweep.scene.plates.scene import build_scene
 from tests.support.designs.plates import along
 
 
 def struck(platen="glued", **lattice):
-    case = along(platen, **lattice)
-    tables = {name: getattr(case, name) for name in TABLES}
     loading = dict(direction="out_of_plane", mode="impact", platen=platen, striker_mass=0.02)
-    return build_scene(Case.of(**tables | {"loading": loading, "solver": {}}))
+    return build_scene(Case.of(lattice=along(**lattice).lattice, loading=loading))
 
 
 @pytest.fixture(scope="module")
