@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case, Draft, complete
 from sweep.config.cases import Cases
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, in_words
 from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
@@ -121,9 +121,7 @@ def sweep_of(cases: Config | Iterable[Case]) -> Config:
 
 
 def _no_sweep(source: object, needed: str) -> ConfigError:
-    text = json.dumps(source, default=repr)
-    text = text if len(text) <= 60 else f"{text[:57]}..."
-    return ConfigError([Fault("cases", f"{text} is no sweep; needed: {needed}")])
+    return ConfigError([Fault("cases", f"{in_words(source)} is no sweep; needed: {needed}")])
 
 
 def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:

@@ -1,12 +1,8 @@
-"""Reads a TOML document, table by table, into a sweep; every fault becomes one line.
+"""Reads a TOML document, table by table, into a sweep; every fault becomes one line."""
 
-The reader knows no units: its caller passes the conversion.
-"""
-
-import json
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +10,7 @@ from pydantic import ValidationError
 
 from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.faults import SHOWN, Fault, MisfitError
+from sweep.config.faults import SHOWN, Fault, MisfitError, in_words, one_line
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.lattice import KINDS, Lattice
@@ -32,6 +28,7 @@ from sweep.config.profiles.settings import NEEDED
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import CHOICES, meant, present_choice, with_words
 from sweep.config.structures.structure_file import StructureError
+from sweep.config.units import in_si
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -61,12 +58,10 @@ class Reader:
     """Turns a document into a config and collects its faults.
 
     folder: the folder of the document, to which paths in it are relative.
-    to_si(quantity, unit): converts a quantity to an SI unit.
     """
 
-    def __init__(self, folder: Path, to_si: Callable[[Any, str], float]) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.to_si = to_si
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
         self.meant: Counter[str] = Counter()  # the keys nearest to unknown ones
@@ -371,9 +366,9 @@ class Reader:
             return self._structure_path(raw)
         raw = present_choice(key.targets[0], raw)
         if key.targets == ("loading.preset",) and isinstance(raw, str):
-            return drop_tests.in_si(raw, self.to_si)
+            return drop_tests.in_si(raw)
         many = isinstance(raw, list)
-        value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
+        value: Any = [_in_si(key, v) for v in raw] if many else _in_si(key, raw)
         try:
             checked = key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:
@@ -395,18 +390,17 @@ class Reader:
         self.notes += [f"{raw}: {note}" for note in self.of_file.check_file(path)]
         return str(path.resolve())
 
-    def _in_si(self, key: Key, raw: Any) -> Any:
-        """One value without its unit, if its key has one."""
-        if is_range(raw):
-            raise MisfitError(IN_SEARCH)
-        bare = key.bare and isinstance(raw, int | float)
-        if bare and raw > key.bare_most:
-            raise MisfitError(
-                f"a bare number above {key.bare_most:g}, which may be meant in percent"
-            )
-        if key.bare and isinstance(raw, str) and _is_number(raw):
-            raise MisfitError("a number in quotes, without a unit")
-        return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+def _in_si(key: Key, raw: Any) -> Any:
+    """One value without its unit, if its key has one."""
+    if is_range(raw):
+        raise MisfitError(IN_SEARCH)
+    bare = key.bare and isinstance(raw, int | float)
+    if bare and raw > key.bare_most:
+        raise MisfitError(f"a bare number above {key.bare_most:g}, which may be meant in percent")
+    if key.bare and isinstance(raw, str) and _is_number(raw):
+        raise MisfitError("a number in quotes, without a unit")
+    return in_si(raw, key.unit) if key.unit and not bare else raw
 
 
 def _is_number(text: str) -> bool:
@@ -502,14 +496,3 @@ def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
 
 def _table(key: str) -> str:
     return key.split(".")[0]
-
-
-def in_words(raw: object) -> str:
-    """A value as TOML writes it, on one line of at most 60 characters."""
-    text = json.dumps(raw, default=str, ensure_ascii=False)
-    return one_line(text if len(text) <= 60 else f"{text[:57]}...")
-
-
-def one_line(text: str) -> str:
-    """A text with a question mark for each character that is not printable."""
-    return "".join(char if char.isprintable() else "?" for char in text)

@@ -10,7 +10,6 @@ from sweep.config.grid import expanded
 from sweep.config.load import load_config
 from sweep.config.reading.examples import examples
 from sweep.config.reading.reader import Reader
-from sweep.config.units import in_si
 
 FOLDER = Path(__file__).parent / "ids"
 FROZEN = [json.loads(line) for line in (FOLDER / "configs.jsonl").read_text("utf-8").splitlines()]
@@ -20,7 +19,7 @@ EXAMPLES = json.loads((FOLDER / "examples.json").read_text("utf-8"))
 def ids(tables):
     """The ids of a config; names of files in it are relative to the folder of the frozen ids."""
     lists = {name: [table] if name == "exclude" else table for name, table in tables.items()}
-    reader = Reader(FOLDER, in_si)
+    reader = Reader(FOLDER)
     found = reader.config(lists, FOLDER / "frozen.toml")
     assert reader.faults == []
     return [case.case_id for case in expanded(found.recipe)[0]]

@@ -2,7 +2,8 @@
 
 import pytest
 
-from sweep.config.keys import QUANTITIES, case_keys, nearest, table_keys
+from sweep.config.keys import case_keys, nearest, table_keys
+from sweep.config.units import QUANTITIES
 from sweep.design.infill import families
 from sweep.design.surfaces.names import SHEETS
 
