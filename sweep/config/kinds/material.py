@@ -27,6 +27,7 @@ from sweep.config.materials.material_file import (
 )
 
 BY_NUMBERS = "by numbers"
+NUMBERS = ("modulus", "density", "poisson", "reference_time")  # that every record has
 SOFTENING_BETA = 0.1
 FIBRE_COUNT = 7
 FIBRES = '"section" or "fibres"'
@@ -162,52 +163,44 @@ def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
     """The values of a complete material, to which a change may have added a memory."""
     usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in inputs else {}
     if relaxes(inputs) and "reference_time" not in inputs:
-        usual["reference_time"] = read_record(locate(inputs["name"])).reference_time
+        by_numbers = inputs["name"] == BY_NUMBERS
+        record = None if by_numbers else read_record(locate(inputs["name"]))
+        usual["reference_time"] = record.reference_time if record else REFERENCE_TIME
     return usual | inputs
 
 
 def _completed(own: Inputs) -> dict[str, Any]:
-    """The values, completed by the record, and the defaults that follow from both."""
+    """The values, completed by the record if there is one, which else are linear, and by the
+    defaults that follow from both; without keys that have no effect.
+    """
     by_numbers = "modulus" in own and "name" not in own
     record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
     inputs = _with_memory(dict(own), record)
+    usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA, "hardening": 0.0}
+    usual["fibres"] = FIBRE_COUNT
     if record is not None:
         inputs = dict(record.plasticity) | inputs
-    if not relaxes(inputs):
-        inputs = {**inputs, "reference_time": None}
-    if "softening_r" in inputs:
-        inputs = {"softening_beta": SOFTENING_BETA, **inputs}
+        usual |= {key: getattr(record, key) for key in NUMBERS}
+    elif "density" in inputs:
+        usual |= {"name": BY_NUMBERS, "stretch": "linear", "reference_time": REFERENCE_TIME}
     else:
-        inputs = {**inputs, "softening_m": None, "softening_beta": None}
-    inputs = _with_plasticity(inputs)
-    if record is None:
-        return _by_numbers(inputs)
-    return _of_record(record, _with_law(inputs), own)
-
-
-def _by_numbers(inputs: dict[str, Any]) -> dict[str, Any]:
-    """A material without a record, which is linear."""
-    if "density" not in inputs:
         raise RefusedError("material.density", None, "a density, as no name is given")
-    usual = {"reference_time": REFERENCE_TIME} if relaxes(inputs) else {}
-    return _with_law({"name": BY_NUMBERS, "stretch": "linear", **usual, **inputs})
-
-
-def _with_law(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The values with the law of bending, which is linear for a linear material."""
-    linear = inputs.get("stretch", "nonlinear") == "linear"
-    return {"bend": "linear", **inputs} if linear else inputs
-
-
-def _of_record(record: Record, inputs: dict[str, Any], own: Inputs) -> dict[str, Any]:
-    """The values with the numbers and the curve of a record."""
-    numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(inputs) else []))
-    record_values = {key: getattr(record, key) for key in numbers}
-    laws = [inputs.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
-    if inputs["hardening"] is None and by_curve(*laws):
-        record_values |= {"curve_strain": record.strain, "curve_stress": record.stress}
-    uncertain = _uncertain(record, own, {**record_values, **inputs})
-    return {**record_values, **inputs, "name": record.name, "uncertain": uncertain}
+    softens, yields = "softening_r" in inputs, "yield_stress" in inputs
+    if yields:
+        usual |= {"stretch": "linear", "bend": "fibres"}
+    elif (usual | inputs).get("stretch") == "linear":
+        usual |= {"bend": "linear"}
+    values = usual | inputs
+    used = {"reference_time": relaxes(values), "fibres": values.get("bend") == "fibres"}
+    used |= dict.fromkeys(("softening_m", "softening_beta"), softens)
+    used |= dict.fromkeys(("hardening", "fracture_strain"), yields)
+    values = {key: value for key, value in values.items() if used.get(key, True)}
+    if record is None:
+        return values
+    laws = [values.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
+    if by_curve(*laws) and not yields:
+        values |= {"curve_strain": record.strain, "curve_stress": record.stress}
+    return values | {"name": record.name, "uncertain": _uncertain(record, own, values)}
 
 
 def _check_relaxation(material: Material) -> None:
@@ -314,14 +307,3 @@ def _uncertain(
     if record.derived and "curve_strain" in values:
         used, ranges[record.derived] = [*used, record.derived], RULES[record.derived]
     return tuple((key, *ranges[key]) for key in used)
-
-
-def _with_plasticity(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The given keys with the defaults of fibres and of a material that yields."""
-    if inputs.get("yield_stress") is not None:
-        inputs = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **inputs}
-    else:
-        inputs = {**inputs, "hardening": None, "fracture_strain": None}
-    if inputs.get("bend") == "fibres":
-        return {"fibres": FIBRE_COUNT, **inputs}
-    return {**inputs, "fibres": None}
