@@ -112,21 +112,6 @@ class Cells(WallLattice):
         return self.needs.get(key, f'lattice.kind is "{self.kind}"')
 
     @property
-    def name(self) -> str:
-        """The family of its cells."""
-        return self.kind
-
-    @property
-    def endless(self) -> bool:
-        """Whether this is one period of an endless lattice."""
-        return self.boundary == "periodic"
-
-    @property
-    def tied_sides(self) -> bool:
-        """Whether its left and right sides are tied to each other."""
-        return self.sides == "periodic"
-
-    @property
     def geometry(self) -> Geometry:
         """The numbers that define the drawing."""
         return Geometry(
@@ -144,16 +129,6 @@ class Cells(WallLattice):
         )
 
     @property
-    def line(self) -> float:
-        """Width of a line, m."""
-        return self.line_width or self.nozzle
-
-    @property
-    def line_printed(self) -> float:
-        """Width of a line, m."""
-        return self.line
-
-    @property
     def walls_printed(self) -> tuple[float, ...]:
         """Thicknesses of all rows of walls, m."""
         if self.grading == 1.0:
@@ -165,7 +140,7 @@ class Cells(WallLattice):
     @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
-        sides = self.perimeters * self.line if self.perimeters else 0.0
+        sides = self.perimeters * self.line_printed if self.perimeters else 0.0
         return sides, self.solid_layers * (self.layer_height or 0.0) or sides
 
     @property
@@ -206,7 +181,7 @@ def _lines(lattice: Cells) -> dict[str, Any]:
     turned = trait(lattice.kind, "ORIENTED")
     return {
         "orientation": (lattice.orientation or "pointy") if turned else None,
-        "line_width": lattice.line if lines else None,
+        "line_width": lattice.line_printed if lines else None,
         "layer_height": (lattice.layer_height or LAYER_HEIGHT) if lattice.solid_layers else None,
     }
 
@@ -217,7 +192,7 @@ def _filled(lattice: Cells, share: float, inputs: Inputs) -> dict[str, Any]:
         raise RefusedError("lattice.mass", lattice.mass, "none where lattice.infill is given")
     from sweep.design.sizing import cells_for
 
-    width = lattice.line
+    width = lattice.line_printed
     reason = f"as lattice.infill is {100 * share:g} %; give one of them"
     _check_follows("wall_thickness", width, f"{width:g} m, {reason}", inputs)
     thin = lattice.model_copy(update={"wall_thickness": width})

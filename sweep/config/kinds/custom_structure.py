@@ -46,7 +46,6 @@ class CustomStructure(Specimen):
     )
     across: ClassVar[dict[str, Any]] = Specimen.across | {"imperfection": 0.0}
     kind: ClassVar[str] = CUSTOM
-    name: ClassVar[str] = CUSTOM
     cells_x: ClassVar[int] = 1
     cells_y: ClassVar[int] = 1
 

@@ -66,11 +66,6 @@ class Surface(Specimen):
         return False
 
     @property
-    def name(self) -> str:
-        """The name of the surface."""
-        return self.sheet
-
-    @property
     def tied_sides(self) -> bool:
         """Its sides repeat."""
         return True

@@ -136,11 +136,6 @@ class Sliced(WallLattice):
         return value == self.solid_layers if key == "solid_layers" else super().implies(key, value)
 
     @property
-    def name(self) -> str:
-        """The slicer's own name of the pattern."""
-        return self.pattern
-
-    @property
     def printed_as(self) -> Pattern:
         """The pattern."""
         return PATTERNS[self._pattern]
@@ -170,16 +165,6 @@ class Sliced(WallLattice):
         over the distance of parallel walls.
         """
         return spread_lines(self.slicer, self.fill_multiline) * self.line
-
-    @property
-    def line_printed(self) -> float:
-        """Width of a line, m."""
-        return self.line_width
-
-    @property
-    def walls_printed(self) -> tuple[float, ...]:
-        """None: its walls are lines."""
-        return ()
 
     @property
     def gap_printed(self) -> float:

@@ -146,16 +146,6 @@ class SlicedSheet(Surface):
         return _is_turned(self.fill_angle, self.pressed == ALONG)
 
     @property
-    def name(self) -> str:
-        """The slicer's own name of the pattern."""
-        return self.pattern
-
-    @property
-    def walls_printed(self) -> tuple[float, ...]:
-        """None: its walls are lines."""
-        return ()
-
-    @property
     def extruded(self) -> float:
         """Volume as printed, m^3."""
         sheet = SHEETS[self.sheet].steep * super().extruded

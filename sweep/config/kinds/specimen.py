@@ -100,9 +100,9 @@ class Specimen(Table):
         return []
 
     @property
-    @abstractmethod
     def name(self) -> str:
-        """Its name for people."""
+        """Its name for people: the slicer's own name of its pattern, or its kind."""
+        return str(self.value("pattern") or self.value("kind"))
 
     @property
     def loaded(self) -> Structure | None:
@@ -139,12 +139,12 @@ class Specimen(Table):
     @property
     def line_printed(self) -> float:
         """Width of a line, m."""
-        return self.nozzle
+        return float(self.value("line_width") or self.nozzle)
 
     @property
     def walls_printed(self) -> tuple[float, ...]:
-        """Thicknesses of walls that have to be whole numbers of lines, m."""
-        return (self.wall_thickness,)
+        """Thicknesses of walls that have to be whole numbers of lines, m; not of a slicer's."""
+        return () if self.value("slicer") else (self.wall_thickness,)
 
     @property
     def gap_printed(self) -> float | None:
@@ -154,12 +154,12 @@ class Specimen(Table):
     @property
     def endless(self) -> bool:
         """Whether this is one period of an endless lattice."""
-        return False
+        return bool(self.value("boundary") == "periodic")
 
     @property
     def tied_sides(self) -> bool:
         """Whether its left and right sides are tied to each other."""
-        return False
+        return bool(self.value("sides") == "periodic")
 
     @property
     def sheet(self) -> str:
