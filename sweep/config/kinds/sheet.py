@@ -211,11 +211,6 @@ class Sheet(Surface):
         """Why walls of these values are a sheet."""
         return f'lattice.kind is "{inputs["kind"]}"'
 
-    def inputs(self) -> dict[str, Any]:
-        """The values from which this follows: the mass or the wall thickness."""
-        without = "wall_thickness" if self.mass is not None else ""
-        return {key: value for key, value in super().inputs().items() if key != without}
-
     @property
     def sheet(self) -> str:
         """The name of the surface."""
