@@ -41,16 +41,13 @@ def solver(
         raise RefusedError("solver.integrator", ARCS, allowed)
     if body.shells:
         settings = ALONG | {key: value for key, value in inputs.items() if key not in IDLE_ALONG}
-    arcs = settings.get("integrator") == ARCS
-    steps = settings, loading, body, material.modulus, by_position
-    solver = _arcs(settings, body.diagonal) if arcs else _steps(*steps)
+    if settings.get("integrator") == ARCS:
+        usual = {"arc_length": body.diagonal / settings.get("load_steps", LOAD_STEPS)}
+        solver: Solver = Arcs.model_validate(usual | own_values(settings, Arcs))
+    else:
+        solver = _steps(settings, loading, body, material.modulus, by_position)
     _check_count(solver, loading, material, inputs.get("time_step"))
     return solver
-
-
-def _arcs(settings: dict[str, Any], diagonal: float) -> Arcs:
-    usual = diagonal / settings.get("load_steps", LOAD_STEPS)
-    return Arcs.model_validate({"arc_length": usual} | own_values(settings, Arcs))
 
 
 def _steps(
