@@ -86,11 +86,6 @@ class CustomStructure(Specimen):
         return []
 
     @property
-    def loaded(self) -> Structure:
-        """The structure."""
-        return self.structure
-
-    @property
     def network(self) -> "Network":
         """Centre lines and thickness of the walls, m; there are no bottom and top rows."""
         import numpy as np

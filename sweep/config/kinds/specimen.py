@@ -2,7 +2,6 @@
 
 from abc import abstractmethod
 from math import isclose, isnan
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -94,11 +93,6 @@ class Specimen(Table):
         """Why walls of these values are a sheet; empty if they are none."""
         return ""
 
-    @classmethod
-    def check_file(cls, path: Path) -> list[str]:
-        """Refuse a file that cannot be read; else return sentences about its content."""
-        return []
-
     @property
     def name(self) -> str:
         """Its name for people: the slicer's own name of its pattern, or its kind."""
@@ -107,7 +101,8 @@ class Specimen(Table):
     @property
     def loaded(self) -> Structure | None:
         """The structure, if its file has the loads too."""
-        return None
+        structure: Structure | None = self.value("structure")
+        return structure
 
     @property
     def network(self) -> "Network":

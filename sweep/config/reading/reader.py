@@ -13,7 +13,8 @@ from sweep.config.axis import Choice, Interval, Written
 from sweep.config.faults import SHOWN, Fault, MisfitError, in_words, one_line
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
-from sweep.config.kinds.lattice import KINDS, Lattice
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
@@ -36,7 +37,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
-FILED = [kind for kind in KINDS if "file" in kind.model_fields]  # lattices of a `lattice.file`
+FILED = (CustomStructure, Drawn)  # lattices of a `lattice.file`
 PROFILE = "lattice.profile"
 OF_A_PATTERN = ("slicer", "pattern", "infill", "fill_angle", "fill_multiline")
 NAMELESS = "unnamed"  # the name of a config that has neither a name nor a file
@@ -66,7 +67,7 @@ class Reader:
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
         self.meant: Counter[str] = Counter()  # the keys nearest to unknown ones
         self.notes: list[str] = []
-        self.of_file: type[Lattice] | None = FILED[0]  # whose `lattice.file` is read, if any
+        self.of_file: type[CustomStructure | Drawn] | None = FILED[0]  # reads `lattice.file`
 
     def config(self, document: dict[str, Any], path: Path | None) -> Config:
         """The config of a whole document, without its cases; path: of its file, if it has one."""
