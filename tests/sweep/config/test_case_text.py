@@ -44,12 +44,6 @@ def test_every_lattice_is_kept_under_every_loading(lattice, loading):
     assert_kept(Case.of(lattice=lattice, loading=loading, material=dict(loss=0.4), axes=LABELS))
 
 
-def test_periods_and_quarters_are_kept():
-    crush = dict(mode="displacement", strain=0.3)
-    assert_kept(Case.of(lattice=dict(boundary="periodic"), loading=crush))
-    assert_kept(Case.of(lattice=dict(symmetry="quarter"), loading=LOADINGS["along"]))
-
-
 def test_no_file_is_read(monkeypatch, tmp_path):
     texts = [CUSTOM.to_json(), Case.of(material=dict(name="cheetah")).to_json()]
     monkeypatch.setattr(material_file, "FOLDER", tmp_path)

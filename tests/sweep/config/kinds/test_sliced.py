@@ -190,16 +190,6 @@ def test_several_lines_of_cura_stay_where_one_is():
         Case.of(lattice=BOX | {"infill": 0.2, "fill_multiline": 6})
 
 
-@pytest.mark.parametrize(
-    ("name", "pattern"),
-    [("2DLattice", "lateral-lattice"), ("Lateral Lattice", "lateral-lattice"),
-     ("2dhoneycomb", "lateral-honeycomb")],
-)  # fmt: skip
-def test_a_prism_in_the_layers_has_older_names(load, name, pattern):
-    (case,) = load(LATERAL.replace("lateral-lattice", name)).cases
-    assert case.lattice.name == case.lattice.pattern == pattern
-
-
 @pytest.mark.parametrize("pattern", ["lateral-lattice", "lateral-honeycomb"])
 def test_a_prism_in_the_layers_has_them_up_the_height(pattern):
     """Solid layers at the bottom and top begin where the infill ends."""
