@@ -101,8 +101,7 @@ def _by_position(loading: Loading, body: Body, integrator: str) -> ByPosition:
         (body.tied_sides, TIED),
     ):
         if excluded:
-            allowed = f'"none" or "barrier" {where}'
-            raise RefusedError("contact.model", "position_based", allowed)
+            raise RefusedError("contact.model", "position_based", f'"none" or "barrier" {where}')
     if integrator != "backward_euler":
         only = '"backward_euler" if contact.model is "position_based"'
         raise RefusedError("solver.integrator", integrator, only)

@@ -114,7 +114,7 @@ class CustomStructure(Specimen):
         """Refuse parts other than walls; where: why the walls stand upright, in words."""
         if unfit := self.structure.beside_walls:
             allowed = f"a file without {', '.join(unfit)} {where}: its walls stand on platens"
-            raise RefusedError("lattice.file", self.file, allowed)
+            raise self.refusal("file", allowed)
 
     @property
     def walls_printed(self) -> tuple[float, ...]:

@@ -78,6 +78,7 @@ class Material(Table):
     (`sweep.scene.material`) that make it soft and stiff.
     """
 
+    table: ClassVar[str] = "material"
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
     needs: ClassVar[dict[str, str]] = {
@@ -206,12 +207,11 @@ def _completed(own: Inputs) -> dict[str, Any]:
 def _check_relaxation(material: Material) -> None:
     times, shares = material.relaxation_times, material.relaxation_shares
     if len(times) != len(shares):
-        raise RefusedError("material.relaxation_times", list(times), "a time for each share")
+        raise material.refusal("relaxation_times", "a time for each share")
     if times and material.loss is not None:
-        raise RefusedError("material.loss", material.loss, "one of loss and relaxation")
+        raise material.refusal("loss", "one of loss and relaxation")
     if sum(shares) >= 1.0:
-        allowed = "shares whose sum is below 1"
-        raise RefusedError("material.relaxation_shares", list(shares), allowed)
+        raise material.refusal("relaxation_shares", "shares whose sum is below 1")
 
 
 def _check_softening(material: Material) -> None:
@@ -220,7 +220,7 @@ def _check_softening(material: Material) -> None:
     if material.softening_m is None:
         raise RefusedError("material.softening_m", None, "a stress, as softening_r is given")
     if not material.through_fibres:
-        raise RefusedError("material.bend", material.bend, f"{FIBRES} if softening_r is given")
+        raise material.refusal("bend", f"{FIBRES} if softening_r is given")
 
 
 def _check_law(material: Material) -> None:
@@ -229,8 +229,7 @@ def _check_law(material: Material) -> None:
     if material.yields:
         _check_plasticity(material)
     elif used and not material.curve_strain:
-        allowed = '"linear", as no curve is given'
-        raise RefusedError(f"material.{used}", getattr(material, used), allowed)
+        raise material.refusal(used, '"linear", as no curve is given')
     elif used:
         check_curve(material.curve_strain, material.curve_stress)
         _check_that_it_rises(material)
@@ -241,25 +240,20 @@ def _check_that_it_rises(material: Material) -> None:
     at = not_rising(material.curve_strain, material.curve_stress) if material.relaxes else None
     if at is not None:
         key = "relaxation_times" if material.loss is None else "loss"
-        value = list(material.relaxation_times) if material.loss is None else material.loss
         falls = f"the stress of {material.name} does not rise from a strain of {at:g} on"
-        raise RefusedError(f"material.{key}", value, f"none, as {falls}")
+        raise material.refusal(key, f"none, as {falls}")
 
 
 def _check_plasticity(material: Material) -> None:
     """Refuse a plastic material with other laws."""
     if material.stretch != "linear":
-        raise RefusedError(
-            "material.stretch", material.stretch, '"linear" if yield_stress is given'
-        )
+        raise material.refusal("stretch", '"linear" if yield_stress is given')
     if not material.through_fibres:
-        raise RefusedError("material.bend", material.bend, f"{FIBRES} if yield_stress is given")
+        raise material.refusal("bend", f"{FIBRES} if yield_stress is given")
     if material.relaxes or material.softening_r is not None:
         other = "relaxation" if material.relaxes else "softening_r"
         other = "loss" if material.loss is not None else other
-        raise RefusedError(
-            "material.yield_stress", material.yield_stress, f"none if {other} is given"
-        )
+        raise material.refusal("yield_stress", f"none if {other} is given")
 
 
 def _of_plates(material: Material, where: str) -> Material:
@@ -267,15 +261,14 @@ def _of_plates(material: Material, where: str) -> Material:
     all follow one law, elastic or relaxing.
     """
     for key in material.not_along:
-        if value := getattr(material, key):
-            allowed = f"none {where}: its walls are elastic or relax"
-            raise RefusedError(f"material.{key}", value, allowed)
+        if getattr(material, key):
+            raise material.refusal(key, f"none {where}: its walls are elastic or relax")
     if material.bend == "fibres":
-        raise RefusedError("material.bend", material.bend, f'"section" or "linear" {where}')
+        raise material.refusal("bend", f'"section" or "linear" {where}')
     fit = "linear" if material.stretch == "linear" else "section"
     if material.bend != fit:
         why = f'{where} and material.stretch is "{material.stretch}"'
-        raise RefusedError("material.bend", material.bend, f'"{fit}" {why}')
+        raise material.refusal("bend", f'"{fit}" {why}')
     usual = {key: Material.model_fields[key].default for key in IDLE_ALONG}
     return material.model_copy(update=usual)
 

@@ -227,8 +227,7 @@ def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedEr
         return RefusedError("lattice.cell_size", inputs["cell_size"], allowed)
     key, unit = ("mass", "kg") if lattice.mass else ("wall_thickness", "m")
     most = lattice.value(key) * THICKEST * lattice.period / lattice.wall_thickness
-    allowed = f"below {at_most(most)} {unit}, {NARROW}"
-    return RefusedError(f"lattice.{key}", lattice.value(key), allowed)
+    return lattice.refusal(key, f"below {at_most(most)} {unit}, {NARROW}")
 
 
 def widest(height: float, step: float) -> float:
@@ -298,8 +297,7 @@ def checked(lattice: S) -> S:
     Keys of upright walls that it does not have are dropped.
     """
     if not 1 <= lattice.nodes_per_wall <= MOST_NODES:
-        allowed = f"1 to {MOST_NODES}, in half a period of a sheet"
-        raise RefusedError("lattice.nodes_per_wall", lattice.nodes_per_wall, allowed)
+        raise lattice.refusal("nodes_per_wall", f"1 to {MOST_NODES}, in half a period of a sheet")
     check_imperfection(lattice, "of a sheet")
     seed = (lattice.imperfection_seed or 0) if lattice.imperfection else None
     unused = {"layers": None, "symmetry": "none"}

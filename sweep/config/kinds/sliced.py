@@ -178,7 +178,7 @@ class Sliced(WallLattice):
 
     def check_standing(self, where: str) -> None:
         """Refuse every lattice, as lines cannot be pressed along the cells."""
-        raise RefusedError("lattice.slicer", self.slicer, f"none {where}: give kind and cells")
+        raise self.refusal("slicer", f"none {where}: give kind and cells")
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -238,8 +238,7 @@ def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
         share = share_of(lattice._pattern, lattice.line_distance, lattice.spread_line)
         if share < 1.0:
             return share
-        allowed = f"above {at_least(share * lattice.line_distance)} m"
-        raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
+        raise lattice.refusal("line_distance", f"above {at_least(share * lattice.line_distance)} m")
     return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, per_area)
 
 
@@ -250,8 +249,7 @@ def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any
         wide = "so that cells are twice as wide as their walls"
         if lattice.line_distance is not None:
             least = distance_of(lattice._pattern, most, lattice.spread_line)
-            allowed = f"above {at_least(least)} m, {wide}"
-            raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
+            raise lattice.refusal("line_distance", f"above {at_least(least)} m, {wide}")
         allowed = f"below {at_most(in_unit(most, '%'), 3)} %, {wide}"
         raise RefusedError("lattice.infill", share, allowed)
     spacing = _spacing(lattice, share)
@@ -293,13 +291,11 @@ def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> Refuse
                 "infill": f"{100.0 * other:.0f} %, for example{turn}",
             }
             key = next(key for key in examples if getattr(candidate, key) is not None)
-            return RefusedError(
-                f"lattice.{key}", getattr(candidate, key), f"{examples[key]}; {why}"
-            )
+            return candidate.refusal(key, f"{examples[key]}; {why}")
     allowed = (
         f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
     )
-    return RefusedError("lattice.perimeters", candidate.perimeters, allowed)
+    return candidate.refusal("perimeters", allowed)
 
 
 def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
@@ -379,8 +375,8 @@ def _check_lines(lattice: Sliced) -> None:
     check_layer(lattice.layer_height, lattice.line_width)
     if lattice.lateral and lattice.fill_angle != ALONG_DEPTH:
         allowed = f"0 degrees: lines of {lattice.pattern} run along lattice.depth"
-        raise RefusedError("lattice.fill_angle", lattice.fill_angle, allowed)
+        raise lattice.refusal("fill_angle", allowed)
     most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
     if not 1 <= lattice.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
-        raise RefusedError("lattice.perimeters", lattice.perimeters, allowed)
+        raise lattice.refusal("perimeters", allowed)

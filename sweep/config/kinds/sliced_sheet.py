@@ -200,7 +200,7 @@ def _check_block(inputs: Inputs, angle: float, line: float, sides: Mapping[str, 
 def _low(lattice: SlicedSheet, target: float, step: float) -> RefusedError:
     """The refusal of a height, or of a width, in which not even one step of the sheet fits."""
     if lattice.misfit != NARROW:
-        return RefusedError("lattice.width", lattice.width, f"less, {lattice.misfit}")
+        return lattice.refusal("width", f"less, {lattice.misfit}")
     key = "depth" if lattice.pressed == ALONG else "height"
     least = step * max(lattice.wall_thickness / THICKEST, LEAST * target)
     return RefusedError(

@@ -39,6 +39,7 @@ class Specimen(Table):
     its cells, with their values there. aperiodic: why no period of it is known, after its name.
     """
 
+    table: ClassVar[str] = "lattice"
     words: ClassVar[tuple[str, ...]] = ()
     across: ClassVar[dict[str, Any]] = {
         "layers": None,
@@ -297,4 +298,4 @@ def check_imperfection(specimen: Specimen, where: str) -> None:
     """Refuse an imperfection of shells so large that it is a buckle itself."""
     if specimen.imperfection > MOST_IMPERFECTION:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {where}"
-        raise RefusedError("lattice.imperfection", specimen.imperfection, allowed)
+        raise specimen.refusal("imperfection", allowed)

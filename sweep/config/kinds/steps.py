@@ -90,7 +90,7 @@ def _check_count(
     if count <= most:
         return
     if solver.load_steps is not None and time_step is None:
-        raise RefusedError("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
+        raise solver.refusal("load_steps", f"{allowed}, {count:,} here")
     step = solver.time_step if isinstance(solver, InTime) else None
     raise RefusedError("solver.time_step", given_or(time_step, step), allowed)
 
@@ -105,14 +105,13 @@ def in_the_plane(solver: Solver, material: Material, loading: Loading, shells: b
         return solver
     if material.bend == "none" and not isinstance(solver, InTime):
         allowed = f'"linear", "section" or "fibres" if solver.integrator is "{solver.integrator}"'
-        raise RefusedError("material.bend", "none", allowed)
+        raise material.refusal("bend", allowed)
     if material.through_fibres and solver.bend_measure != "angle":
-        allowed = f'"angle" if material.bend is "{material.bend}"'
-        raise RefusedError("solver.bend_measure", solver.bend_measure, allowed)
+        raise solver.refusal("bend_measure", f'"angle" if material.bend is "{material.bend}"')
     solid = solver.element == "cubic" and material.bend != "none"
     if solver.joints == "solid" and not solid:
         cubic = solver.element == "cubic"
         why = 'material.bend is "none"' if cubic else 'solver.element is "classical"'
-        raise RefusedError("solver.joints", "solid", f'"points" if {why}')
+        raise solver.refusal("joints", f'"points" if {why}')
     usual = "solid" if solid and loading.solid else "points"
     return solver.model_copy(update={"joints": solver.joints or usual})
