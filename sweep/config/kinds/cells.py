@@ -98,12 +98,11 @@ class Cells(WallLattice):
         if lattice.infill is not None:
             lattice = lattice.model_copy(update=_filled(lattice, lattice.infill, inputs))
         check_size(lattice, inputs, CAUSES)
-        if lattice.mass is None or "wall_thickness" in inputs:
-            _check_openings(lattice)
-        if lattice.mass is None:
-            return lattice
-        thickness = thickness_of(lattice, lattice.mass, inputs, density)
-        lattice = lattice.model_copy(update={"wall_thickness": thickness})
+        if lattice.mass is not None:
+            if "wall_thickness" in inputs:
+                _check_openings(lattice)
+            thickness = thickness_of(lattice, lattice.mass, inputs, density)
+            lattice = lattice.model_copy(update={"wall_thickness": thickness})
         _check_openings(lattice)
         return lattice
 

@@ -86,7 +86,8 @@ class Reader:
 
     def _recipe(self, document: dict[str, Any]) -> Recipe:
         """The values in a document, and values of profiles that it does not give itself."""
-        document, one, several = _without_profiles(document)
+        document, one = _without(document, "lattice", "profile")
+        document, several = _without(document, "grid", PROFILE)
         keys = _mentioned(document)
         words = keys.get("lattice.kind", ())
         named = [kind for kind in FILED if any(word in words for word in kind.words)]
@@ -423,19 +424,14 @@ def is_range(value: object) -> bool:
     return isinstance(value, dict) and sorted(value) == sorted(RANGE)
 
 
-def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, Any]:
-    """A document without profiles of slicers, the profile in [lattice] and the profiles in [grid];
-    None if there is none.
-    """
-    kept = dict(document)
-    taken: list[Any] = [None, None]
-    for k, (section, key) in enumerate((("lattice", "profile"), ("grid", PROFILE))):
-        table = document.get(section)
-        flat = _flat(table) if isinstance(table, dict) else {}
-        if key in flat:
-            taken[k] = flat.pop(key)
-            kept[section] = flat
-    return kept, taken[0], taken[1]
+def _without(document: dict[str, Any], section: str, key: str) -> tuple[dict[str, Any], Any]:
+    """A document without a key of a section, and the value of the key; None if there is none."""
+    table = document.get(section)
+    flat = _flat(table) if isinstance(table, dict) else {}
+    if key not in flat:
+        return document, None
+    value = flat.pop(key)
+    return document | {section: flat}, value
 
 
 def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
