@@ -1,7 +1,6 @@
 """Reads a TOML document, table by table, into a sweep; every fault becomes one line."""
 
 import re
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from pydantic import ValidationError
 
 from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.faults import SHOWN, Fault, MisfitError, in_words, one_line
+from sweep.config.faults import Fault, MisfitError, in_words, one_line
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
 from sweep.config.kinds.custom_structure import CustomStructure
@@ -65,7 +64,6 @@ class Reader:
         self.folder = folder
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
-        self.meant: Counter[str] = Counter()  # the keys nearest to unknown ones
         self.notes: list[str] = []
         self.of_file: type[CustomStructure | Drawn] | None = FILED[0]  # reads `lattice.file`
 
@@ -340,21 +338,12 @@ class Reader:
             return Written(raw, in_words(raw), name)
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
-        """Refuse an unknown key, and name the nearest.
-
-        That search is slow. Unknown keys after the first `SHOWN` go without it, as faults of the
-        key that most of these mean, so that they are listed last.
-        """
+        """Refuse an unknown key, and name the nearest."""
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
             names.append(PROFILE)
-        if self.meant.total() < SHOWN:
-            near, clause = meant(name, names)
-            self.meant[near] += 1
-        else:
-            near, clause = self.meant.most_common(1)[0][0], ""
-        wrong = f"unknown key; {clause}" if clause else "unknown key"
-        self._refuse(name, raw, wrong, where, about=near)
+        near, clause = meant(name, names)
+        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
