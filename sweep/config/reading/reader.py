@@ -173,14 +173,13 @@ class Reader:
         replaced = [key for key in profile.values if _is_stated(key, stated)]
         if replaced:
             self.notes.append(f"{raw}: the config says otherwise: {', '.join(replaced)}")
-        read: Values = {}
+        read, before = {}, len(self.faults)
         for key, value in profile.values.items():
-            name, before = f"lattice.{key}", len(self.faults)
-            written = None if key in replaced else self._value(name, value)
-            for k, fault in enumerate(self.faults[before:], before):
-                self.faults[k] = fault._replace(line=f"{fault.line} ({raw})")
+            written = None if key in replaced else self._value(f"lattice.{key}", value)
             if written:
-                read[name] = written._replace(text=f"{written.text} (of {raw})", implied=True)
+                text = f"{written.text} (of {raw})"
+                read[f"lattice.{key}"] = written._replace(text=text, implied=True)
+        self.faults[before:] = [f._replace(line=f"{f.line} ({raw})") for f in self.faults[before:]]
         return read
 
     def _profiles(self, raws: Any, stated: set[str], beside: bool) -> Axes:
