@@ -27,7 +27,7 @@ from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
-from sweep.config.kinds.loading import AnyLoading, Loading
+from sweep.config.kinds.loading import AnyLoading
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.solver import Solver
 from sweep.config.kinds.specimen import Specimen
@@ -216,7 +216,8 @@ class Draft:
 def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) -> Draft:
     """The case of the values of each table, in SI. cache: the tables of a sweep so far: `Draft`.
 
-    The loading is checked even if the material and the lattice are refused.
+    The loading is checked even if the material and the lattice are refused; of the numerical
+    settings, the first refusal ends it.
     """
     draft = Draft({} if cache is None else cache)
     pairs = {name: _frozen(inputs.get(name, {})) for name in TABLES}
@@ -232,29 +233,16 @@ def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) 
     pressed = _pressed(lattice, dict(pairs["lattice"]), along)
     relaxes = material.relaxes if material else materials.relaxes(dict(pairs["material"]))
     loading = draft.add("loading", loadings.loading, pairs["loading"], pressed, integrator, relaxes)
-    if loading is not None and material is not None:
-        _numerics(draft, pairs, pressed, loading, material)
+    if loading is None or material is None:
+        return draft
+    by_position = dict(pairs["contact"]).get("model") == "position_based"
+    steps_from = (pairs["solver"], material, loading, pressed, by_position)
+    if solver := draft.add("solver", steps.solver, *steps_from):
+        contact = (pairs["contact"], loading, pressed, solver.integrator)
+        if draft.add("contact", contacts.contact, *contact):
+            draft.add("damping", dampings.damping, pairs["damping"], loading, pressed, relaxes)
+            draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
     return draft
-
-
-def _numerics(
-    draft: Draft,
-    pairs: Mapping[str, Pairs],
-    pressed: Body,
-    loading: Loading,
-    material: Material,
-) -> None:
-    """Complete the tables of numerical settings; the first refusal ends it."""
-    model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
-    by_position = model == "position_based"
-    inputs = pairs["solver"], material, loading, pressed, by_position
-    solver = draft.add("solver", steps.solver, *inputs)
-    if solver is None:
-        return
-    contact = (pairs["contact"], loading, pressed, solver.integrator)
-    if draft.add("contact", contacts.contact, *contact):
-        draft.add("damping", dampings.damping, pairs["damping"], loading, pressed, relaxes)
-        draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
 
 
 def _pressed(lattice: Lattice | None, inputs: Inputs, along: bool) -> Body:
