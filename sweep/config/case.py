@@ -34,7 +34,6 @@ from sweep.config.kinds.specimen import Specimen
 from sweep.config.kinds.table import (
     TABLES,
     Inputs,
-    Pairs,
     RefusedError,
     Table,
     Tables,
@@ -190,18 +189,19 @@ class Draft:
 
     def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
         """Make a table, or record why it cannot be made."""
+        key = (name, *(tuple(v.items()) if isinstance(v, dict) else v for v in values))
         try:
-            if (name, values) not in self.cache:
+            if key not in self.cache:
                 if len(self.cache) >= TABLES_KEPT:
                     self.cache.clear()
-                self.cache[name, values] = make(*values)
+                self.cache[key] = make(*values)
         except RefusedError as error:
             self.refused += [error, *error.also]
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]
             return None
-        table: T = self.cache[name, values]
+        table: T = self.cache[key]
         self.tables[name] = table  # type: ignore[assignment]
         return table
 
@@ -220,27 +220,26 @@ def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) 
     settings, the first refusal ends it.
     """
     draft = Draft({} if cache is None else cache)
-    pairs = {name: _frozen(inputs.get(name, {})) for name in TABLES}
-    press = dict(pairs["loading"])
-    along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    pressed = _pressed(None, dict(pairs["lattice"]), along)
+    own = {name: _hashable(inputs.get(name, {})) for name in TABLES}
+    along, integrator = is_along(own["loading"]), own["solver"].get("integrator")
+    pressed = _pressed(None, own["lattice"], along)
     where = pressed.where if pressed.shells else ""
-    material = draft.add("material", materials.material, pairs["material"], where)
+    material = draft.add("material", materials.material, own["material"], where)
     density = material.density if material else None
     lattice = None
-    if density or "mass" not in dict(pairs["lattice"]):
-        lattice = draft.add("lattice", lattice_of, pairs["lattice"], density or 1.0, along)
-    pressed = _pressed(lattice, dict(pairs["lattice"]), along)
-    relaxes = material.relaxes if material else materials.relaxes(dict(pairs["material"]))
-    loading = draft.add("loading", loadings.loading, pairs["loading"], pressed, integrator, relaxes)
+    if density or "mass" not in own["lattice"]:
+        lattice = draft.add("lattice", lattice_of, own["lattice"], density or 1.0, along)
+    pressed = _pressed(lattice, own["lattice"], along)
+    relaxes = material.relaxes if material else materials.relaxes(own["material"])
+    loading = draft.add("loading", loadings.loading, own["loading"], pressed, integrator, relaxes)
     if loading is None or material is None:
         return draft
-    by_position = dict(pairs["contact"]).get("model") == "position_based"
-    steps_from = (pairs["solver"], material, loading, pressed, by_position)
+    by_position = own["contact"].get("model") == "position_based"
+    steps_from = (own["solver"], material, loading, pressed, by_position)
     if solver := draft.add("solver", steps.solver, *steps_from):
-        contact = (pairs["contact"], loading, pressed, solver.integrator)
+        contact = (own["contact"], loading, pressed, solver.integrator)
         if draft.add("contact", contacts.contact, *contact):
-            draft.add("damping", dampings.damping, pairs["damping"], loading, pressed, relaxes)
+            draft.add("damping", dampings.damping, own["damping"], loading, pressed, relaxes)
             draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
     return draft
 
@@ -318,5 +317,6 @@ def _check_keys(table: Table, name: str, values: Inputs) -> None:
             raise RefusedError(f"{name}.{key}", value, allowed)
 
 
-def _frozen(values: Inputs) -> Pairs:
-    return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
+def _hashable(values: Inputs) -> dict[str, Any]:
+    """Values that the cache of a draft can look up."""
+    return {key: tuple(v) if isinstance(v, list) else v for key, v in values.items()}

@@ -9,7 +9,6 @@ from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.table import (
     Inputs,
     NonNegative,
-    Pairs,
     Positive,
     RefusedError,
     Speed,
@@ -63,13 +62,12 @@ class ByPosition(Forceless):
 Contact = NoContact | Barrier | ByPosition
 
 
-def contact(values: Inputs | Pairs, loading: Loading, body: Body, integrator: str) -> Contact:
+def contact(inputs: Inputs, loading: Loading, body: Body, integrator: str) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
     along arcs, since the unstable parts of an equilibrium path are not a motion.
     """
-    inputs = dict(values)
     model = inputs.get("model", "auto")
     if model == "position_based":
         return _by_position(loading, body, integrator)

@@ -11,7 +11,6 @@ from sweep.config.kinds.table import (
     Duration,
     Inputs,
     NonNegative,
-    Pairs,
     RefusedError,
     Strain,
     Stress,
@@ -141,12 +140,11 @@ class Material(Table):
         return self.bend in SECTIONS
 
 
-def material(values: Inputs | Pairs, where: str = "") -> Material:
+def material(inputs: Inputs, where: str = "") -> Material:
     """The material of these values; where: why its walls are plates, in words, if they are.
 
     Raises `RecordError` if the file of a named material cannot be read.
     """
-    inputs = dict(values)
     complete = "curve_strain" in inputs
     material = Material.model_validate(_with_constants(inputs) if complete else _completed(inputs))
     _check_relaxation(material)
@@ -160,14 +158,14 @@ def relaxes(inputs: Inputs) -> bool:
     return bool(inputs.get("loss") or inputs.get("relaxation_times"))
 
 
-def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
+def _with_constants(inputs: Inputs) -> dict[str, Any]:
     """The values of a complete material, to which a change may have added a memory."""
     usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in inputs else {}
     if relaxes(inputs) and "reference_time" not in inputs:
         by_numbers = inputs["name"] == BY_NUMBERS
         record = None if by_numbers else read_record(locate(inputs["name"]))
         usual["reference_time"] = record.reference_time if record else REFERENCE_TIME
-    return usual | inputs
+    return {**usual, **inputs}
 
 
 def _completed(own: Inputs) -> dict[str, Any]:

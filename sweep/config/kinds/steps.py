@@ -16,7 +16,7 @@ from sweep.config.kinds.solver import (
     Solver,
     Static,
 )
-from sweep.config.kinds.table import Inputs, Pairs, RefusedError, given_or, own_values
+from sweep.config.kinds.table import Inputs, RefusedError, given_or, own_values
 
 BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # for a quasi-static crush without load_steps
 BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
@@ -26,7 +26,7 @@ IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
 def solver(
-    values: Inputs | Pairs, material: Material, loading: Loading, body: Body, by_position: bool
+    inputs: Inputs, material: Material, loading: Loading, body: Body, by_position: bool
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
@@ -35,7 +35,7 @@ def solver(
     arc length is the diagonal of the structure / `load_steps`. With contact by position the default
     integrator is backward Euler, else the `usual_motion` of the loading has it.
     """
-    settings = inputs = dict(values)
+    settings = dict(inputs)
     if material.remembers and inputs.get("integrator") == ARCS:  # its unstable part is no motion
         allowed = f'"static" or {IN_TIME} if the material has a memory'
         raise RefusedError("solver.integrator", ARCS, allowed)

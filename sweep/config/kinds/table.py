@@ -13,8 +13,6 @@ from sweep.config.faults import MisfitError
 T = TypeVar("T")
 Inputs = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
-Pairs = tuple[tuple[str, Any], ...]
-"""The same as keys and values, which can be looked up."""
 
 
 class Tables(TypedDict, total=False):
