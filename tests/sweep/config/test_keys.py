@@ -3,15 +3,8 @@
 import pytest
 
 from sweep.config.keys import case_keys, nearest, table_keys
-from sweep.config.units import QUANTITIES
 from sweep.design.infill import families
 from sweep.design.surfaces.names import SHEETS
-
-
-def test_every_unit_of_the_keys_is_described():
-    units = {key.unit for key in case_keys().values() if key.unit}
-    assert units <= set(QUANTITIES)
-
 
 KINDS = [f'"{word}"' for word in (*families(), *SHEETS, "custom", "drawn")]
 
