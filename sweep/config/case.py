@@ -30,7 +30,7 @@ from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, latti
 from sweep.config.kinds.loading import AnyLoading
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.solver import Solver
-from sweep.config.kinds.specimen import Specimen
+from sweep.config.kinds.specimen import pressed_height
 from sweep.config.kinds.table import (
     TABLES,
     Inputs,
@@ -96,7 +96,7 @@ class Case(BaseModel):
     @property
     def pressed(self) -> Body:
         """The body that is pressed."""
-        return _pressed_of(self.lattice, self.along)
+        return _pressed(self.lattice, self.along, {})
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -222,14 +222,14 @@ def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) 
     draft = Draft({} if cache is None else cache)
     own = {name: _hashable(inputs.get(name, {})) for name in TABLES}
     along, integrator = is_along(own["loading"]), own["solver"].get("integrator")
-    pressed = _pressed(None, own["lattice"], along)
+    pressed = _pressed(None, along, own["lattice"])
     where = pressed.where if pressed.shells else ""
     material = draft.add("material", materials.material, own["material"], where)
     density = material.density if material else None
     lattice = None
     if density or "mass" not in own["lattice"]:
         lattice = draft.add("lattice", lattice_of, own["lattice"], density or 1.0, along)
-    pressed = _pressed(lattice, own["lattice"], along)
+    pressed = _pressed(lattice, along, own["lattice"])
     relaxes = material.relaxes if material else materials.relaxes(own["material"])
     loading = draft.add("loading", loadings.loading, own["loading"], pressed, integrator, relaxes)
     if loading is None or material is None:
@@ -244,17 +244,11 @@ def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) 
     return draft
 
 
-def _pressed(lattice: Lattice | None, inputs: Inputs, along: bool) -> Body:
+def _pressed(lattice: Lattice | None, along: bool, inputs: Inputs) -> Body:
     """The body that is pressed; for a refused lattice, from its given values."""
-    if lattice is not None:
-        return _pressed_of(lattice, along)
-    key = "depth" if along else "height"
-    height = inputs.get(key, Specimen.model_fields[key].default)
-    sheet = kind_of(inputs).sheet_clause(inputs)
-    return Body(height, along, width=inputs.get("width", inf), sheet=sheet)
-
-
-def _pressed_of(lattice: Lattice, along: bool) -> Body:
+    if lattice is None:
+        height, sheet = pressed_height(inputs, along), kind_of(inputs).sheet_clause(inputs)
+        return Body(height, along, width=inputs.get("width", inf), sheet=sheet)
     width, height, depth = lattice.width, lattice.height, lattice.depth
     return Body(
         depth if along else height,

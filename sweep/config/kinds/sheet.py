@@ -14,6 +14,7 @@ from sweep.config.kinds.specimen import (
     check_imperfection,
     check_thickness,
     check_thin,
+    pressed_height,
 )
 from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
 from sweep.design.surfaces.names import BLOCK, SHEETS
@@ -246,13 +247,6 @@ def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[flo
         misfit = draft(lattice.pressed_height / (step * steps)).misfit
         good, bad, why = (good, steps, misfit) if misfit else (steps, bad, why)
     return lattice.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
-
-
-def pressed_height(inputs: Inputs, along: bool) -> float:
-    """The pressed height, m."""
-    key = "depth" if along else "height"
-    height: float = inputs.get(key, Specimen.model_fields[key].default)
-    return height
 
 
 def fitted(

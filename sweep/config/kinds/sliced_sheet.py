@@ -17,11 +17,10 @@ from sweep.config.kinds.sheet import (
     fitted,
     fitted_block,
     narrowest,
-    pressed_height,
     widest,
 )
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
-from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
+from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines, pressed_height
 from sweep.config.kinds.table import Angle, Inputs, Length, RefusedError, Share, own_values
 from sweep.design.slicer.patterns import (
     PROGRAMS,

@@ -235,6 +235,13 @@ class WallLattice(Specimen):
         return self.counts[1] * (self.nodes_per_wall + 1)
 
 
+def pressed_height(inputs: Inputs, along: bool) -> float:
+    """The height (m) that these values of a lattice press."""
+    key = "depth" if along else "height"
+    height: float = inputs.get(key, Specimen.model_fields[key].default)
+    return height
+
+
 def check_proportion(specimen: Specimen) -> None:
     """Refuse a box whose aspect ratio is too large."""
     key, other = "width", "height"
