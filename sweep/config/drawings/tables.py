@@ -133,7 +133,7 @@ def _tables(rows: Sequence[Sequence[str]], decimal: str) -> Iterator[_Table]:
 
 
 def _headed(cells: Sequence[str], decimal: str) -> _Table:
-    """A table without rows, if these cells are heads; else None."""
+    """A table without rows, of the cells that are heads."""
     words = [OTHER_HEADS.get(cell.lower(), cell.lower()) for cell in cells]
     matches = {place: _HEAD.fullmatch(word) for place, word in enumerate(words)}
     heads = {match[1]: (place, match[2]) for place, match in matches.items() if match}
