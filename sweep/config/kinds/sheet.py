@@ -17,7 +17,7 @@ from sweep.config.kinds.specimen import (
     pressed_height,
 )
 from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
-from sweep.design.surfaces.names import BLOCK, SHEETS
+from sweep.design.surfaces.names import BLOCK, SHEETS, Cut
 from sweep.numbers import at_least, at_most
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
@@ -183,11 +183,12 @@ class Sheet(Surface):
     @classmethod
     def of(cls, inputs: Inputs, density: float, along: bool) -> "Sheet":
         """The sheet of these values."""
-        height, step = pressed_height(inputs, along), SHEETS[inputs["kind"]].straight.step
+        cut = SHEETS[inputs["kind"]].straight
+        height, step = pressed_height(inputs, along), cut.step
 
         def draft(period: float) -> Sheet:
             lattice = cls.model_validate(
-                own_values(inputs, cls) | fitted(inputs["kind"], inputs, along, period)
+                own_values(inputs, cls) | fitted(inputs, along, period, cut)
             )
             if lattice.mass is None:
                 return lattice
@@ -249,40 +250,22 @@ def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[flo
     return lattice.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
 
 
-def fitted(
-    name: str, inputs: Inputs, along: bool, target: float, turned: bool = False
-) -> dict[str, Any]:
-    """The sizes of a panel of the surface ``name``, with the period nearest to ``target`` (m) that
-    fits its height; turned: see `Surface`.
+def fitted(inputs: Inputs, along: bool, target: float, cut: Cut | None) -> dict[str, Any]:
+    """The sizes of a panel, or, without a ``cut``, of a block, with the period nearest to
+    ``target`` (m) for which the pressed height is a whole number of steps.
+
+    All sides of a block are whole numbers of `BLOCK` periods.
     """
-    height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
-    period = _period(height, cut.step, target)
+    height, step = pressed_height(inputs, along), cut.step if cut else BLOCK
+    period = height / (step * max(round(height / (step * target)), 1))
     across, pressed = ("height", "depth") if along else ("depth", "height")
-    return {
-        "width": cut.across * period,
-        across: cut.along * period,
-        pressed: height,
-        "period": period,
-        "pressed": ALONG if along else ACROSS,
-    }
-
-
-def fitted_block(inputs: Inputs, along: bool, target: float) -> dict[str, Any]:
-    """The sizes of a block, as in `fitted`; all sides are whole numbers of `BLOCK` periods."""
-    height = pressed_height(inputs, along)
-    period = _period(height, BLOCK, target)
-    step = BLOCK * period
-    sizes = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
-    whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
-    pressed = {"depth" if along else "height": height}
-    return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
-
-
-def _period(height: float, step: float, target: float) -> float:
-    """The period (m) nearest to ``target`` for which a height is a whole number of steps; step: in
-    periods.
-    """
-    return height / (step * max(round(height / (step * target)), 1))
+    if cut:
+        sizes = {"width": cut.across * period, across: cut.along * period}
+    else:
+        given = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
+        whole = step * period
+        sizes = {side: whole * max(round(size / whole), 1) for side, size in given.items()}
+    return sizes | {pressed: height, "period": period, "pressed": ALONG if along else ACROSS}
 
 
 def checked(lattice: S) -> S:

@@ -15,7 +15,6 @@ from sweep.config.kinds.sheet import (
     Surface,
     checked,
     fitted,
-    fitted_block,
     narrowest,
     widest,
 )
@@ -72,16 +71,15 @@ class SlicedSheet(Surface):
         _check(inputs, width, layer, lines)
         angle, one = _angle(inputs, pattern, along), line_of(inputs["slicer"], width, layer)
         spread = pattern.period * spread_lines(inputs["slicer"], lines) * one
-        turned, block = _is_turned(angle, along), bool(inputs.get("perimeters"))
-        step = BLOCK if block else SHEETS[pattern.sheet].cut(turned).step
+        panel = SHEETS[pattern.sheet].cut(_is_turned(angle, along))
+        cut = None if inputs.get("perimeters") else panel
+        step = cut.step if cut else BLOCK
         follows = {"wall_thickness": lines * one, "line_width": width}
 
         def draft(period: float) -> SlicedSheet:
-            if block:
-                sides = fitted_block(inputs, along, period)
+            sides = fitted(inputs, along, period, cut)
+            if cut is None:
                 _check_block(inputs, angle, one, sides)
-            else:
-                sides = fitted(pattern.sheet, inputs, along, period, turned)
             share = {"infill": spread / sides["period"]}
             return cls.model_validate(own_values(inputs, cls) | sides | follows | share)
 
