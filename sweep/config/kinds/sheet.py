@@ -2,7 +2,6 @@
 block.
 """
 
-from abc import abstractmethod
 from collections.abc import Callable
 from math import inf, isfinite
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
@@ -57,9 +56,9 @@ class Surface(Specimen):
         return {key: value for key, value in super().inputs().items() if key != lateral}
 
     @property
-    @abstractmethod
     def sheet(self) -> str:
         """The name of the surface."""
+        return str(self.value("kind"))
 
     @property
     def turned(self) -> bool:
@@ -212,11 +211,6 @@ class Sheet(Surface):
     def sheet_clause(cls, inputs: Inputs) -> str:
         """Why walls of these values are a sheet."""
         return f'lattice.kind is "{inputs["kind"]}"'
-
-    @property
-    def sheet(self) -> str:
-        """The name of the surface."""
-        return self.kind
 
 
 def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedError:
