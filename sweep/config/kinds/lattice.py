@@ -51,12 +51,9 @@ def lattice_of(inputs: Inputs, density: float, along: bool) -> Lattice:
     try:
         lattice = kind.of(inputs, density, along)
     except RefusedError as error:
-        keys = {error.key, *(other.key for other in error.also)}
-        idle = kind.idle(inputs)
         error.also += [
             RefusedError(f"lattice.{key}", inputs[key], f"none, as {why}")
-            for key, why in idle.items()
-            if f"lattice.{key}" not in keys
+            for key, why in kind.idle(inputs).items()
         ]
         raise
     check_printable(lattice)
