@@ -119,10 +119,8 @@ class Sliced(WallLattice):
         lattice = lattice.model_copy(
             update={"wall_thickness": lattice.printed_as.wall * lattice.lines}
         )
-        per_area = density * lattice.depth
-        return lattice.model_copy(
-            update=_spacing_of(lattice, _share(lattice, inputs, per_area), per_area)
-        )
+        share = _share(lattice, inputs, density)
+        return lattice.model_copy(update=_spacing_of(lattice, share, density))
 
     def inputs(self) -> dict[str, Any]:
         """The values from which this follows, without the share if it follows from another
@@ -226,10 +224,8 @@ def check_layer(layer: float, width: float) -> None:
         raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
 
 
-def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
-    """The share of infill, as given, or from the distance of lines, or from the mass; per_area:
-    kg/m^2.
-    """
+def _share(lattice: Sliced, inputs: Inputs, density: float) -> float:
+    """The share of infill, as given, or from the distance of lines, or from the mass."""
     ways = [key for key in SIZES if inputs.get(key) is not None]
     if len(ways) > 1:
         allowed = f"none where lattice.{ways[0]} is given"
@@ -239,11 +235,11 @@ def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
         if share < 1.0:
             return share
         raise lattice.refusal("line_distance", f"above {at_least(share * lattice.line_distance)} m")
-    return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, per_area)
+    return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, density)
 
 
-def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any]:
-    """The values that a share of infill sets; per_area: kg/m^2."""
+def _spacing_of(lattice: Sliced, share: float, density: float) -> dict[str, Any]:
+    """The values that a share of infill sets."""
     most = _most_of(lattice)
     if share >= most * (1.0 - 1e-12):
         wide = "so that cells are twice as wide as their walls"
@@ -256,7 +252,7 @@ def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any
     candidate = lattice.model_copy(update=spacing)
     check_size(candidate, candidate.inputs(), SIZES)
     if abs(_mass_ratio(candidate) - 1.0) > MASS_ERROR:
-        raise _refused_drawing(candidate, share, per_area)
+        raise _refused_drawing(candidate, share, density)
     return spacing
 
 
@@ -267,16 +263,13 @@ def _most_of(lattice: Sliced) -> float:
 
 def _mass_ratio(candidate: Sliced) -> float:
     """The mass of the walls as drawn over the mass that is extruded."""
-    from sweep.design.lattice import build_network
     from sweep.design.slicer.network import drawn_over_extruded
 
-    return drawn_over_extruded(build_network(candidate.geometry), candidate.geometry)
+    return drawn_over_extruded(candidate.network, candidate.geometry)
 
 
-def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> RefusedError:
+def _refused_drawing(candidate: Sliced, share: float, density: float) -> RefusedError:
     """Why a share cannot be drawn, and the nearest whole per cent within `NEAR` that can."""
-    from sweep.design.lattice import counted_area
-
     wrong = 100.0 * (_mass_ratio(candidate) - 1.0)
     weight = f"{abs(wrong):.0f} % {'more' if wrong > 0.0 else 'less'} than is extruded"
     why = f"lines that run too near the perimeters make the walls weigh {weight}"
@@ -284,7 +277,7 @@ def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> Refuse
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = candidate.model_copy(update=_spacing(candidate, other))
         if other < _most_of(candidate) and abs(_mass_ratio(nearest) - 1.0) <= MASS_ERROR:
-            mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
+            mass, turn = density * nearest.counted_volume, ", or another fill_angle"
             examples = {
                 "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",
                 "mass": f"{mass:.4g} kg, for example",
@@ -308,13 +301,14 @@ def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
     return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
 
 
-def _share_for(lattice: Sliced, mass: float, per_area: float) -> float:
-    """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
+def _share_for(lattice: Sliced, mass: float, density: float) -> float:
+    """The share with which a mass (kg) is extruded."""
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
     first = lattice.model_copy(update=_spacing(lattice, LEAST_SHARE))
     counted = lattice.spread_line / lattice.lines  # share as the slicer counts / as extruded
     most = (1.0 - 1e-9) * _most_of(lattice) / counted
+    per_area = density * lattice.depth
     share, *limits = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
         light, heavy = (per_area * area for area in limits)
