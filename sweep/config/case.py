@@ -27,14 +27,13 @@ from sweep.config.kinds.contact import Contact
 from sweep.config.kinds.damping import Damping
 from sweep.config.kinds.direction import is_along
 from sweep.config.kinds.lattice import TAGS, AnyLattice, Lattice, kind_of, lattice_of
-from sweep.config.kinds.loading import AnyLoading, Loading
+from sweep.config.kinds.loading import AnyLoading
 from sweep.config.kinds.material import Material
 from sweep.config.kinds.solver import Solver
-from sweep.config.kinds.specimen import Specimen
+from sweep.config.kinds.specimen import pressed_height
 from sweep.config.kinds.table import (
     TABLES,
     Inputs,
-    Pairs,
     RefusedError,
     Table,
     Tables,
@@ -97,7 +96,7 @@ class Case(BaseModel):
     @property
     def pressed(self) -> Body:
         """The body that is pressed."""
-        return _pressed_of(self.lattice, self.along)
+        return _pressed(self.lattice, self.along, {})
 
     @property
     def footprint(self) -> tuple[float, float]:
@@ -190,18 +189,19 @@ class Draft:
 
     def add(self, name: str, make: Callable[..., T], *values: Any) -> T | None:
         """Make a table, or record why it cannot be made."""
+        key = (name, *(tuple(v.items()) if isinstance(v, dict) else v for v in values))
         try:
-            if (name, values) not in self.cache:
+            if key not in self.cache:
                 if len(self.cache) >= TABLES_KEPT:
                     self.cache.clear()
-                self.cache[name, values] = make(*values)
+                self.cache[key] = make(*values)
         except RefusedError as error:
             self.refused += [error, *error.also]
             return None
         except ValidationError as error:
             self.refused += [_refused(name, wrong) for wrong in error.errors()]
             return None
-        table: T = self.cache[name, values]
+        table: T = self.cache[key]
         self.tables[name] = table  # type: ignore[assignment]
         return table
 
@@ -216,58 +216,39 @@ class Draft:
 def complete(inputs: Mapping[str, Inputs], cache: dict[Any, Any] | None = None) -> Draft:
     """The case of the values of each table, in SI. cache: the tables of a sweep so far: `Draft`.
 
-    The loading is checked even if the material and the lattice are refused.
+    The loading is checked even if the material and the lattice are refused; of the numerical
+    settings, the first refusal ends it.
     """
     draft = Draft({} if cache is None else cache)
-    pairs = {name: _frozen(inputs.get(name, {})) for name in TABLES}
-    press = dict(pairs["loading"])
-    along, integrator = is_along(press), dict(pairs["solver"]).get("integrator")
-    pressed = _pressed(None, dict(pairs["lattice"]), along)
+    own = {name: _hashable(inputs.get(name, {})) for name in TABLES}
+    along, integrator = is_along(own["loading"]), own["solver"].get("integrator")
+    pressed = _pressed(None, along, own["lattice"])
     where = pressed.where if pressed.shells else ""
-    material = draft.add("material", materials.material, pairs["material"], where)
+    material = draft.add("material", materials.material, own["material"], where)
     density = material.density if material else None
     lattice = None
-    if density or "mass" not in dict(pairs["lattice"]):
-        lattice = draft.add("lattice", lattice_of, pairs["lattice"], density or 1.0, along)
-    pressed = _pressed(lattice, dict(pairs["lattice"]), along)
-    relaxes = material.relaxes if material else materials.relaxes(dict(pairs["material"]))
-    loading = draft.add("loading", loadings.loading, pairs["loading"], pressed, integrator, relaxes)
-    if loading is not None and material is not None:
-        _numerics(draft, pairs, pressed, loading, material)
+    if density or "mass" not in own["lattice"]:
+        lattice = draft.add("lattice", lattice_of, own["lattice"], density or 1.0, along)
+    pressed = _pressed(lattice, along, own["lattice"])
+    relaxes = material.relaxes if material else materials.relaxes(own["material"])
+    loading = draft.add("loading", loadings.loading, own["loading"], pressed, integrator, relaxes)
+    if loading is None or material is None:
+        return draft
+    by_position = own["contact"].get("model") == "position_based"
+    steps_from = (own["solver"], material, loading, pressed, by_position)
+    if solver := draft.add("solver", steps.solver, *steps_from):
+        contact = (own["contact"], loading, pressed, solver.integrator)
+        if draft.add("contact", contacts.contact, *contact):
+            draft.add("damping", dampings.damping, own["damping"], loading, pressed, relaxes)
+            draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
     return draft
 
 
-def _numerics(
-    draft: Draft,
-    pairs: Mapping[str, Pairs],
-    pressed: Body,
-    loading: Loading,
-    material: Material,
-) -> None:
-    """Complete the tables of numerical settings; the first refusal ends it."""
-    model, relaxes = dict(pairs["contact"]).get("model"), material.relaxes
-    by_position = model == "position_based"
-    inputs = pairs["solver"], material, loading, pressed, by_position
-    solver = draft.add("solver", steps.solver, *inputs)
-    if solver is None:
-        return
-    contact = (pairs["contact"], loading, pressed, solver.integrator)
-    if draft.add("contact", contacts.contact, *contact):
-        draft.add("damping", dampings.damping, pairs["damping"], loading, pressed, relaxes)
-        draft.add("solver", steps.in_the_plane, solver, material, loading, pressed.shells)
-
-
-def _pressed(lattice: Lattice | None, inputs: Inputs, along: bool) -> Body:
+def _pressed(lattice: Lattice | None, along: bool, inputs: Inputs) -> Body:
     """The body that is pressed; for a refused lattice, from its given values."""
-    if lattice is not None:
-        return _pressed_of(lattice, along)
-    key = "depth" if along else "height"
-    height = inputs.get(key, Specimen.model_fields[key].default)
-    sheet = kind_of(inputs).sheet_clause(inputs)
-    return Body(height, along, width=inputs.get("width", inf), sheet=sheet)
-
-
-def _pressed_of(lattice: Lattice, along: bool) -> Body:
+    if lattice is None:
+        height, sheet = pressed_height(inputs, along), kind_of(inputs).sheet_clause(inputs)
+        return Body(height, along, width=inputs.get("width", inf), sheet=sheet)
     width, height, depth = lattice.width, lattice.height, lattice.depth
     return Body(
         depth if along else height,
@@ -330,5 +311,6 @@ def _check_keys(table: Table, name: str, values: Inputs) -> None:
             raise RefusedError(f"{name}.{key}", value, allowed)
 
 
-def _frozen(values: Inputs) -> Pairs:
-    return tuple((key, tuple(v) if isinstance(v, list) else v) for key, v in values.items())
+def _hashable(values: Inputs) -> dict[str, Any]:
+    """Values that the cache of a draft can look up."""
+    return {key: tuple(v) if isinstance(v, list) else v for key, v in values.items()}

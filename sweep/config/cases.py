@@ -11,12 +11,11 @@ OTHERS = tuple(name for name in TABLES if name != "lattice")
 
 
 class _Shared(NamedTuple):
-    """Data that many cases share: the kind of their lattices, the keys that these set (None:
-    all), the other tables, the names of the labels.
+    """Data that many cases share: the kind of their lattices, the other tables, the names of the
+    labels.
     """
 
     kind: type[Lattice]
-    keys: frozenset[str] | None
     tables: tuple[Table, ...]
     labels: tuple[str, ...]
 
@@ -30,8 +29,7 @@ class Cases(Sequence[Case]):
 
     def __init__(self, cases: Iterable[Case] = ()) -> None:
         self._ids: list[str] = []
-        self._numbers: dict[str, int] = {}
-        self._rows: list[tuple[Any, ...]] = []
+        self._rows: dict[str, tuple[Any, ...]] = {}
         self._shared: dict[Any, _Shared] = {}
         for case in cases:
             self.add(case)
@@ -39,45 +37,32 @@ class Cases(Sequence[Case]):
     @property
     def ids(self) -> KeysView[str]:
         """Their ids, in order."""
-        return self._numbers.keys()
+        return self._rows.keys()
 
     @property
     def labels(self) -> Mapping[str, Mapping[str, Any]]:
         """Their labels, `Case.axes`, by id."""
-        return _Labels(self._numbers, self._rows)
+        return _Labels(self._rows)
 
     def add(self, case: Case) -> None:
         """Add a case, or replace the one with its id."""
-        lattice, kind = case.lattice, type(case.lattice)
-        own_keys = lattice.model_fields_set
-        shared = _Shared(
-            kind,
-            None if own_keys == keys_of(kind) else frozenset(own_keys),
-            tuple(getattr(case, name) for name in OTHERS),
-            tuple(case.axes),
-        )
-        key = (kind, shared.keys, shared.labels, *map(id, shared.tables))
-        shared = self._shared.setdefault(key, shared)
-        values = (getattr(lattice, name) for name in kind.model_fields)
-        row = (shared, *values, *case.axes.values())
-        number = self._numbers.setdefault(case.case_id, len(self._rows))
-        if number < len(self._rows):
-            self._rows[number] = row
-        else:
+        kind = type(case.lattice)
+        shared = _Shared(kind, tuple(getattr(case, name) for name in OTHERS), tuple(case.axes))
+        shared = self._shared.setdefault((kind, shared.labels, *map(id, shared.tables)), shared)
+        values = (getattr(case.lattice, name) for name in kind.model_fields)
+        if case.case_id not in self._rows:
             self._ids.append(case.case_id)
-            self._rows.append(row)
+        self._rows[case.case_id] = (shared, *values, *case.axes.values())
 
     def of(self, case_id: str) -> Case:
         """The case with an id."""
-        return _case_of(case_id, self._rows[self._numbers[case_id]])
+        return _case_of(case_id, self._rows[case_id])
 
     def only(self, ids: Iterable[str]) -> "Cases":
         """The cases with these ids, in their order."""
         some = Cases()
-        some._ids = [*dict.fromkeys(ids)]
-        some._numbers = {case_id: number for number, case_id in enumerate(some._ids)}
-        some._rows = [self._rows[self._numbers[case_id]] for case_id in some._ids]
-        some._shared = self._shared
+        some._rows = {case_id: self._rows[case_id] for case_id in ids}
+        some._ids, some._shared = [*some._rows], self._shared
         return some
 
     def without(self, ids: Iterable[str]) -> "Cases":
@@ -93,10 +78,10 @@ class Cases(Sequence[Case]):
     def __getitem__(self, place: int | slice) -> "Case | Cases":
         if isinstance(place, slice):
             return self.only(self._ids[place])
-        return _case_of(self._ids[place], self._rows[place])
+        return self.of(self._ids[place])
 
     def __iter__(self) -> Iterator[Case]:
-        return map(_case_of, self._ids, self._rows)
+        return map(_case_of, self._rows, self._rows.values())
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -108,20 +93,17 @@ class Cases(Sequence[Case]):
 class _Labels(Mapping[str, Mapping[str, Any]]):
     """The labels of cases by id, each made when it is requested."""
 
-    def __init__(self, numbers: Mapping[str, int], rows: Sequence[tuple[Any, ...]]) -> None:
-        self._numbers, self._rows = numbers, rows
+    def __init__(self, rows: Mapping[str, tuple[Any, ...]]) -> None:
+        self._rows = rows
 
     def __getitem__(self, case_id: str) -> dict[str, Any]:
-        return _labels(self._rows[self._numbers[case_id]])
-
-    def __contains__(self, case_id: object) -> bool:
-        return case_id in self._numbers
+        return _labels(self._rows[case_id])
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._numbers)
+        return iter(self._rows)
 
     def __len__(self) -> int:
-        return len(self._numbers)
+        return len(self._rows)
 
 
 def compact(cases: Iterable[Case]) -> Cases:
@@ -136,9 +118,9 @@ def _labels(row: tuple[Any, ...]) -> dict[str, Any]:
 
 def _case_of(case_id: str, row: tuple[Any, ...]) -> Case:
     """The case of a row, with its id, which takes longer to compute than the rest."""
-    kind, own_keys, others, _ = row[0]
+    kind, others, _ = row[0]
     values = dict(zip(kind.model_fields, row[1:], strict=False))
-    lattice = kind.model_construct(keys_of(kind) if own_keys is None else {*own_keys}, **values)
+    lattice = kind.model_construct(keys_of(kind), **values)
     tables = dict(zip(OTHERS, others, strict=True))
     case = Case.model_construct(keys_of(Case), lattice=lattice, **tables, axes=_labels(row))
     case.__dict__["case_id"] = case_id

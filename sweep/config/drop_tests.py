@@ -2,12 +2,12 @@
 
 import csv
 import re
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 from sweep.config.faults import MisfitError
+from sweep.config.units import in_si as quantity_in_si
 
 PRESET = re.compile(r"(\S+)\s+(\S.*)")
 FLAT = "flat striker at equal J/cm2"
@@ -21,10 +21,10 @@ class Drop(NamedTuple):
     height: float
 
 
-def in_si(preset: str, to_si: Callable[[str, str], float]) -> str:
+def in_si(preset: str) -> str:
     """A preset as a case holds it: the name of a test, a number and "kg" or "m".
 
-    to_si(quantity, unit) converts. Raises `MisfitError` with the fault.
+    Raises `MisfitError` with the fault.
     """
     match = PRESET.fullmatch(preset)
     name = match[1] if match else preset
@@ -32,9 +32,9 @@ def in_si(preset: str, to_si: Callable[[str, str], float]) -> str:
     if match is None:
         raise MisfitError("neither a mass nor a height")
     try:
-        text = f"{name} {to_si(match[2], 'kg'):.12g} kg"
+        text = f"{name} {quantity_in_si(match[2], 'kg'):.12g} kg"
     except MisfitError:
-        text = f"{name} {to_si(match[2], 'm'):.12g} m"
+        text = f"{name} {quantity_in_si(match[2], 'm'):.12g} m"
     drop_of(text)
     return text
 

@@ -1,5 +1,6 @@
 """The faults of a config: all of them at once, one line each."""
 
+import json
 from collections import Counter
 from typing import NamedTuple
 
@@ -54,3 +55,14 @@ def _shown(faults: list[Fault]) -> list[str]:
         else []
     )
     return [faults[k].line for k in sorted(chosen)] + counted
+
+
+def in_words(raw: object) -> str:
+    """A value as TOML writes it, on one line of at most 60 characters."""
+    text = json.dumps(raw, default=str, ensure_ascii=False)
+    return one_line(text if len(text) <= 60 else f"{text[:57]}...")
+
+
+def one_line(text: str) -> str:
+    """A text with a question mark for each character that is not printable."""
+    return "".join(char if char.isprintable() else "?" for char in text)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from sweep.config.axis import Choice, Interval, Written
 from sweep.config.case import Case, Draft, complete
 from sweep.config.cases import Cases
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, in_words
 from sweep.config.keys import ALIASES, KINDS, case_keys
 from sweep.config.kinds.table import TABLES, RefusedError, rounded
 from sweep.config.materials.material_file import RecordError
@@ -121,9 +121,7 @@ def sweep_of(cases: Config | Iterable[Case]) -> Config:
 
 
 def _no_sweep(source: object, needed: str) -> ConfigError:
-    text = json.dumps(source, default=repr)
-    text = text if len(text) <= 60 else f"{text[:57]}..."
-    return ConfigError([Fault("cases", f"{text} is no sweep; needed: {needed}")])
+    return ConfigError([Fault("cases", f"{in_words(source)} is no sweep; needed: {needed}")])
 
 
 def chosen_case(recipe: Recipe, chosen: Values) -> Case | None:
@@ -148,7 +146,8 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
     cases = Cases()
     usable: set[tuple[str, str]] = set()
     impossible: list[_Combination] = []
-    unused = dict.fromkeys(_keys_to_use(recipe), "")
+    lines = _lines_to_use(recipe)
+    unused = dict.fromkeys(lines, "")
     dropped: set[int] = set()
     for draft in _drafts(recipe):
         matching = {k for k, table in enumerate(recipe.exclude) if draft.matches(table)}
@@ -171,8 +170,8 @@ def expanded(recipe: Recipe) -> tuple[Sequence[Case], LeftOut]:
         line = f"[[exclude]] drops {every}; allowed: tables that leave at least one"
         raise ConfigError([Fault("exclude", line)])
     faults = [_dropping_none(recipe, k) for k in range(len(recipe.exclude)) if k not in dropped]
-    if any(unused.values()):
-        faults += _without_effect(recipe, unused)
+    idle = {f"{lines[key]}: {why}": key for key, why in unused.items() if why}
+    faults += [Fault(key, line) for line, key in idle.items()]
     if faults:
         raise ConfigError(faults)
     if recipe.search:
@@ -250,23 +249,19 @@ def _drafts(recipe: Recipe) -> Iterator[_Combination]:
         yield _Combination(chosen, values, draft, faults)
 
 
-def _keys_to_use(recipe: Recipe) -> list[str]:
-    """The keys of a case that a config sets, each of which must have an effect."""
-    stated = [
-        key for key, value in recipe.base.items() if not (key in MAY_BE_UNUSED or value.implied)
-    ]
-    varied = [name for _, name, values in _axes(recipe) if not values[0].implied]
-    return stated + [target for name in varied for target in _keys(name)]
-
-
-def _without_effect(recipe: Recipe, unused: dict[str, str]) -> list[Fault]:
-    """A fault for each key that no case uses; `unused` holds the reasons."""
-    lines = {key: f"{written.name or key} = {written.text}" for key, written in recipe.base.items()}
+def _lines_to_use(recipe: Recipe) -> dict[str, str]:
+    """The keys of a case that a config sets, each of which must have an effect: key -> its line."""
+    lines = {
+        key: f"{written.name or key} = {written.text}"
+        for key, written in recipe.base.items()
+        if not (key in MAY_BE_UNUSED or written.implied)
+    }
     for where, name, values in _axes(recipe):
-        texts = ", ".join(written.text for written in values)
-        lines[_keys(name)[0]] = f"{where} {name} = [{texts if len(texts) < 60 else '...'}]"
-    faults = {f"{line}: {unused[key]}": key for key, line in lines.items() if unused.get(key)}
-    return [Fault(key, line) for line, key in faults.items()]
+        if not values[0].implied:
+            texts = ", ".join(written.text for written in values)
+            shown = texts if len(texts) < 60 else "..."
+            lines[_keys(name)[0]] = f"{where} {name} = [{shown}]"
+    return lines
 
 
 def _dropping_none(recipe: Recipe, number: int) -> Fault:

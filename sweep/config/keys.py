@@ -25,6 +25,7 @@ from sweep.config.kinds.solver import Arcs, Integrator, InTime, Static
 from sweep.config.kinds.table import COMPUTED, TABLES, Table
 from sweep.config.materials import material_file
 from sweep.config.question import QUESTION
+from sweep.config.units import QUANTITIES
 from sweep.numbers import in_unit
 
 KINDS: dict[str, tuple[type[Table], ...]] = {
@@ -53,21 +54,6 @@ ALIASES = {
     "lattice.cells": ("lattice.cells_x", "lattice.cells_y"),
     "lattice.extrusion_width": ("lattice.line_width",),
     "loading.load_steps": ("solver.load_steps",),
-}
-QUANTITIES = {
-    "m": 'a length with a unit, such as "0.8 mm"',
-    "m^2": 'an area with a unit, such as "8 mm^2"',
-    "s": 'a time with a unit, such as "0.2 s"',
-    "1/s": 'a rate with a unit, such as "5 1/s"',
-    "m/s": 'a speed with a unit, such as "100 mm/min"',
-    "m/s^2": 'an acceleration with a unit, such as "80 g0", of standard gravity (g is a gram)',
-    "N": 'a force with a unit, such as "10 N"',
-    "J": 'an energy with a unit, such as "0.1 J"',
-    "Pa": 'a stress with a unit, such as "12 MPa"',
-    "kg": 'a mass with a unit, such as "25 g"',
-    "1": 'a share in percent, such as "20 %"',
-    "rad": 'an angle with a unit, such as "45 deg"',
-    "kg/m^3": 'a density with a unit, such as "1190 kg/m^3"',
 }
 _BOUNDS = {
     "exclusiveMinimum": "above",

@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Any, TypeAlias, Unpack
 
 from sweep.config.case import Case
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, in_words
 from sweep.config.grid import Config, expanded
 from sweep.config.kinds.table import TABLES, Tables
 from sweep.config.reading.examples import find_config
 from sweep.config.reading.mapping import document_of
-from sweep.config.reading.reader import Reader, in_words
+from sweep.config.reading.reader import Reader
 from sweep.config.reading.toml_file import document_in
-from sweep.config.units import in_si
 
 Source: TypeAlias = str | PathLike[str] | Mapping[str, Any]
 """Where a config comes from: the path of a TOML file, the name of an example, or a dict."""
@@ -70,7 +69,7 @@ def case_of(source: Case | Mapping[str, Any]) -> Case:
 
 def _config(document: dict[str, Any], path: Path | None) -> Config:
     """The sweep of a document; path: of its file, if it has one."""
-    reader = Reader(path.parent if path else Path(), in_si)
+    reader = Reader(path.parent if path else Path())
     config = reader.config(document, path)
     notes = tuple(dict.fromkeys(reader.notes))
     try:

@@ -120,7 +120,7 @@ def _nearest(lattice: Cells) -> SlicerSettings:
     across, along = _scales(lattice)
     height = lattice.layer_height or LAYER_HEIGHT
     line = lattice.wall_thickness / PATTERNS[like.pattern].wall
-    around = lattice.line if lattice.perimeters else line
+    around = lattice.line_printed if lattice.perimeters else line
     bordered = 1 if lattice.kind == "square" else 0  # its outer walls go all round
     return SlicerSettings(
         "prusa",

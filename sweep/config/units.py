@@ -9,9 +9,7 @@ from collections.abc import Iterator
 from math import pi
 from typing import NamedTuple
 
-from sweep.config.faults import ConfigError, Fault, MisfitError
-from sweep.config.keys import QUANTITIES
-from sweep.config.reading.reader import in_words
+from sweep.config.faults import ConfigError, Fault, MisfitError, in_words
 from sweep.constants import STANDARD_GRAVITY
 
 
@@ -65,6 +63,21 @@ PREFIXES = {
 }
 SIGNS = {"**": "^", "²": "^2", "³": "^3", "·": "*", " per ": "/"}
 """Other signs in a unit -> the signs that are understood."""
+QUANTITIES = {
+    "m": 'a length with a unit, such as "0.8 mm"',
+    "m^2": 'an area with a unit, such as "8 mm^2"',
+    "s": 'a time with a unit, such as "0.2 s"',
+    "1/s": 'a rate with a unit, such as "5 1/s"',
+    "m/s": 'a speed with a unit, such as "100 mm/min"',
+    "m/s^2": 'an acceleration with a unit, such as "80 g0", of standard gravity (g is a gram)',
+    "N": 'a force with a unit, such as "10 N"',
+    "J": 'an energy with a unit, such as "0.1 J"',
+    "Pa": 'a stress with a unit, such as "12 MPa"',
+    "kg": 'a mass with a unit, such as "25 g"',
+    "1": 'a share in percent, such as "20 %"',
+    "rad": 'an angle with a unit, such as "45 deg"',
+    "kg/m^3": 'a density with a unit, such as "1190 kg/m^3"',
+}
 SMALLEST, LARGEST = 1e-30, 1e30  # in SI, so that products neither overflow nor vanish
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)", re.ASCII)

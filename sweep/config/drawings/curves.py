@@ -6,11 +6,9 @@ from collections.abc import Iterable
 from math import ceil, comb, radians
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.config.drawings.lines import Floats
 from sweep.config.faults import MisfitError
-
-Floats = NDArray[np.float64]
 
 TURN = radians(12.0)  # turn of one straight piece, within 0.6 % of the radius: 32 in a circle
 SAMPLES = np.linspace(0.0, 1.0, 65)  # points at which the direction of a curve is taken

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
@@ -132,7 +133,7 @@ def _tables(rows: Sequence[Sequence[str]], decimal: str) -> Iterator[_Table]:
 
 
 def _headed(cells: Sequence[str], decimal: str) -> _Table:
-    """A table without rows, if these cells are heads; else None."""
+    """A table without rows, of the cells that are heads."""
     words = [OTHER_HEADS.get(cell.lower(), cell.lower()) for cell in cells]
     matches = {place: _HEAD.fullmatch(word) for place, word in enumerate(words)}
     heads = {match[1]: (place, match[2]) for place, match in matches.items() if match}
@@ -164,20 +165,13 @@ def _node(place: Mapping[str, int], name: str) -> int:
     return place[name]
 
 
-def _is_number(cell: str, decimal: str) -> bool:
-    try:
-        float(cell.replace(decimal, "."))
-    except ValueError:
-        return False
-    return True
-
-
 def _number(row: Sequence[str], place: int, line: int, decimal: str = ".") -> float:
     """The finite number in a cell."""
     cell = row[place] if place < len(row) else ""
-    if not _is_number(cell, decimal) or not isfinite(value := float(cell.replace(decimal, "."))):
-        raise MisfitError(f'line {line}: "{plain(cell[:40])}" is no number')
-    return value
+    with suppress(ValueError):
+        if isfinite(value := float(cell.replace(decimal, "."))):
+            return value
+    raise MisfitError(f'line {line}: "{plain(cell[:40])}" is no number')
 
 
 def read_lammps(path: Path) -> Lines:
@@ -200,8 +194,10 @@ def read_lammps(path: Path) -> Lines:
     at_rest = np.array(points)
     if np.ptp(at_rest[:, 2]) > 1e-6 * np.ptp(at_rest[:, :2]):
         raise MisfitError("its atoms are not in a plane of equal z")
-    pairs = [_both(words, line) for line, words in sections["Bonds"]]
-    ends = at_rest[[[_node(place, name) for name in pair] for pair in pairs]][..., :2]
+    if short := next((line for line, words in sections["Bonds"] if len(words) < 4), None):
+        raise MisfitError(f"line {short}: no bond; needed: number, type and two atoms")
+    pairs = [[_node(place, name) for name in words[2:4]] for _, words in sections["Bonds"]]
+    ends = at_rest[pairs][..., :2]
     return _inside(ends, np.array(box[:2]))
 
 
@@ -212,12 +208,6 @@ def _inside(ends: Floats, box: Floats) -> Lines:
     count = int(around.sum())
     note = f"left out: {counted(count, 'bond')} around the box, longer than half of it"
     return Lines(ends[~around], notes=(note,) if count else ())
-
-
-def _both(words: Sequence[str], line: int) -> Sequence[str]:
-    if len(words) < 4:
-        raise MisfitError(f"line {line}: no bond; needed: number, type and two atoms")
-    return words[2:4]
 
 
 def _sections(text: str) -> tuple[dict[str, list[tuple[int, list[str]]]], str, list[float]]:

@@ -98,33 +98,17 @@ class Cells(WallLattice):
         if lattice.infill is not None:
             lattice = lattice.model_copy(update=_filled(lattice, lattice.infill, inputs))
         check_size(lattice, inputs, CAUSES)
-        if lattice.mass is None or "wall_thickness" in inputs:
-            _check_openings(lattice)
-        if lattice.mass is None:
-            return lattice
-        thickness = thickness_of(lattice, lattice.mass, inputs, density)
-        lattice = lattice.model_copy(update={"wall_thickness": thickness})
+        if lattice.mass is not None:
+            if "wall_thickness" in inputs:
+                _check_openings(lattice)
+            thickness = thickness_of(lattice, lattice.mass, inputs, density)
+            lattice = lattice.model_copy(update={"wall_thickness": thickness})
         _check_openings(lattice)
         return lattice
 
     def why_idle(self, key: str) -> str:
         """Why a key has no effect."""
         return self.needs.get(key, f'lattice.kind is "{self.kind}"')
-
-    @property
-    def name(self) -> str:
-        """The family of its cells."""
-        return self.kind
-
-    @property
-    def endless(self) -> bool:
-        """Whether this is one period of an endless lattice."""
-        return self.boundary == "periodic"
-
-    @property
-    def tied_sides(self) -> bool:
-        """Whether its left and right sides are tied to each other."""
-        return self.sides == "periodic"
 
     @property
     def geometry(self) -> Geometry:
@@ -144,16 +128,6 @@ class Cells(WallLattice):
         )
 
     @property
-    def line(self) -> float:
-        """Width of a line, m."""
-        return self.line_width or self.nozzle
-
-    @property
-    def line_printed(self) -> float:
-        """Width of a line, m."""
-        return self.line
-
-    @property
     def walls_printed(self) -> tuple[float, ...]:
         """Thicknesses of all rows of walls, m."""
         if self.grading == 1.0:
@@ -165,7 +139,7 @@ class Cells(WallLattice):
     @property
     def outline(self) -> tuple[float, float]:
         """Thickness (m) of the outline: at the left and right sides, at the bottom and top."""
-        sides = self.perimeters * self.line if self.perimeters else 0.0
+        sides = self.perimeters * self.line_printed if self.perimeters else 0.0
         return sides, self.solid_layers * (self.layer_height or 0.0) or sides
 
     @property
@@ -206,7 +180,7 @@ def _lines(lattice: Cells) -> dict[str, Any]:
     turned = trait(lattice.kind, "ORIENTED")
     return {
         "orientation": (lattice.orientation or "pointy") if turned else None,
-        "line_width": lattice.line if lines else None,
+        "line_width": lattice.line_printed if lines else None,
         "layer_height": (lattice.layer_height or LAYER_HEIGHT) if lattice.solid_layers else None,
     }
 
@@ -214,25 +188,24 @@ def _lines(lattice: Cells) -> dict[str, Any]:
 def _filled(lattice: Cells, share: float, inputs: Inputs) -> dict[str, Any]:
     """The numbers of cells and the wall thickness for a share of infill."""
     if lattice.mass is not None:
-        raise RefusedError("lattice.mass", lattice.mass, "none where lattice.infill is given")
+        raise lattice.refusal("mass", "none where lattice.infill is given")
     from sweep.design.sizing import cells_for
 
-    width = lattice.line
+    width = lattice.line_printed
     reason = f"as lattice.infill is {100 * share:g} %; give one of them"
     _check_follows("wall_thickness", width, f"{width:g} m, {reason}", inputs)
     thin = lattice.model_copy(update={"wall_thickness": width})
     count = cells_for(thin.geometry, share, MAX_NODES)
     if count is None:
         lines = f"lines of {width:g} m in this box"
-        allowed = f"a share that 1 to {MAX_NODES:,} cells fill with {lines}"
-        raise RefusedError("lattice.infill", share, allowed)
+        raise lattice.refusal("infill", f"a share that 1 to {MAX_NODES:,} cells fill with {lines}")
     return {"wall_thickness": width} | _following(count, reason, inputs)
 
 
 def _divided(lattice: Cells, size: float, inputs: Inputs) -> dict[str, int]:
     """The numbers of cells that come nearest to a size."""
     if lattice.infill is not None:
-        raise RefusedError("lattice.cell_size", size, "none where lattice.infill is given")
+        raise lattice.refusal("cell_size", "none where lattice.infill is given")
     from sweep.design.sizing import cell_of, cells_of_size
 
     count = cells_of_size(lattice.geometry, size, MAX_NODES)
@@ -242,7 +215,7 @@ def _divided(lattice: Cells, size: float, inputs: Inputs) -> dict[str, int]:
         allowed = (
             f"the width of a cell of which 1 to {MAX_NODES:,} fit, regular within a third; {box}"
         )
-        raise RefusedError("lattice.cell_size", size, allowed)
+        raise lattice.refusal("cell_size", allowed)
     reason = f"as lattice.cell_size is {size:g} m; give one of them"
     return _following(count, reason, inputs)
 
@@ -267,9 +240,9 @@ def _check_openings(lattice: Cells) -> None:
     if thickness >= limit * (1.0 - 1e-12):
         if lattice.infill is not None:
             allowed = "a share that leaves cells at least twice as wide as their walls"
-            raise RefusedError("lattice.infill", lattice.infill, allowed)
+            raise lattice.refusal("infill", allowed)
         allowed = f"below half the width of the narrowest cell, {at_most(limit)} m here"
-        raise RefusedError("lattice.wall_thickness", thickness, allowed)
+        raise lattice.refusal("wall_thickness", allowed)
     check_thin(thickness, limit)
     gap = lattice.opening - thickness
     for axis, key in enumerate(("perimeters", "solid_layers")):
@@ -277,21 +250,21 @@ def _check_openings(lattice: Cells) -> None:
         if count and outline >= gap:
             most = int(gap / (outline / count))
             allowed = f"at most {most} here, thinner in all than cells are open, {gap:.4g} m"
-            raise RefusedError(f"lattice.{key}", count, allowed)
+            raise lattice.refusal(key, allowed)
 
 
 def _check_period(lattice: Cells) -> None:
     """Refuse a lattice that cannot be a period, or that is periodic in two ways."""
     if lattice.endless and lattice.tied_sides:
-        raise RefusedError("lattice.sides", "periodic", f'"free" {ENDLESS}')
+        raise lattice.refusal("sides", f'"free" {ENDLESS}')
     endless = ENDLESS if lattice.endless else TIED
     for key, value in {"grading": 1.0, "perimeters": 0, "solid_layers": 0, "infill": None}.items():
         if getattr(lattice, key) != value:
             text = "none" if value is None else f"{value:g}"
-            raise RefusedError(f"lattice.{key}", getattr(lattice, key), f"{text} {endless}")
+            raise lattice.refusal(key, f"{text} {endless}")
     flat = lattice.orientation == "flat"
     key, row = ("cells_x", "column") if flat else ("cells_y", "row")
     repeats = lattice.geometry.periodic[0 if flat else 1]
     if repeats and trait(lattice.kind, "STAGGERED") and getattr(lattice, key) % 2:
         allowed = f"an even number {endless}, as every other {row} of {lattice.kind} is shifted"
-        raise RefusedError(f"lattice.{key}", getattr(lattice, key), allowed)
+        raise lattice.refusal(key, allowed)

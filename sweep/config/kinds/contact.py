@@ -9,7 +9,6 @@ from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.table import (
     Inputs,
     NonNegative,
-    Pairs,
     Positive,
     RefusedError,
     Speed,
@@ -63,13 +62,12 @@ class ByPosition(Forceless):
 Contact = NoContact | Barrier | ByPosition
 
 
-def contact(values: Inputs | Pairs, loading: Loading, body: Body, integrator: str) -> Contact:
+def contact(inputs: Inputs, loading: Loading, body: Body, integrator: str) -> Contact:
     """The contact of these values.
 
     Loose platens and a floor need the barrier even if the contact model is "none". Friction is zero
     along arcs, since the unstable parts of an equilibrium path are not a motion.
     """
-    inputs = dict(values)
     model = inputs.get("model", "auto")
     if model == "position_based":
         return _by_position(loading, body, integrator)
@@ -90,22 +88,18 @@ def _by_position(loading: Loading, body: Body, integrator: str) -> ByPosition:
     """Contact by position, which exerts no force: it can neither carry a platen nor cause
     friction.
     """
-    key, model, allowed = "contact.model", "position_based", '"none" or "barrier" if '
     if body.shells:
-        raise RefusedError(key, model, f'"barrier" or "none" {body.where}')
-    if loading.quasi_static:
-        raise RefusedError(key, model, f"{allowed}loading.quasi_static")
-    if loading.base_moves:
-        raise RefusedError(key, model, f"{allowed}loading.target_mass is given")
-    if loading.platen == "contact":
-        raise RefusedError(key, model, f'{allowed}loading.platen is "contact"')
-    if loading.is_shaped:
-        flat = 'unless loading.striker and loading.base are "flat"'
-        raise RefusedError(key, model, f'"none" or "barrier" {flat}')
-    if body.structure is not None:
-        raise RefusedError(key, model, f'{allowed}lattice.kind is "custom"')
-    if body.tied_sides:
-        raise RefusedError(key, model, f'"none" or "barrier" {TIED}')
+        raise RefusedError("contact.model", "position_based", f'"barrier" or "none" {body.where}')
+    for excluded, where in (
+        (loading.quasi_static, "if loading.quasi_static"),
+        (loading.base_moves, "if loading.target_mass is given"),
+        (loading.platen == "contact", 'if loading.platen is "contact"'),
+        (loading.is_shaped, 'unless loading.striker and loading.base are "flat"'),
+        (body.structure is not None, 'if lattice.kind is "custom"'),
+        (body.tied_sides, TIED),
+    ):
+        if excluded:
+            raise RefusedError("contact.model", "position_based", f'"none" or "barrier" {where}')
     if integrator != "backward_euler":
         only = '"backward_euler" if contact.model is "position_based"'
         raise RefusedError("solver.integrator", integrator, only)

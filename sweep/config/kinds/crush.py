@@ -110,11 +110,6 @@ class Crush(WithStriker):
         return not isinstance(solver, InTime) or solver.time_step <= longest
 
     @property
-    def approach(self) -> float | None:
-        """Speed with which walls are pressed together, m/s; None if the crush takes no time."""
-        return self.speed
-
-    @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""
         return {"stroke_m": self.stroke}

@@ -56,10 +56,6 @@ class CustomLoading(Directed):
         time, steps = (self.duration, None) if start else (None, solver.load_steps)
         return [Ramp("loading", load=(start, 1.0), way=(0.0, 1.0), time=time, steps=steps)]
 
-    def loaded_for(self, height: float) -> float:
-        """The duration, s."""
-        return self.duration
-
 
 def _check_mechanism(structure: Structure, integrator: str | None) -> None:
     """Refuse a structure that can move without resistance."""

@@ -46,7 +46,6 @@ class CustomStructure(Specimen):
     )
     across: ClassVar[dict[str, Any]] = Specimen.across | {"imperfection": 0.0}
     kind: ClassVar[str] = CUSTOM
-    name: ClassVar[str] = CUSTOM
     cells_x: ClassVar[int] = 1
     cells_y: ClassVar[int] = 1
 
@@ -87,11 +86,6 @@ class CustomStructure(Specimen):
         return []
 
     @property
-    def loaded(self) -> Structure:
-        """The structure."""
-        return self.structure
-
-    @property
     def network(self) -> "Network":
         """Centre lines and thickness of the walls, m; there are no bottom and top rows."""
         import numpy as np
@@ -120,7 +114,7 @@ class CustomStructure(Specimen):
         """Refuse parts other than walls; where: why the walls stand upright, in words."""
         if unfit := self.structure.beside_walls:
             allowed = f"a file without {', '.join(unfit)} {where}: its walls stand on platens"
-            raise RefusedError("lattice.file", self.file, allowed)
+            raise self.refusal("file", allowed)
 
     @property
     def walls_printed(self) -> tuple[float, ...]:

@@ -4,7 +4,7 @@ from typing import Any, ClassVar, Literal
 
 from sweep.config.kinds.body import Body
 from sweep.config.kinds.loading import Loading
-from sweep.config.kinds.table import Inputs, Lag, Pairs, Rate, RefusedError, Table, own_values
+from sweep.config.kinds.table import Inputs, Lag, Rate, RefusedError, Table, own_values
 
 
 class NoDamping(Table):
@@ -37,9 +37,8 @@ class KelvinVoigt(Table):
 Damping = NoDamping | Rayleigh | KelvinVoigt
 
 
-def damping(values: Inputs | Pairs, loading: Loading, body: Body, relaxes: bool) -> Damping:
+def damping(inputs: Inputs, loading: Loading, body: Body, relaxes: bool) -> Damping:
     """The damping of these values; shells have none."""
-    inputs = dict(values)
     model = inputs.get("model", "none" if relaxes or body.shells else "rayleigh")
     if body.shells and model != "none":
         raise RefusedError("damping.model", model, f'"none" {body.where}')

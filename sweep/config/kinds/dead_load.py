@@ -55,10 +55,6 @@ class DeadLoad(WithStriker):
         after = self.duration - self.release_time
         return [loaded, Ramp("released", "unloading", time=after)] if after > 0.0 else [loaded]
 
-    def loaded_for(self, height: float) -> float:
-        """The duration, s."""
-        return self.duration
-
     @property
     def columns(self) -> dict[str, float]:
         """Its columns of a results file."""

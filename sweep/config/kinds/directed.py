@@ -63,9 +63,9 @@ class Directed(Table):
     def ramps(self, solver: Solver) -> list[Ramp]:
         """The parts of one cycle."""
 
-    @abstractmethod
     def loaded_for(self, height: float) -> float:
         """About how long walls of a height (m) are loaded, s."""
+        return float(self.value("duration"))
 
     def usual_motion(self, given: Inputs, body: Body, modulus: float) -> dict[str, Any]:
         """The integrator of a motion and its steps, where they are not ``given``; modulus: of the
@@ -76,12 +76,13 @@ class Directed(Table):
     @property
     def approach(self) -> float | None:
         """Speed (m/s) with which walls are pressed together; None if it is not known."""
-        return None
+        speed: float | None = self.value("speed") or self.value("striker_speed")
+        return speed
 
     @property
     def base_moves(self) -> bool:
         """Whether the base is a body that moves freely."""
-        return False
+        return self.value("target_mass") is not None
 
     @property
     def along(self) -> bool:

@@ -72,8 +72,7 @@ class Drawn(WallLattice):
     def of(cls, inputs: Inputs, density: float, along: bool) -> Self:
         """The drawing of these values."""
         if "drawing" not in inputs and "file" not in inputs:
-            allowed = "the path of a drawing, as the kind is drawn"
-            raise RefusedError("lattice.file", None, allowed)
+            raise RefusedError("lattice.file", None, "the path of a drawing, as the kind is drawn")
         usual: dict[str, Any] = {"nodes_per_wall": nodes_of(DRAWN)}
         values = {key: v for key, v in own_values(inputs, cls).items() if key not in cls.derived}
         if "drawing" not in inputs:
@@ -90,7 +89,7 @@ class Drawn(WallLattice):
             return lattice.model_copy(update={"wall_thickness": thickness})
         if lattice.wall_thickness >= lattice.thickest:
             allowed = f"below half the width of the widest cell, {at_most(lattice.thickest)} m here"
-            raise RefusedError("lattice.wall_thickness", lattice.wall_thickness, allowed)
+            raise lattice.refusal("wall_thickness", allowed)
         check_thin(lattice.wall_thickness, lattice.thickest)
         return lattice
 

@@ -122,16 +122,6 @@ class Impact(WithStriker):
         return min(passage, contact, 1.0 / (SAMPLES * self.filter_class))
 
     @property
-    def approach(self) -> float:
-        """Speed with which walls are pressed together, m/s."""
-        return self.striker_speed
-
-    @property
-    def base_moves(self) -> bool:
-        """Whether the base is a body that moves freely."""
-        return self.target_mass is not None
-
-    @property
     def weight(self) -> float:
         """The weight of the striker, N; 0 without gravity."""
         return self.striker_mass * STANDARD_GRAVITY if self.gravity else 0.0

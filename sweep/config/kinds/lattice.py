@@ -12,7 +12,7 @@ from sweep.config.kinds.printable import check_printable
 from sweep.config.kinds.sheet import Sheet
 from sweep.config.kinds.sliced import Sliced
 from sweep.config.kinds.sliced_sheet import SlicedSheet
-from sweep.config.kinds.table import Inputs, Pairs, RefusedError, keys_of
+from sweep.config.kinds.table import Inputs, RefusedError, keys_of
 from sweep.config.kinds.upright import upright
 
 Lattice: TypeAlias = Cells | Sliced | Sheet | SlicedSheet | CustomStructure | Drawn
@@ -43,21 +43,17 @@ def kind_of(inputs: Inputs) -> type[Lattice]:
     return next(kind for kind in reversed(KINDS) if kind.means(inputs))
 
 
-def lattice_of(values: Inputs | Pairs, density: float, along: bool) -> Lattice:
+def lattice_of(inputs: Inputs, density: float, along: bool) -> Lattice:
     """The lattice of these values; density (kg/m^3): of its material."""
-    inputs = dict(values)
     if inputs.get("kind", WORDS[0]) not in WORDS:
         raise RefusedError("lattice.kind", inputs["kind"], ", ".join(WORDS))
     kind = kind_of(inputs)
     try:
         lattice = kind.of(inputs, density, along)
     except RefusedError as error:
-        keys = {error.key, *(other.key for other in error.also)}
-        idle = kind.idle(inputs)
         error.also += [
             RefusedError(f"lattice.{key}", inputs[key], f"none, as {why}")
-            for key, why in idle.items()
-            if f"lattice.{key}" not in keys
+            for key, why in kind.idle(inputs).items()
         ]
         raise
     check_printable(lattice)

@@ -12,7 +12,7 @@ from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.solver import ARCS, IN_TIME
 from sweep.config.kinds.specimen import TIED
 from sweep.config.kinds.striker import with_striker
-from sweep.config.kinds.table import Inputs, Pairs, RefusedError
+from sweep.config.kinds.table import Inputs, RefusedError
 
 Loading: TypeAlias = DeadLoad | Crush | Impact | CustomLoading
 KINDS: tuple[type[Loading], ...] = get_args(Loading)
@@ -24,9 +24,8 @@ MODES = '"displacement" or "impact"'
 PLATENS_ALONG = '"glued", "clamped" or "contact"'
 
 
-def loading(values: Inputs | Pairs, body: Body, integrator: str | None, relaxes: bool) -> Loading:
+def loading(inputs: Inputs, body: Body, integrator: str | None, relaxes: bool) -> Loading:
     """The loading of these values; relaxes: whether the stress of the material depends on time."""
-    inputs = dict(values)
     if body.structure is not None and not body.along:
         return CustomLoading.of(inputs, body, integrator, relaxes)
     mode = _mode_of(inputs, body.shells)

@@ -11,7 +11,6 @@ from sweep.config.kinds.table import (
     Duration,
     Inputs,
     NonNegative,
-    Pairs,
     RefusedError,
     Strain,
     Stress,
@@ -27,6 +26,7 @@ from sweep.config.materials.material_file import (
 )
 
 BY_NUMBERS = "by numbers"
+NUMBERS = ("modulus", "density", "poisson", "reference_time")  # that every record has
 SOFTENING_BETA = 0.1
 FIBRE_COUNT = 7
 FIBRES = '"section" or "fibres"'
@@ -77,6 +77,7 @@ class Material(Table):
     (`sweep.scene.material`) that make it soft and stiff.
     """
 
+    table: ClassVar[str] = "material"
     labels: ClassVar[tuple[str, ...]] = ("memory", "uncertain")
     neutral: ClassVar[dict[str, Any]] = {"relaxation_times": (), "relaxation_shares": ()}
     needs: ClassVar[dict[str, str]] = {
@@ -139,12 +140,11 @@ class Material(Table):
         return self.bend in SECTIONS
 
 
-def material(values: Inputs | Pairs, where: str = "") -> Material:
+def material(inputs: Inputs, where: str = "") -> Material:
     """The material of these values; where: why its walls are plates, in words, if they are.
 
     Raises `RecordError` if the file of a named material cannot be read.
     """
-    inputs = dict(values)
     complete = "curve_strain" in inputs
     material = Material.model_validate(_with_constants(inputs) if complete else _completed(inputs))
     _check_relaxation(material)
@@ -158,67 +158,58 @@ def relaxes(inputs: Inputs) -> bool:
     return bool(inputs.get("loss") or inputs.get("relaxation_times"))
 
 
-def _with_constants(inputs: dict[str, Any]) -> dict[str, Any]:
+def _with_constants(inputs: Inputs) -> dict[str, Any]:
     """The values of a complete material, to which a change may have added a memory."""
     usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA} if "softening_r" in inputs else {}
     if relaxes(inputs) and "reference_time" not in inputs:
-        usual["reference_time"] = read_record(locate(inputs["name"])).reference_time
-    return usual | inputs
+        by_numbers = inputs["name"] == BY_NUMBERS
+        record = None if by_numbers else read_record(locate(inputs["name"]))
+        usual["reference_time"] = record.reference_time if record else REFERENCE_TIME
+    return {**usual, **inputs}
 
 
 def _completed(own: Inputs) -> dict[str, Any]:
-    """The values, completed by the record, and the defaults that follow from both."""
+    """The values, completed by the record if there is one, which else are linear, and by the
+    defaults that follow from both; without keys that have no effect.
+    """
     by_numbers = "modulus" in own and "name" not in own
     record = None if by_numbers else read_record(locate(own.get("name", "ninjaflex")))
     inputs = _with_memory(dict(own), record)
+    usual: dict[str, Any] = {"softening_beta": SOFTENING_BETA, "hardening": 0.0}
+    usual["fibres"] = FIBRE_COUNT
     if record is not None:
         inputs = dict(record.plasticity) | inputs
-    if not relaxes(inputs):
-        inputs = {**inputs, "reference_time": None}
-    if "softening_r" in inputs:
-        inputs = {"softening_beta": SOFTENING_BETA, **inputs}
+        usual |= {key: getattr(record, key) for key in NUMBERS}
+    elif "density" in inputs:
+        usual |= {"name": BY_NUMBERS, "stretch": "linear", "reference_time": REFERENCE_TIME}
     else:
-        inputs = {**inputs, "softening_m": None, "softening_beta": None}
-    inputs = _with_plasticity(inputs)
-    if record is None:
-        return _by_numbers(inputs)
-    return _of_record(record, _with_law(inputs), own)
-
-
-def _by_numbers(inputs: dict[str, Any]) -> dict[str, Any]:
-    """A material without a record, which is linear."""
-    if "density" not in inputs:
         raise RefusedError("material.density", None, "a density, as no name is given")
-    usual = {"reference_time": REFERENCE_TIME} if relaxes(inputs) else {}
-    return _with_law({"name": BY_NUMBERS, "stretch": "linear", **usual, **inputs})
-
-
-def _with_law(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The values with the law of bending, which is linear for a linear material."""
-    linear = inputs.get("stretch", "nonlinear") == "linear"
-    return {"bend": "linear", **inputs} if linear else inputs
-
-
-def _of_record(record: Record, inputs: dict[str, Any], own: Inputs) -> dict[str, Any]:
-    """The values with the numbers and the curve of a record."""
-    numbers = ("modulus", "density", "poisson", *(["reference_time"] if relaxes(inputs) else []))
-    record_values = {key: getattr(record, key) for key in numbers}
-    laws = [inputs.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
-    if inputs["hardening"] is None and by_curve(*laws):
-        record_values |= {"curve_strain": record.strain, "curve_stress": record.stress}
-    uncertain = _uncertain(record, own, {**record_values, **inputs})
-    return {**record_values, **inputs, "name": record.name, "uncertain": uncertain}
+    softens, yields = "softening_r" in inputs, "yield_stress" in inputs
+    if yields:
+        usual |= {"stretch": "linear", "bend": "fibres"}
+    elif (usual | inputs).get("stretch") == "linear":
+        usual |= {"bend": "linear"}
+    values = usual | inputs
+    used = {"reference_time": relaxes(values), "fibres": values.get("bend") == "fibres"}
+    used |= dict.fromkeys(("softening_m", "softening_beta"), softens)
+    used |= dict.fromkeys(("hardening", "fracture_strain"), yields)
+    values = {key: value for key, value in values.items() if used.get(key, True)}
+    if record is None:
+        return values
+    laws = [values.get(key, Material.model_fields[key].default) for key in ("stretch", "bend")]
+    if by_curve(*laws) and not yields:
+        values |= {"curve_strain": record.strain, "curve_stress": record.stress}
+    return values | {"name": record.name, "uncertain": _uncertain(record, own, values)}
 
 
 def _check_relaxation(material: Material) -> None:
     times, shares = material.relaxation_times, material.relaxation_shares
     if len(times) != len(shares):
-        raise RefusedError("material.relaxation_times", list(times), "a time for each share")
+        raise material.refusal("relaxation_times", "a time for each share")
     if times and material.loss is not None:
-        raise RefusedError("material.loss", material.loss, "one of loss and relaxation")
+        raise material.refusal("loss", "one of loss and relaxation")
     if sum(shares) >= 1.0:
-        allowed = "shares whose sum is below 1"
-        raise RefusedError("material.relaxation_shares", list(shares), allowed)
+        raise material.refusal("relaxation_shares", "shares whose sum is below 1")
 
 
 def _check_softening(material: Material) -> None:
@@ -227,7 +218,7 @@ def _check_softening(material: Material) -> None:
     if material.softening_m is None:
         raise RefusedError("material.softening_m", None, "a stress, as softening_r is given")
     if not material.through_fibres:
-        raise RefusedError("material.bend", material.bend, f"{FIBRES} if softening_r is given")
+        raise material.refusal("bend", f"{FIBRES} if softening_r is given")
 
 
 def _check_law(material: Material) -> None:
@@ -236,8 +227,7 @@ def _check_law(material: Material) -> None:
     if material.yields:
         _check_plasticity(material)
     elif used and not material.curve_strain:
-        allowed = '"linear", as no curve is given'
-        raise RefusedError(f"material.{used}", getattr(material, used), allowed)
+        raise material.refusal(used, '"linear", as no curve is given')
     elif used:
         check_curve(material.curve_strain, material.curve_stress)
         _check_that_it_rises(material)
@@ -248,25 +238,20 @@ def _check_that_it_rises(material: Material) -> None:
     at = not_rising(material.curve_strain, material.curve_stress) if material.relaxes else None
     if at is not None:
         key = "relaxation_times" if material.loss is None else "loss"
-        value = list(material.relaxation_times) if material.loss is None else material.loss
         falls = f"the stress of {material.name} does not rise from a strain of {at:g} on"
-        raise RefusedError(f"material.{key}", value, f"none, as {falls}")
+        raise material.refusal(key, f"none, as {falls}")
 
 
 def _check_plasticity(material: Material) -> None:
     """Refuse a plastic material with other laws."""
     if material.stretch != "linear":
-        raise RefusedError(
-            "material.stretch", material.stretch, '"linear" if yield_stress is given'
-        )
+        raise material.refusal("stretch", '"linear" if yield_stress is given')
     if not material.through_fibres:
-        raise RefusedError("material.bend", material.bend, f"{FIBRES} if yield_stress is given")
+        raise material.refusal("bend", f"{FIBRES} if yield_stress is given")
     if material.relaxes or material.softening_r is not None:
         other = "relaxation" if material.relaxes else "softening_r"
         other = "loss" if material.loss is not None else other
-        raise RefusedError(
-            "material.yield_stress", material.yield_stress, f"none if {other} is given"
-        )
+        raise material.refusal("yield_stress", f"none if {other} is given")
 
 
 def _of_plates(material: Material, where: str) -> Material:
@@ -274,15 +259,14 @@ def _of_plates(material: Material, where: str) -> Material:
     all follow one law, elastic or relaxing.
     """
     for key in material.not_along:
-        if value := getattr(material, key):
-            allowed = f"none {where}: its walls are elastic or relax"
-            raise RefusedError(f"material.{key}", value, allowed)
+        if getattr(material, key):
+            raise material.refusal(key, f"none {where}: its walls are elastic or relax")
     if material.bend == "fibres":
-        raise RefusedError("material.bend", material.bend, f'"section" or "linear" {where}')
+        raise material.refusal("bend", f'"section" or "linear" {where}')
     fit = "linear" if material.stretch == "linear" else "section"
     if material.bend != fit:
         why = f'{where} and material.stretch is "{material.stretch}"'
-        raise RefusedError("material.bend", material.bend, f'"{fit}" {why}')
+        raise material.refusal("bend", f'"{fit}" {why}')
     usual = {key: Material.model_fields[key].default for key in IDLE_ALONG}
     return material.model_copy(update=usual)
 
@@ -314,14 +298,3 @@ def _uncertain(
     if record.derived and "curve_strain" in values:
         used, ranges[record.derived] = [*used, record.derived], RULES[record.derived]
     return tuple((key, *ranges[key]) for key in used)
-
-
-def _with_plasticity(inputs: dict[str, Any]) -> dict[str, Any]:
-    """The given keys with the defaults of fibres and of a material that yields."""
-    if inputs.get("yield_stress") is not None:
-        inputs = {"stretch": "linear", "bend": "fibres", "hardening": 0.0, **inputs}
-    else:
-        inputs = {**inputs, "hardening": None, "fracture_strain": None}
-    if inputs.get("bend") == "fibres":
-        return {"fibres": FIBRE_COUNT, **inputs}
-    return {**inputs, "fibres": None}

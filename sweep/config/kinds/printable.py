@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from sweep.config.kinds.specimen import Specimen
-from sweep.config.kinds.table import RefusedError
 from sweep.constants import TO_MM
 
 TOLERANCE = 0.05  # share of a line by which a wall may deviate from a whole number of lines
@@ -14,8 +13,7 @@ def check_printable(lattice: Specimen) -> None:
     """Refuse walls and gaps that do not print if the lattice must be `printable`."""
     wrong = what_does_not_print(lattice) if lattice.printable else ""
     if wrong:
-        allowed = f"false, or another design, as {wrong} do not print"
-        raise RefusedError("lattice.printable", True, allowed)
+        raise lattice.refusal("printable", f"false, or another design, as {wrong} do not print")
 
 
 def what_does_not_print(lattice: Specimen) -> str:

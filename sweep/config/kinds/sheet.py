@@ -2,7 +2,6 @@
 block.
 """
 
-from abc import abstractmethod
 from collections.abc import Callable
 from math import inf, isfinite
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
@@ -14,9 +13,10 @@ from sweep.config.kinds.specimen import (
     check_imperfection,
     check_thickness,
     check_thin,
+    pressed_height,
 )
 from sweep.config.kinds.table import COMPUTED, Inputs, Length, Mass, RefusedError, own_values
-from sweep.design.surfaces.names import BLOCK, SHEETS
+from sweep.design.surfaces.names import BLOCK, SHEETS, Cut
 from sweep.numbers import at_least, at_most
 
 QUADS = 3  # nodes inside half a period: 8 quads a period
@@ -56,19 +56,14 @@ class Surface(Specimen):
         return {key: value for key, value in super().inputs().items() if key != lateral}
 
     @property
-    @abstractmethod
     def sheet(self) -> str:
         """The name of the surface."""
+        return str(self.value("kind"))
 
     @property
     def turned(self) -> bool:
         """Whether it is pressed between two of its axes, not along one."""
         return False
-
-    @property
-    def name(self) -> str:
-        """The name of the surface."""
-        return self.sheet
 
     @property
     def tied_sides(self) -> bool:
@@ -187,11 +182,12 @@ class Sheet(Surface):
     @classmethod
     def of(cls, inputs: Inputs, density: float, along: bool) -> "Sheet":
         """The sheet of these values."""
-        height, step = pressed_height(inputs, along), SHEETS[inputs["kind"]].straight.step
+        cut = SHEETS[inputs["kind"]].straight
+        height, step = pressed_height(inputs, along), cut.step
 
         def draft(period: float) -> Sheet:
             lattice = cls.model_validate(
-                own_values(inputs, cls) | fitted(inputs["kind"], inputs, along, period)
+                own_values(inputs, cls) | fitted(inputs, along, period, cut)
             )
             if lattice.mass is None:
                 return lattice
@@ -216,16 +212,6 @@ class Sheet(Surface):
         """Why walls of these values are a sheet."""
         return f'lattice.kind is "{inputs["kind"]}"'
 
-    def inputs(self) -> dict[str, Any]:
-        """The values from which this follows: the mass or the wall thickness."""
-        without = "wall_thickness" if self.mass is not None else ""
-        return {key: value for key, value in super().inputs().items() if key != without}
-
-    @property
-    def sheet(self) -> str:
-        """The name of the surface."""
-        return self.kind
-
 
 def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedError:
     """The refusal of the period, of the wall thickness, or of the mass; least: the least period,
@@ -237,8 +223,7 @@ def _misfit(lattice: Sheet, inputs: Inputs, least: float, why: str) -> RefusedEr
         return RefusedError("lattice.cell_size", inputs["cell_size"], allowed)
     key, unit = ("mass", "kg") if lattice.mass else ("wall_thickness", "m")
     most = lattice.value(key) * THICKEST * lattice.period / lattice.wall_thickness
-    allowed = f"below {at_most(most)} {unit}, {NARROW}"
-    return RefusedError(f"lattice.{key}", lattice.value(key), allowed)
+    return lattice.refusal(key, f"below {at_most(most)} {unit}, {NARROW}")
 
 
 def widest(height: float, step: float) -> float:
@@ -259,47 +244,22 @@ def narrowest(lattice: S, draft: Callable[[float], S], step: float) -> tuple[flo
     return lattice.pressed_height / (step * (good + 0.5)) * (1.0 + 1e-9) if good else inf, why
 
 
-def pressed_height(inputs: Inputs, along: bool) -> float:
-    """The pressed height, m."""
-    key = "depth" if along else "height"
-    height: float = inputs.get(key, Specimen.model_fields[key].default)
-    return height
+def fitted(inputs: Inputs, along: bool, target: float, cut: Cut | None) -> dict[str, Any]:
+    """The sizes of a panel, or, without a ``cut``, of a block, with the period nearest to
+    ``target`` (m) for which the pressed height is a whole number of steps.
 
-
-def fitted(
-    name: str, inputs: Inputs, along: bool, target: float, turned: bool = False
-) -> dict[str, Any]:
-    """The sizes of a panel of the surface ``name``, with the period nearest to ``target`` (m) that
-    fits its height; turned: see `Surface`.
+    All sides of a block are whole numbers of `BLOCK` periods.
     """
-    height, cut = pressed_height(inputs, along), SHEETS[name].cut(turned)
-    period = _period(height, cut.step, target)
+    height, step = pressed_height(inputs, along), cut.step if cut else BLOCK
+    period = height / (step * max(round(height / (step * target)), 1))
     across, pressed = ("height", "depth") if along else ("depth", "height")
-    return {
-        "width": cut.across * period,
-        across: cut.along * period,
-        pressed: height,
-        "period": period,
-        "pressed": ALONG if along else ACROSS,
-    }
-
-
-def fitted_block(inputs: Inputs, along: bool, target: float) -> dict[str, Any]:
-    """The sizes of a block, as in `fitted`; all sides are whole numbers of `BLOCK` periods."""
-    height = pressed_height(inputs, along)
-    period = _period(height, BLOCK, target)
-    step = BLOCK * period
-    sizes = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
-    whole = {side: step * max(round(size / step), 1) for side, size in sizes.items()}
-    pressed = {"depth" if along else "height": height}
-    return whole | pressed | {"period": period, "pressed": ALONG if along else ACROSS}
-
-
-def _period(height: float, step: float, target: float) -> float:
-    """The period (m) nearest to ``target`` for which a height is a whole number of steps; step: in
-    periods.
-    """
-    return height / (step * max(round(height / (step * target)), 1))
+    if cut:
+        sizes = {"width": cut.across * period, across: cut.along * period}
+    else:
+        given = {side: inputs.get(side, Specimen.model_fields[side].default) for side in SIDES}
+        whole = step * period
+        sizes = {side: whole * max(round(size / whole), 1) for side, size in given.items()}
+    return sizes | {pressed: height, "period": period, "pressed": ALONG if along else ACROSS}
 
 
 def checked(lattice: S) -> S:
@@ -308,8 +268,7 @@ def checked(lattice: S) -> S:
     Keys of upright walls that it does not have are dropped.
     """
     if not 1 <= lattice.nodes_per_wall <= MOST_NODES:
-        allowed = f"1 to {MOST_NODES}, in half a period of a sheet"
-        raise RefusedError("lattice.nodes_per_wall", lattice.nodes_per_wall, allowed)
+        raise lattice.refusal("nodes_per_wall", f"1 to {MOST_NODES}, in half a period of a sheet")
     check_imperfection(lattice, "of a sheet")
     seed = (lattice.imperfection_seed or 0) if lattice.imperfection else None
     unused = {"layers": None, "symmetry": "none"}

@@ -119,10 +119,8 @@ class Sliced(WallLattice):
         lattice = lattice.model_copy(
             update={"wall_thickness": lattice.printed_as.wall * lattice.lines}
         )
-        per_area = density * lattice.depth
-        return lattice.model_copy(
-            update=_spacing_of(lattice, _share(lattice, inputs, per_area), per_area)
-        )
+        share = _share(lattice, inputs, density)
+        return lattice.model_copy(update=_spacing_of(lattice, share, density))
 
     def inputs(self) -> dict[str, Any]:
         """The values from which this follows, without the share if it follows from another
@@ -134,11 +132,6 @@ class Sliced(WallLattice):
     def implies(self, key: str, value: object) -> bool:
         """As `Table.implies`; solid layers follow from the perimeters."""
         return value == self.solid_layers if key == "solid_layers" else super().implies(key, value)
-
-    @property
-    def name(self) -> str:
-        """The slicer's own name of the pattern."""
-        return self.pattern
 
     @property
     def printed_as(self) -> Pattern:
@@ -172,16 +165,6 @@ class Sliced(WallLattice):
         return spread_lines(self.slicer, self.fill_multiline) * self.line
 
     @property
-    def line_printed(self) -> float:
-        """Width of a line, m."""
-        return self.line_width
-
-    @property
-    def walls_printed(self) -> tuple[float, ...]:
-        """None: its walls are lines."""
-        return ()
-
-    @property
     def gap_printed(self) -> float:
         """Clear width of the narrowest cell, m; beside the double walls of a honeycomb."""
         return self.opening - (2.0 if self.printed_as.wall > 1.0 else 1.0) * self.lines
@@ -193,7 +176,7 @@ class Sliced(WallLattice):
 
     def check_standing(self, where: str) -> None:
         """Refuse every lattice, as lines cannot be pressed along the cells."""
-        raise RefusedError("lattice.slicer", self.slicer, f"none {where}: give kind and cells")
+        raise self.refusal("slicer", f"none {where}: give kind and cells")
 
     @property
     def outline(self) -> tuple[float, float]:
@@ -241,10 +224,8 @@ def check_layer(layer: float, width: float) -> None:
         raise RefusedError("lattice.layer_height", layer, f"at most the line width, {width:g} m")
 
 
-def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
-    """The share of infill, as given, or from the distance of lines, or from the mass; per_area:
-    kg/m^2.
-    """
+def _share(lattice: Sliced, inputs: Inputs, density: float) -> float:
+    """The share of infill, as given, or from the distance of lines, or from the mass."""
     ways = [key for key in SIZES if inputs.get(key) is not None]
     if len(ways) > 1:
         allowed = f"none where lattice.{ways[0]} is given"
@@ -253,27 +234,25 @@ def _share(lattice: Sliced, inputs: Inputs, per_area: float) -> float:
         share = share_of(lattice._pattern, lattice.line_distance, lattice.spread_line)
         if share < 1.0:
             return share
-        allowed = f"above {at_least(share * lattice.line_distance)} m"
-        raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
-    return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, per_area)
+        raise lattice.refusal("line_distance", f"above {at_least(share * lattice.line_distance)} m")
+    return inputs["infill"] if lattice.mass is None else _share_for(lattice, lattice.mass, density)
 
 
-def _spacing_of(lattice: Sliced, share: float, per_area: float) -> dict[str, Any]:
-    """The values that a share of infill sets; per_area: kg/m^2."""
+def _spacing_of(lattice: Sliced, share: float, density: float) -> dict[str, Any]:
+    """The values that a share of infill sets."""
     most = _most_of(lattice)
     if share >= most * (1.0 - 1e-12):
         wide = "so that cells are twice as wide as their walls"
         if lattice.line_distance is not None:
             least = distance_of(lattice._pattern, most, lattice.spread_line)
-            allowed = f"above {at_least(least)} m, {wide}"
-            raise RefusedError("lattice.line_distance", lattice.line_distance, allowed)
+            raise lattice.refusal("line_distance", f"above {at_least(least)} m, {wide}")
         allowed = f"below {at_most(in_unit(most, '%'), 3)} %, {wide}"
         raise RefusedError("lattice.infill", share, allowed)
     spacing = _spacing(lattice, share)
     candidate = lattice.model_copy(update=spacing)
     check_size(candidate, candidate.inputs(), SIZES)
     if abs(_mass_ratio(candidate) - 1.0) > MASS_ERROR:
-        raise _refused_drawing(candidate, share, per_area)
+        raise _refused_drawing(candidate, share, density)
     return spacing
 
 
@@ -284,16 +263,13 @@ def _most_of(lattice: Sliced) -> float:
 
 def _mass_ratio(candidate: Sliced) -> float:
     """The mass of the walls as drawn over the mass that is extruded."""
-    from sweep.design.lattice import build_network
     from sweep.design.slicer.network import drawn_over_extruded
 
-    return drawn_over_extruded(build_network(candidate.geometry), candidate.geometry)
+    return drawn_over_extruded(candidate.network, candidate.geometry)
 
 
-def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> RefusedError:
+def _refused_drawing(candidate: Sliced, share: float, density: float) -> RefusedError:
     """Why a share cannot be drawn, and the nearest whole per cent within `NEAR` that can."""
-    from sweep.design.lattice import counted_area
-
     wrong = 100.0 * (_mass_ratio(candidate) - 1.0)
     weight = f"{abs(wrong):.0f} % {'more' if wrong > 0.0 else 'less'} than is extruded"
     why = f"lines that run too near the perimeters make the walls weigh {weight}"
@@ -301,20 +277,18 @@ def _refused_drawing(candidate: Sliced, share: float, per_area: float) -> Refuse
     for other in sorted(near, key=lambda other: abs(other - share)):
         nearest = candidate.model_copy(update=_spacing(candidate, other))
         if other < _most_of(candidate) and abs(_mass_ratio(nearest) - 1.0) <= MASS_ERROR:
-            mass, turn = per_area * counted_area(nearest.geometry), ", or another fill_angle"
+            mass, turn = density * nearest.counted_volume, ", or another fill_angle"
             examples = {
                 "line_distance": f"{nearest.fill_distance:.4g} m, for example{turn}",
                 "mass": f"{mass:.4g} kg, for example",
                 "infill": f"{100.0 * other:.0f} %, for example{turn}",
             }
             key = next(key for key in examples if getattr(candidate, key) is not None)
-            return RefusedError(
-                f"lattice.{key}", getattr(candidate, key), f"{examples[key]}; {why}"
-            )
+            return candidate.refusal(key, f"{examples[key]}; {why}")
     allowed = (
         f"another number, or a larger box; {why}, as with any infill near {100.0 * share:.0f} %"
     )
-    return RefusedError("lattice.perimeters", candidate.perimeters, allowed)
+    return candidate.refusal("perimeters", allowed)
 
 
 def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
@@ -327,13 +301,14 @@ def _spacing(lattice: Sliced, share: float) -> dict[str, Any]:
     return {"infill": share, "fill_distance": distance, "cells_x": columns, "cells_y": rows}
 
 
-def _share_for(lattice: Sliced, mass: float, per_area: float) -> float:
-    """The share with which a mass (kg) is extruded; per_area: kg/m^2."""
+def _share_for(lattice: Sliced, mass: float, density: float) -> float:
+    """The share with which a mass (kg) is extruded."""
     from sweep.design.slicer.network import LEAST_SHARE, share_for
 
     first = lattice.model_copy(update=_spacing(lattice, LEAST_SHARE))
     counted = lattice.spread_line / lattice.lines  # share as the slicer counts / as extruded
     most = (1.0 - 1e-9) * _most_of(lattice) / counted
+    per_area = density * lattice.depth
     share, *limits = share_for(first.geometry, mass / per_area, most)
     if isnan(share):
         light, heavy = (per_area * area for area in limits)
@@ -394,8 +369,8 @@ def _check_lines(lattice: Sliced) -> None:
     check_layer(lattice.layer_height, lattice.line_width)
     if lattice.lateral and lattice.fill_angle != ALONG_DEPTH:
         allowed = f"0 degrees: lines of {lattice.pattern} run along lattice.depth"
-        raise RefusedError("lattice.fill_angle", lattice.fill_angle, allowed)
+        raise lattice.refusal("fill_angle", allowed)
     most = int(0.5 * min(lattice.width, lattice.height) / lattice.line)
     if not 1 <= lattice.perimeters < most:
         allowed = f"1 to {most - 1}, as lattice.slicer is given: perimeters hold the infill"
-        raise RefusedError("lattice.perimeters", lattice.perimeters, allowed)
+        raise lattice.refusal("perimeters", allowed)

@@ -15,13 +15,11 @@ from sweep.config.kinds.sheet import (
     Surface,
     checked,
     fitted,
-    fitted_block,
     narrowest,
-    pressed_height,
     widest,
 )
 from sweep.config.kinds.sliced import FILL_ANGLE, MOST_LINES, check_layer, line_width_of, names_in
-from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines
+from sweep.config.kinds.specimen import LAYER_HEIGHT, Lines, pressed_height
 from sweep.config.kinds.table import Angle, Inputs, Length, RefusedError, Share, own_values
 from sweep.design.slicer.patterns import (
     PROGRAMS,
@@ -73,16 +71,15 @@ class SlicedSheet(Surface):
         _check(inputs, width, layer, lines)
         angle, one = _angle(inputs, pattern, along), line_of(inputs["slicer"], width, layer)
         spread = pattern.period * spread_lines(inputs["slicer"], lines) * one
-        turned, block = _is_turned(angle, along), bool(inputs.get("perimeters"))
-        step = BLOCK if block else SHEETS[pattern.sheet].cut(turned).step
+        panel = SHEETS[pattern.sheet].cut(_is_turned(angle, along))
+        cut = None if inputs.get("perimeters") else panel
+        step = cut.step if cut else BLOCK
         follows = {"wall_thickness": lines * one, "line_width": width}
 
         def draft(period: float) -> SlicedSheet:
-            if block:
-                sides = fitted_block(inputs, along, period)
+            sides = fitted(inputs, along, period, cut)
+            if cut is None:
                 _check_block(inputs, angle, one, sides)
-            else:
-                sides = fitted(pattern.sheet, inputs, along, period, turned)
             share = {"infill": spread / sides["period"]}
             return cls.model_validate(own_values(inputs, cls) | sides | follows | share)
 
@@ -146,16 +143,6 @@ class SlicedSheet(Surface):
         return _is_turned(self.fill_angle, self.pressed == ALONG)
 
     @property
-    def name(self) -> str:
-        """The slicer's own name of the pattern."""
-        return self.pattern
-
-    @property
-    def walls_printed(self) -> tuple[float, ...]:
-        """None: its walls are lines."""
-        return ()
-
-    @property
     def extruded(self) -> float:
         """Volume as printed, m^3."""
         sheet = SHEETS[self.sheet].steep * super().extruded
@@ -210,7 +197,7 @@ def _check_block(inputs: Inputs, angle: float, line: float, sides: Mapping[str, 
 def _low(lattice: SlicedSheet, target: float, step: float) -> RefusedError:
     """The refusal of a height, or of a width, in which not even one step of the sheet fits."""
     if lattice.misfit != NARROW:
-        return RefusedError("lattice.width", lattice.width, f"less, {lattice.misfit}")
+        return lattice.refusal("width", f"less, {lattice.misfit}")
     key = "depth" if lattice.pressed == ALONG else "height"
     least = step * max(lattice.wall_thickness / THICKEST, LEAST * target)
     return RefusedError(

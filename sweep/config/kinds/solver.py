@@ -18,6 +18,7 @@ Integrator = Literal["backward_euler", "bdf2", "newmark", "static", "arc_length"
 class _Solver(Table):
     """The keys of all solvers. joints: None along the cells. retry: `simulation.retries`."""
 
+    table: ClassVar[str] = "solver"
     # Neither changes the results of a case that converges as it is.
     labels: ClassVar[tuple[str, ...]] = ("time_limit", "retry")
     neutral: ClassVar[dict[str, Any]] = {"hessian": "exact"}

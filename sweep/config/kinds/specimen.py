@@ -2,7 +2,6 @@
 
 from abc import abstractmethod
 from math import isclose, isnan
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field
@@ -40,6 +39,7 @@ class Specimen(Table):
     its cells, with their values there. aperiodic: why no period of it is known, after its name.
     """
 
+    table: ClassVar[str] = "lattice"
     words: ClassVar[tuple[str, ...]] = ()
     across: ClassVar[dict[str, Any]] = {
         "layers": None,
@@ -94,20 +94,16 @@ class Specimen(Table):
         """Why walls of these values are a sheet; empty if they are none."""
         return ""
 
-    @classmethod
-    def check_file(cls, path: Path) -> list[str]:
-        """Refuse a file that cannot be read; else return sentences about its content."""
-        return []
-
     @property
-    @abstractmethod
     def name(self) -> str:
-        """Its name for people."""
+        """Its name for people: the slicer's own name of its pattern, or its kind."""
+        return str(self.value("pattern") or self.value("kind"))
 
     @property
     def loaded(self) -> Structure | None:
         """The structure, if its file has the loads too."""
-        return None
+        structure: Structure | None = self.value("structure")
+        return structure
 
     @property
     def network(self) -> "Network":
@@ -139,12 +135,12 @@ class Specimen(Table):
     @property
     def line_printed(self) -> float:
         """Width of a line, m."""
-        return self.nozzle
+        return float(self.value("line_width") or self.nozzle)
 
     @property
     def walls_printed(self) -> tuple[float, ...]:
-        """Thicknesses of walls that have to be whole numbers of lines, m."""
-        return (self.wall_thickness,)
+        """Thicknesses of walls that have to be whole numbers of lines, m; not of a slicer's."""
+        return () if self.value("slicer") else (self.wall_thickness,)
 
     @property
     def gap_printed(self) -> float | None:
@@ -154,12 +150,12 @@ class Specimen(Table):
     @property
     def endless(self) -> bool:
         """Whether this is one period of an endless lattice."""
-        return False
+        return bool(self.value("boundary") == "periodic")
 
     @property
     def tied_sides(self) -> bool:
         """Whether its left and right sides are tied to each other."""
-        return False
+        return bool(self.value("sides") == "periodic")
 
     @property
     def sheet(self) -> str:
@@ -239,6 +235,13 @@ class WallLattice(Specimen):
         return self.counts[1] * (self.nodes_per_wall + 1)
 
 
+def pressed_height(inputs: Inputs, along: bool) -> float:
+    """The height (m) that these values of a lattice press."""
+    key = "depth" if along else "height"
+    height: float = inputs.get(key, Specimen.model_fields[key].default)
+    return height
+
+
 def check_proportion(specimen: Specimen) -> None:
     """Refuse a box whose aspect ratio is too large."""
     key, other = "width", "height"
@@ -302,4 +305,4 @@ def check_imperfection(specimen: Specimen, where: str) -> None:
     """Refuse an imperfection of shells so large that it is a buckle itself."""
     if specimen.imperfection > MOST_IMPERFECTION:
         allowed = f"at most {MOST_IMPERFECTION:g}, in wall thicknesses, {where}"
-        raise RefusedError("lattice.imperfection", specimen.imperfection, allowed)
+        raise specimen.refusal("imperfection", allowed)

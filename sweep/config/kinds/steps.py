@@ -16,7 +16,7 @@ from sweep.config.kinds.solver import (
     Solver,
     Static,
 )
-from sweep.config.kinds.table import Inputs, Pairs, RefusedError, given_or, own_values
+from sweep.config.kinds.table import Inputs, RefusedError, given_or, own_values
 
 BY_ACCURACY = {"load_steps": 400, "accuracy": 1e-3}  # for a quasi-static crush without load_steps
 BY_ACCURACY_ALONG = {"load_steps": 100, "accuracy": 1e-2}  # folds take paths that differ by more
@@ -26,7 +26,7 @@ IDLE_ALONG = ("element", "joints", "bend_measure", "hessian")
 
 
 def solver(
-    values: Inputs | Pairs, material: Material, loading: Loading, body: Body, by_position: bool
+    inputs: Inputs, material: Material, loading: Loading, body: Body, by_position: bool
 ) -> Solver:
     """The solver of these values, with its steps and its integrator.
 
@@ -35,22 +35,19 @@ def solver(
     arc length is the diagonal of the structure / `load_steps`. With contact by position the default
     integrator is backward Euler, else the `usual_motion` of the loading has it.
     """
-    settings = inputs = dict(values)
+    settings = dict(inputs)
     if material.remembers and inputs.get("integrator") == ARCS:  # its unstable part is no motion
         allowed = f'"static" or {IN_TIME} if the material has a memory'
         raise RefusedError("solver.integrator", ARCS, allowed)
     if body.shells:
         settings = ALONG | {key: value for key, value in inputs.items() if key not in IDLE_ALONG}
-    arcs = settings.get("integrator") == ARCS
-    steps = settings, loading, body, material.modulus, by_position
-    solver = _arcs(settings, body.diagonal) if arcs else _steps(*steps)
+    if settings.get("integrator") == ARCS:
+        usual = {"arc_length": body.diagonal / settings.get("load_steps", LOAD_STEPS)}
+        solver: Solver = Arcs.model_validate(usual | own_values(settings, Arcs))
+    else:
+        solver = _steps(settings, loading, body, material.modulus, by_position)
     _check_count(solver, loading, material, inputs.get("time_step"))
     return solver
-
-
-def _arcs(settings: dict[str, Any], diagonal: float) -> Arcs:
-    usual = diagonal / settings.get("load_steps", LOAD_STEPS)
-    return Arcs.model_validate({"arc_length": usual} | own_values(settings, Arcs))
 
 
 def _steps(
@@ -93,7 +90,7 @@ def _check_count(
     if count <= most:
         return
     if solver.load_steps is not None and time_step is None:
-        raise RefusedError("solver.load_steps", solver.load_steps, f"{allowed}, {count:,} here")
+        raise solver.refusal("load_steps", f"{allowed}, {count:,} here")
     step = solver.time_step if isinstance(solver, InTime) else None
     raise RefusedError("solver.time_step", given_or(time_step, step), allowed)
 
@@ -108,14 +105,13 @@ def in_the_plane(solver: Solver, material: Material, loading: Loading, shells: b
         return solver
     if material.bend == "none" and not isinstance(solver, InTime):
         allowed = f'"linear", "section" or "fibres" if solver.integrator is "{solver.integrator}"'
-        raise RefusedError("material.bend", "none", allowed)
+        raise material.refusal("bend", allowed)
     if material.through_fibres and solver.bend_measure != "angle":
-        allowed = f'"angle" if material.bend is "{material.bend}"'
-        raise RefusedError("solver.bend_measure", solver.bend_measure, allowed)
+        raise solver.refusal("bend_measure", f'"angle" if material.bend is "{material.bend}"')
     solid = solver.element == "cubic" and material.bend != "none"
     if solver.joints == "solid" and not solid:
         cubic = solver.element == "cubic"
         why = 'material.bend is "none"' if cubic else 'solver.element is "classical"'
-        raise RefusedError("solver.joints", "solid", f'"points" if {why}')
+        raise solver.refusal("joints", f'"points" if {why}')
     usual = "solid" if solid and loading.solid else "points"
     return solver.model_copy(update={"joints": solver.joints or usual})

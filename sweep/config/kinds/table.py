@@ -13,8 +13,6 @@ from sweep.config.faults import MisfitError
 T = TypeVar("T")
 Inputs = Mapping[str, Any]
 """The values of one table that a config gives, in SI, by their keys."""
-Pairs = tuple[tuple[str, Any], ...]
-"""The same as keys and values, which can be looked up."""
 
 
 class Tables(TypedDict, total=False):
@@ -63,9 +61,9 @@ Positive = Annotated[float, Field(gt=0)]
 class Table(BaseModel):
     """One table of a case, complete and in SI; its attributes are keys of the config.
 
-    labels: keys that never enter an id. neutral: keys that enter it only with other values.
-    constants: values that enter it in addition to the attributes. derived: attributes that follow
-    from others.
+    table: its name, for `refusal`. labels: keys that never enter an id. neutral: keys that enter it
+    only with other values. constants: values that enter it in addition to the attributes. derived:
+    attributes that follow from others.
 
     sets: key -> the keys whose values follow from it, if it is given. replaces: key -> other keys
     whose values a new one drops. needs: key that may be left out -> the reason. fits: keys whose
@@ -73,6 +71,7 @@ class Table(BaseModel):
     """
 
     model_config = ConfigDict(frozen=True, strict=True, extra="forbid", allow_inf_nan=False)
+    table: ClassVar[str]
     labels: ClassVar[tuple[str, ...]] = ()
     neutral: ClassVar[dict[str, Any]] = {}
     constants: ClassVar[dict[str, Any]] = {}
@@ -104,6 +103,10 @@ class Table(BaseModel):
     def why_idle(self, key: str) -> str:
         """Why a key has no effect."""
         return self.needs.get(key, self.because)
+
+    def refusal(self, key: str, allowed: str) -> "RefusedError":
+        """The refusal of the value of a key."""
+        return RefusedError(f"{self.table}.{key}", getattr(self, key), allowed)
 
     def implies(self, key: str, value: object) -> bool:
         """Whether a value of a key that this kind does not have states what is the case anyway."""

@@ -28,7 +28,7 @@ def upright(lattice: S, inputs: Inputs) -> S:
     meshed, network = lattice.model_copy(update=changes), lattice.network
     quarter = lattice.symmetry == "quarter"
     if quarter and (fault := mirror_fault(network)):
-        raise RefusedError("lattice.symmetry", "quarter", f'"none", as {fault}')
+        raise lattice.refusal("symmetry", f'"none", as {fault}')
     plan = plan_of(network, quarter)
     most = most_layers(plan.thickness, lattice.depth)
     if most < 1:
@@ -47,9 +47,9 @@ def upright(lattice: S, inputs: Inputs) -> S:
 
 def _check(lattice: Specimen) -> None:
     if lattice.endless:
-        raise RefusedError("lattice.boundary", "periodic", f'"free" {WHERE}')
+        raise lattice.refusal("boundary", f'"free" {WHERE}')
     if lattice.tied_sides and lattice.symmetry == "quarter":
-        raise RefusedError("lattice.symmetry", "quarter", f'"none" {TIED}')
+        raise lattice.refusal("symmetry", f'"none" {TIED}')
     check_imperfection(lattice, WHERE)
     lattice.check_standing(WHERE)
 
@@ -62,8 +62,8 @@ def _too_low(lattice: Specimen, thickest: float) -> RefusedError:
     least = f"{at_least(TO_MM * thickest)} mm" if of_file else f"{at_least(thickest)} m"
     allowed = f"at least the wall thickness, {least} here, {WHERE}"
     if of_file:
-        return RefusedError("lattice.file", lattice.value("file"), f"a depth_mm of {allowed}")
-    return RefusedError("lattice.depth", lattice.depth, allowed)
+        return lattice.refusal("file", f"a depth_mm of {allowed}")
+    return lattice.refusal("depth", allowed)
 
 
 def _check_nodes(lattice: Specimen, inputs: Inputs, columns: int, layers: int) -> None:

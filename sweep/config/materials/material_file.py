@@ -158,10 +158,8 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
         needed = "needs the lines # density_kg_m3: ... and # poisson: ..."
         raise RecordError(f"{needed}; of a test, `crumple materials fit` makes such a file")
     for key, number in numbers.items():
-        _check_limits(key, number)
+        _check_number(key, number)
     alone = [key for key, number in numbers.items() if number.value is None]
-    for key, number in numbers.items():
-        _check_plausible(key, number)
     if any(key not in RANGE_ALONE for key in alone):
         raise RecordError(f"{alone[0]} needs a number beside its range")
     if ("softening_r" in numbers) != ("softening_m" in numbers):
@@ -173,18 +171,13 @@ def _check_numbers(numbers: Mapping[str, Stated]) -> None:
         raise RecordError("a material that yields needs the line # modulus_Pa: ...")
 
 
-def _check_limits(key: str, number: Stated) -> None:
-    """Refuse a number, or an end of its range, that no case may have."""
+def _check_number(key: str, number: Stated) -> None:
+    """Refuse a number, or an end of its range, that no case or no printed material has."""
     above, at_most, words = LIMITS.get(key, (-inf, inf, ""))
-    for value in number:
-        if value is not None and not above < value <= at_most:
+    for value in (value for value in number if value is not None):
+        if not above < value <= at_most:
             raise RecordError(f"# {key}: {value:g}; allowed: {words}")
-
-
-def _check_plausible(key: str, number: Stated) -> None:
-    """Refuse a number, or an end of its range, that no printed material has."""
-    for value in number:
-        if value is not None and (why := suspicion(key, value)):
+        if why := suspicion(key, value):
             unit = unit_meant(key, value)
             write = f" write # {key}_{unit.replace('/', '_')}" if unit else ""
             raise RecordError(f"# {key}: {value:g} in SI; allowed: {why}{write}")

@@ -56,7 +56,7 @@ ORCA = Names(
 NOZZLES = "nozzle_diameter"
 LONGEST = 60  # most characters of a value in a sentence
 SPACING = "infill_extrusion_spacing"  # SuperSlicer's key, in place of the width
-LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
+LEFT_OUT: dict[str, dict[str, tuple[str, ...] | None]] = {
     "prusa": {
         "infill_every_layers": ("1",),
         "solid_infill_every_layers": ("0",),
@@ -71,8 +71,8 @@ LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
         "extrusion_multiplier": ("1", "100%"),
         "print_extrusion_multiplier": ("1", "100%"),
         "xy_size_compensation": ("0",),
-        "perimeter_extrusion_width": (),
-        "external_perimeter_extrusion_width": (),
+        "perimeter_extrusion_width": None,
+        "external_perimeter_extrusion_width": None,
     },
     "orca": {
         "infill_combination": ("0",),
@@ -90,13 +90,13 @@ LEFT_OUT: dict[str, dict[str, tuple[str, ...]]] = {
         "filament_flow_ratio": ("1",),
         "print_flow_ratio": ("1",),
         "xy_contour_compensation": ("0",),
-        "inner_wall_line_width": (),
-        "outer_wall_line_width": (),
+        "inner_wall_line_width": None,
+        "outer_wall_line_width": None,
     },
 }
-"""Settings that change the walls and that no lattice here has, with the values without effect."""
-WALL_WIDTHS = ("perimeter_extrusion_width", "external_perimeter_extrusion_width",
-               "inner_wall_line_width", "outer_wall_line_width")  # fmt: skip
+"""Settings that change the walls and that no lattice here has, with the values without effect;
+None: the widths of other lines.
+"""
 
 
 class Profile(NamedTuple):
@@ -177,9 +177,7 @@ class _Translation:
         widths = {own.get(name, "0") for name in self.names.widths} | {"0", ""}
         for name, neutral in LEFT_OUT[SLICERS[self.settings.program]].items():
             value = self._text(name)
-            if name in WALL_WIDTHS:
-                neutral = (*widths,)
-            if value and value.removesuffix(".0") not in neutral:
+            if value and value.removesuffix(".0") not in (widths if neutral is None else neutral):
                 yield f"{name} = {value}"
         if self.lateral and self._angle:
             yield f"{self.names.angle} = {self._text(self.names.angle)}"
@@ -278,11 +276,9 @@ def _notes(name: str, values: Mapping[str, Any], translation: _Translation) -> I
     if translation.automatic:
         wide = f"{WIDTH_PER_NOZZLE:g} nozzles, {values['line_width']}"
         yield f"{name} leaves the width of lines to the slicer: taken as {wide}"
-    if translation.differing:
-        several = ", ".join(f"{key} = {value}" for key, value in translation.differing.items())
-        yield f"{name} has several extruders: the first of {several}"
-    if translation.unread:
-        unread = ", ".join(f"{key} = {value}" for key, value in translation.unread.items())
-        yield f"{name}: not understood: {unread}"
+    several = " has several extruders: the first of", translation.differing
+    for words, read in (several, (": not understood:", translation.unread)):
+        if read:
+            yield f"{name}{words} {', '.join(f'{key} = {value}' for key, value in read.items())}"
     if left := list(translation.left_out()):
         yield f"{name}: left out, as no wall here has it: {', '.join(left)}"

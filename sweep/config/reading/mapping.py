@@ -4,10 +4,9 @@ from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from typing import Any
 
-from sweep.config.faults import ConfigError, Fault
+from sweep.config.faults import ConfigError, Fault, in_words
 from sweep.config.kinds.table import TABLES
 from sweep.config.question import QUESTION
-from sweep.config.reading.reader import in_words
 
 NESTED = (*TABLES, *QUESTION)
 

@@ -1,12 +1,7 @@
-"""Reads a TOML document, table by table, into a sweep; every fault becomes one line.
+"""Reads a TOML document, table by table, into a sweep; every fault becomes one line."""
 
-The reader knows no units: its caller passes the conversion.
-"""
-
-import json
 import re
-from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +9,11 @@ from pydantic import ValidationError
 
 from sweep.config import drop_tests
 from sweep.config.axis import Choice, Interval, Written
-from sweep.config.faults import SHOWN, Fault, MisfitError
+from sweep.config.faults import Fault, MisfitError, in_words, one_line
 from sweep.config.grid import Axes, Config, Recipe, Values
 from sweep.config.keys import ALIASES, Key, case_keys, table_keys
-from sweep.config.kinds.lattice import KINDS, Lattice
+from sweep.config.kinds.custom_structure import CustomStructure
+from sweep.config.kinds.drawn import Drawn
 from sweep.config.kinds.table import TABLES, rounded, similar
 from sweep.config.materials.material_file import (
     RecordError,
@@ -32,6 +28,7 @@ from sweep.config.profiles.settings import NEEDED
 from sweep.config.question import QUESTION, Rank, Require
 from sweep.config.reading.other_names import CHOICES, meant, present_choice, with_words
 from sweep.config.structures.structure_file import StructureError
+from sweep.config.units import in_si
 
 _REASONS = {
     "literal_error": "unknown choice",
@@ -39,7 +36,7 @@ _REASONS = {
     "missing": "too few values",
     "too_long": "too many values",
 }
-FILED = [kind for kind in KINDS if "file" in kind.model_fields]  # lattices of a `lattice.file`
+FILED = (CustomStructure, Drawn)  # lattices of a `lattice.file`
 PROFILE = "lattice.profile"
 OF_A_PATTERN = ("slicer", "pattern", "infill", "fill_angle", "fill_multiline")
 NAMELESS = "unnamed"  # the name of a config that has neither a name nor a file
@@ -61,17 +58,14 @@ class Reader:
     """Turns a document into a config and collects its faults.
 
     folder: the folder of the document, to which paths in it are relative.
-    to_si(quantity, unit): converts a quantity to an SI unit.
     """
 
-    def __init__(self, folder: Path, to_si: Callable[[Any, str], float]) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.to_si = to_si
         self.faults: list[Fault] = []
         self.varied: dict[str, str] = {}  # keys of a case that vary, and the table that says so
-        self.meant: Counter[str] = Counter()  # the keys nearest to unknown ones
         self.notes: list[str] = []
-        self.of_file: type[Lattice] | None = FILED[0]  # whose `lattice.file` is read, if any
+        self.of_file: type[CustomStructure | Drawn] | None = FILED[0]  # reads `lattice.file`
 
     def config(self, document: dict[str, Any], path: Path | None) -> Config:
         """The config of a whole document, without its cases; path: of its file, if it has one."""
@@ -90,7 +84,8 @@ class Reader:
 
     def _recipe(self, document: dict[str, Any]) -> Recipe:
         """The values in a document, and values of profiles that it does not give itself."""
-        document, one, several = _without_profiles(document)
+        document, one = _without(document, "lattice", "profile")
+        document, several = _without(document, "grid", PROFILE)
         keys = _mentioned(document)
         words = keys.get("lattice.kind", ())
         named = [kind for kind in FILED if any(word in words for word in kind.words)]
@@ -178,14 +173,13 @@ class Reader:
         replaced = [key for key in profile.values if _is_stated(key, stated)]
         if replaced:
             self.notes.append(f"{raw}: the config says otherwise: {', '.join(replaced)}")
-        read: Values = {}
+        read, before = {}, len(self.faults)
         for key, value in profile.values.items():
-            name, before = f"lattice.{key}", len(self.faults)
-            written = None if key in replaced else self._value(name, value)
-            for k, fault in enumerate(self.faults[before:], before):
-                self.faults[k] = fault._replace(line=f"{fault.line} ({raw})")
+            written = None if key in replaced else self._value(f"lattice.{key}", value)
             if written:
-                read[name] = written._replace(text=f"{written.text} (of {raw})", implied=True)
+                text = f"{written.text} (of {raw})"
+                read[f"lattice.{key}"] = written._replace(text=text, implied=True)
+        self.faults[before:] = [f._replace(line=f"{f.line} ({raw})") for f in self.faults[before:]]
         return read
 
     def _profiles(self, raws: Any, stated: set[str], beside: bool) -> Axes:
@@ -343,21 +337,12 @@ class Reader:
             return Written(raw, in_words(raw), name)
 
     def _unknown(self, name: str, raw: Any, keys: Iterable[str], where: str = "") -> None:
-        """Refuse an unknown key, and name the nearest.
-
-        That search is slow. Unknown keys after the first `SHOWN` go without it, as faults of the
-        key that most of these mean, so that they are listed last.
-        """
+        """Refuse an unknown key, and name the nearest."""
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
             names.append(PROFILE)
-        if self.meant.total() < SHOWN:
-            near, clause = meant(name, names)
-            self.meant[near] += 1
-        else:
-            near, clause = self.meant.most_common(1)[0][0], ""
-        wrong = f"unknown key; {clause}" if clause else "unknown key"
-        self._refuse(name, raw, wrong, where, about=near)
+        near, clause = meant(name, names)
+        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()
@@ -371,9 +356,9 @@ class Reader:
             return self._structure_path(raw)
         raw = present_choice(key.targets[0], raw)
         if key.targets == ("loading.preset",) and isinstance(raw, str):
-            return drop_tests.in_si(raw, self.to_si)
+            return drop_tests.in_si(raw)
         many = isinstance(raw, list)
-        value: Any = [self._in_si(key, v) for v in raw] if many else self._in_si(key, raw)
+        value: Any = [_in_si(key, v) for v in raw] if many else _in_si(key, raw)
         try:
             checked = key.adapter.validate_python(tuple(value) if many else value)
         except ValidationError as error:
@@ -395,18 +380,17 @@ class Reader:
         self.notes += [f"{raw}: {note}" for note in self.of_file.check_file(path)]
         return str(path.resolve())
 
-    def _in_si(self, key: Key, raw: Any) -> Any:
-        """One value without its unit, if its key has one."""
-        if is_range(raw):
-            raise MisfitError(IN_SEARCH)
-        bare = key.bare and isinstance(raw, int | float)
-        if bare and raw > key.bare_most:
-            raise MisfitError(
-                f"a bare number above {key.bare_most:g}, which may be meant in percent"
-            )
-        if key.bare and isinstance(raw, str) and _is_number(raw):
-            raise MisfitError("a number in quotes, without a unit")
-        return self.to_si(raw, key.unit) if key.unit and not bare else raw
+
+def _in_si(key: Key, raw: Any) -> Any:
+    """One value without its unit, if its key has one."""
+    if is_range(raw):
+        raise MisfitError(IN_SEARCH)
+    bare = key.bare and isinstance(raw, int | float)
+    if bare and raw > key.bare_most:
+        raise MisfitError(f"a bare number above {key.bare_most:g}, which may be meant in percent")
+    if key.bare and isinstance(raw, str) and _is_number(raw):
+        raise MisfitError("a number in quotes, without a unit")
+    return in_si(raw, key.unit) if key.unit and not bare else raw
 
 
 def _is_number(text: str) -> bool:
@@ -428,19 +412,14 @@ def is_range(value: object) -> bool:
     return isinstance(value, dict) and sorted(value) == sorted(RANGE)
 
 
-def _without_profiles(document: dict[str, Any]) -> tuple[dict[str, Any], Any, Any]:
-    """A document without profiles of slicers, the profile in [lattice] and the profiles in [grid];
-    None if there is none.
-    """
-    kept = dict(document)
-    taken: list[Any] = [None, None]
-    for k, (section, key) in enumerate((("lattice", "profile"), ("grid", PROFILE))):
-        table = document.get(section)
-        flat = _flat(table) if isinstance(table, dict) else {}
-        if key in flat:
-            taken[k] = flat.pop(key)
-            kept[section] = flat
-    return kept, taken[0], taken[1]
+def _without(document: dict[str, Any], section: str, key: str) -> tuple[dict[str, Any], Any]:
+    """A document without a key of a section, and the value of the key; None if there is none."""
+    table = document.get(section)
+    flat = _flat(table) if isinstance(table, dict) else {}
+    if key not in flat:
+        return document, None
+    value = flat.pop(key)
+    return document | {section: flat}, value
 
 
 def _mentioned(document: dict[str, Any]) -> dict[str, list[Any]]:
@@ -502,14 +481,3 @@ def _flat(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
 
 def _table(key: str) -> str:
     return key.split(".")[0]
-
-
-def in_words(raw: object) -> str:
-    """A value as TOML writes it, on one line of at most 60 characters."""
-    text = json.dumps(raw, default=str, ensure_ascii=False)
-    return one_line(text if len(text) <= 60 else f"{text[:57]}...")
-
-
-def one_line(text: str) -> str:
-    """A text with a question mark for each character that is not printable."""
-    return "".join(char if char.isprintable() else "?" for char in text)

@@ -6,9 +6,8 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from sweep.config.faults import ConfigError, Fault, MisfitError
+from sweep.config.faults import ConfigError, Fault, MisfitError, one_line
 from sweep.config.reading.examples import examples
-from sweep.config.reading.reader import one_line
 from sweep.config.reading.text import text_of
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from sweep.config.faults import MisfitError
+from sweep.config.faults import MisfitError, in_words
 from sweep.config.reading.text import text_of
 from sweep.config.structures.structure import (
     Load,
@@ -124,8 +124,7 @@ def _where(loc: Sequence[str | int]) -> str:
 
 
 def _fault(loc: Sequence[str | int], value: object, wrong: str) -> str:
-    text = json.dumps(value, default=str)
-    return f"{_where(loc)} = {text if len(text) <= 60 else f'{text[:57]}...'}: {wrong}"
+    return f"{_where(loc)} = {in_words(value)}: {wrong}"
 
 
 def faults(structure: Structure) -> Iterator[str]:

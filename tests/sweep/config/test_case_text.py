@@ -9,45 +9,7 @@ from sweep.config.load import load_config
 from sweep.config.materials import material_file
 from sweep.config.structures import structure_file
 
-LOADINGS = {
-    "force": dict(force=3.0),
-    "crush": dict(strain=0.4, cycles=2, hold_time=1.0),
-    "impact": dict(drop_height=0.5, striker_mass=0.1),
-    "along": dict(direction="out_of_plane"),
-    "impact along": dict(direction="out_of_plane", energy=0.2),
-}
-LATTICES = {
-    "mass": dict(width=25e-3, mass=3e-3),
-    "size": dict(kind="hex", width=50e-3, height=12.5e-3, cell_size=4e-3),
-    "share": dict(kind="hex", width=25e-3, height=20e-3, infill=0.15),
-    "graded": dict(kind="diamond", grading=1.5, perimeters=1),
-    "sliced": dict(slicer="orca", pattern="grid", infill=0.2, width=25e-3),
-    "sliced by mass": dict(slicer="prusa", pattern="triangles", mass=5e-3, width=25e-3),
-}
-LABELS = {"lattice.cells_x": 3, "lattice.width": 2.0, "lattice.kind": "hex", "material.loss": None}
 CUSTOM = load_config("custom").cases[0]
-
-
-def assert_kept(case):
-    text = case.to_json()
-    again = Case.from_json(text)
-    assert (again, again.case_id, again.axes) == (case, case.case_id, case.axes)
-    assert [*map(type, again.axes.values())] == [*map(type, case.axes.values())]
-    assert again.to_json() == text
-
-
-@pytest.mark.parametrize("lattice", LATTICES.values(), ids=[*LATTICES])
-@pytest.mark.parametrize("loading", LOADINGS.values(), ids=[*LOADINGS])
-def test_every_lattice_is_kept_under_every_loading(lattice, loading):
-    if "slicer" in lattice and "direction" in loading:
-        lattice = dict(kind="kagome", cells_x=2, cells_y=2)  # no slicer lays it on end
-    assert_kept(Case.of(lattice=lattice, loading=loading, material=dict(loss=0.4), axes=LABELS))
-
-
-def test_periods_and_quarters_are_kept():
-    crush = dict(mode="displacement", strain=0.3)
-    assert_kept(Case.of(lattice=dict(boundary="periodic"), loading=crush))
-    assert_kept(Case.of(lattice=dict(symmetry="quarter"), loading=LOADINGS["along"]))
 
 
 def test_no_file_is_read(monkeypatch, tmp_path):

@@ -69,8 +69,9 @@ def test_what_a_new_value_replaces_is_gone(given, change, same):
         assert getattr(changed, table) == getattr(anew, table)
 
 
-def test_walls_stay_if_their_mass_is_taken_away():
-    heavy = Case.of(lattice=HEAVY)
+@pytest.mark.parametrize("lattice", [HEAVY, dict(kind="gyroid", mass=1e-4)])
+def test_walls_stay_if_their_mass_is_taken_away(lattice):
+    heavy = Case.of(lattice=lattice)
     walls = heavy.changed(lattice=dict(mass=None, imperfection=0.02)).lattice
     assert (walls.mass, walls.wall_thickness) == (None, heavy.lattice.wall_thickness)
 

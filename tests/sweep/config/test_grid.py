@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from sweep.config import keys
 from sweep.config.faults import ConfigError
 from sweep.config.grid import chosen_case, expand, sweep_of
 from sweep.config.materials import material_file
-from sweep.config.reading import other_names
 
 THOUSAND = [round(0.01 + 1e-4 * i, 6) for i in range(1000)]
 HUGE = "".join(f"{key} = {THOUSAND}\n" for key in ("lattice.grading", "contact.friction"))
@@ -104,11 +102,7 @@ def test_default_material_that_is_not_there(lines, tmp_path, monkeypatch):
 
 MANY = {  # 112 faults each
     f"[grid]\nlattice.wall_thickness = {[*range(112)]}": "[grid] lattice.wall_thickness",
-    f"[[zip]]\nlattice.cells = {[-1] * 112}\nlattice.depth = {['1 mm'] * 112}": (
-        "[[zip]] lattice.cells"
-    ),
     "[contact]\n" + "".join(f"key{n} = 1\n" for n in range(112)): "contact.key",
-    f"[[exclude]]\nlattice.depth = {[*range(112)]}": "[[exclude]] lattice.depth",
 }
 
 
@@ -129,21 +123,6 @@ def test_faults_of_one_key_do_not_hide_those_of_others(lines):
     assert ["lattice.depth" in line for line in told] == [True] * 11 + [False] * 2
     assert "solver.tol = [1]: unknown key" in told[11]
     assert told[12] == "and 1 more mistake, shown after these are fixed"
-
-
-def test_only_keys_that_are_shown_are_compared_with_all_others(lines, monkeypatch):
-    compared = []
-
-    def nearest(name, names):
-        compared.append(name)
-        return keys.nearest(name, names)
-
-    monkeypatch.setattr(other_names, "nearest", nearest)
-    many = (f"{table}.depth{n} = 1\n" for n in range(99) for table in ("lattice", "contact"))
-    told = lines("".join(many))
-    assert len(compared) == 12
-    assert [line.partition(" =")[0] for line in told[:12]] == compared
-    assert all("; the nearest is " in line for line in told[:12])
 
 
 MASSES = '[grid]\nlattice.mass = ["0.8 g", "1.4 g"]\nlattice.kind = ["hex", "circle"]\n'

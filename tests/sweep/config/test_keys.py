@@ -2,15 +2,9 @@
 
 import pytest
 
-from sweep.config.keys import QUANTITIES, case_keys, nearest, table_keys
+from sweep.config.keys import case_keys, nearest, table_keys
 from sweep.design.infill import families
 from sweep.design.surfaces.names import SHEETS
-
-
-def test_every_unit_of_the_keys_is_described():
-    units = {key.unit for key in case_keys().values() if key.unit}
-    assert units <= set(QUANTITIES)
-
 
 KINDS = [f'"{word}"' for word in (*families(), *SHEETS, "custom", "drawn")]
 

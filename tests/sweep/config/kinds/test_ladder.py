@@ -28,11 +28,6 @@ class Ladder(WallLattice):
         return cls.model_validate({"nodes_per_wall": 5} | own_values(inputs, cls))
 
     @property
-    def name(self) -> str:
-        """The name of the infill."""
-        return "ladder"
-
-    @property
     def cells_x(self) -> int:
         """Number of cells side by side."""
         return 1

@@ -5,6 +5,7 @@ Keys of materials that relax: `test_relaxation`.
 
 import pytest
 
+from sweep.config.case import Case
 from sweep.config.kinds.table import RefusedError
 from sweep.config.materials.material_file import REFERENCE_TIME
 from tests.support.designs.tables import material_with
@@ -18,6 +19,8 @@ def test_numbers_have_a_reference_time_too():
     material = material_with(**NUMBERS, loss=0.2)
     assert material.reference_time == REFERENCE_TIME
     assert material.bend == "linear"
+    added = Case.of(material=NUMBERS).changed(material={"loss": 0.2}).material
+    assert added.reference_time == REFERENCE_TIME
 
 
 @pytest.mark.parametrize(

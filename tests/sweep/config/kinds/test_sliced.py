@@ -41,14 +41,6 @@ def test_a_slicer_fills_in_its_own_defaults():
     assert cura.fill_distance == pytest.approx(2.0 * 0.4e-3 / 0.2)
 
 
-def test_names_of_keys_and_patterns_are_the_slicers(load):
-    text = 'extrusion_width = "0.42 mm"\nfill_angle = "30 deg"\ninfill = "15 %"'
-    (case,) = load(f'{SLICED.replace("prusa", "orca")}pattern = "tri-hexagon"\n{text}').cases
-    assert case.lattice.line_width == 0.42e-3
-    assert math.degrees(case.lattice.fill_angle) == pytest.approx(30.0)
-    assert case.lattice.geometry.sliced.pattern == "stars"
-
-
 @pytest.mark.parametrize("pattern", ["grid", "triangles", "stars", "honeycomb"])
 def test_a_mass_is_that_which_is_extruded(pattern):
     """At any density of the material."""
@@ -188,16 +180,6 @@ def test_several_lines_of_cura_stay_where_one_is():
     assert mass.infill == pytest.approx(0.5 * mass.geometry.sliced.share)
     with pytest.raises(RefusedError, match=r"below 16\.6 %"):
         Case.of(lattice=BOX | {"infill": 0.2, "fill_multiline": 6})
-
-
-@pytest.mark.parametrize(
-    ("name", "pattern"),
-    [("2DLattice", "lateral-lattice"), ("Lateral Lattice", "lateral-lattice"),
-     ("2dhoneycomb", "lateral-honeycomb")],
-)  # fmt: skip
-def test_a_prism_in_the_layers_has_older_names(load, name, pattern):
-    (case,) = load(LATERAL.replace("lateral-lattice", name)).cases
-    assert case.lattice.name == case.lattice.pattern == pattern
 
 
 @pytest.mark.parametrize("pattern", ["lateral-lattice", "lateral-honeycomb"])

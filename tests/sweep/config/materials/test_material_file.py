@@ -2,7 +2,6 @@
 
 import pytest
 
-from sweep.config.case import Case
 from sweep.config.materials.material_file import (
     FOLDER,
     RecordError,
@@ -11,7 +10,6 @@ from sweep.config.materials.material_file import (
     read_record,
     stress_at,
 )
-from sweep.simulation.simulate import simulate
 from tests.support.designs.tables import material_with
 from tests.support.materials.records import HEADER
 
@@ -66,16 +64,6 @@ def test_heads_may_name_their_unit(own_record):
         assert list(zip(record.strain, record.stress, strict=True)) == pairs
     assert (record.density, record.modulus) == (1200.0, 19e6)
     assert record.ranges == {"density": (1190.0, 1220.0), "modulus": (17e6, 21e6)}
-
-
-def test_a_lattice_absorbs_the_same_in_the_units_of_a_data_sheet(own_record):
-    points = [(0.02, 5e5), (0.05, 1e6), (0.1, 1.6e6), (0.2, 2.2e6), (0.4, 2.9e6), (0.8, 4e6)]
-    rows = "".join(f"{100.0 * e:.9g},{s / 1e6:.9g}\n" for e, s in [*points, (1.5, 6e6)])
-    head = "# density_g_cm3: 1.2\n# poisson: 0.48\nstrain_percent,stress_MPa\n"
-    material = {"name": str(own_record(head + rows))}
-    result = simulate(Case.of(material=material, loading={"mode": "displacement"}))
-    energy, mass = (result.summary[key] for key in ("absorbed_energy_until_packed_J", "mass_g"))
-    assert energy / mass == pytest.approx(0.1327, abs=0.0005)
 
 
 def test_the_modulus_is_the_secant_between_one_and_four_percent(own_record):

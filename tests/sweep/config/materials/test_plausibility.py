@@ -3,8 +3,6 @@
 import pytest
 
 from sweep.config.materials.plausibility import in_percent, suspicion, unit_meant
-from tests.support.designs.tables import material_with
-from tests.support.materials.records import RUBBERS
 
 
 @pytest.mark.parametrize(
@@ -34,13 +32,6 @@ def test_strains_in_percent_are_far_or_begin_far():
     assert in_percent((0.02, 15.0))
     assert not in_percent((-0.6, 0.02, 8.0))
     assert not in_percent(())
-
-
-@pytest.mark.parametrize("name", RUBBERS)
-def test_shipped_curves_are_plausible(name):
-    material = material_with(name=name)
-    assert not in_percent(material.curve_strain)
-    assert suspicion("curve_modulus", material.modulus) is None
 
 
 @pytest.mark.parametrize(

@@ -60,6 +60,7 @@ NEEDED = [
     f"[lattice]\n{BLOCK}",  # the nearest width that fits
     f'[lattice]\n{BLOCK}sides = "free"',
     f'[lattice]\n{SHEET}sides = "periodic"',
+    '[contact]\nmodel = "auto"',  # becomes the barrier
 ]
 
 
@@ -140,12 +141,6 @@ def test_statics_that_another_key_implies_is_refused_with_that_key(refused, tmp_
     assert refused(
         text, 'solver.integrator = "static", as loading.quasi_static is given', "allowed:"
     )
-
-
-@pytest.mark.parametrize("loading", [PRESSED, IMPACT, ""])
-def test_contact_by_itself_counts_alone(load, loading):
-    (case,) = expand(load(loading + '[contact]\nmodel = "auto"\n'))
-    assert case.contact.model == "barrier"
 
 
 def test_damping_that_a_material_that_relaxes_has_not_by_default(load, lines):

@@ -7,6 +7,7 @@ import pytest
 from sweep.config.grid import expand
 from sweep.config.keys import case_keys, table_keys
 from sweep.config.reading.other_names import CHOICES, KEYS, meant, present_choice
+from sweep.design.slicer.patterns import SLICERS
 
 
 @pytest.mark.parametrize("key", CHOICES)
@@ -14,6 +15,7 @@ def test_words_mean_choices_that_there_are_and_are_none_themselves(key):
     adapter = case_keys()[key].adapter
     assert all(adapter.validate_python(choice) == choice for choice in CHOICES[key].values())
     open_key = key == "lattice.pattern"  # each slicer has patterns of its own
+    assert not open_key or {*CHOICES[key].values()} <= SLICERS["orca"].keys()
     for word in CHOICES[key]:
         with nullcontext() if open_key else pytest.raises(ValueError, match=r"literal_error|Input"):
             adapter.validate_python(word)
@@ -29,7 +31,7 @@ def test_hints_name_keys_that_there_are_and_are_none_themselves():
 def test_words_are_understood_in_every_table(load):
     text = (
         '[lattice]\nwidth = "25 mm"\nheight = "25 mm"\n[grid]\n'
-        'lattice.kind = ["grid", "Honeycomb", "auxetic"]\nloading.mode = ["crush", "drop"]\n'
+        'lattice.kind = ["grid", "Hex", "auxetic"]\nloading.mode = ["Crush", "drop"]\n'
         '[[exclude]]\nlattice.kind = "re-entrant"'
     )
     kinds = [(case.lattice.kind, case.loading.mode) for case in expand(load(text))]
@@ -81,18 +83,3 @@ def test_other_values_are_left_for_the_key_to_refuse():
 
 def test_hint_that_does_not_belong_to_the_known_keys_is_not_given():
     assert meant("budget", ["name", "rank"]) == ("name", "the nearest is name")
-
-
-@pytest.mark.parametrize(
-    ("word", "slicer"),
-    [
-        ("PrusaSlicer", "prusa"),
-        ("superslicer", "prusa"),
-        ("Bambu Studio", "orca"),
-        ("Cura", "cura"),
-    ],
-)
-def test_slicers_by_the_names_that_people_use(load, word, slicer):
-    text = f'[lattice]\nwidth = "30 mm"\nheight = "30 mm"\nslicer = "{word}"\n'
-    (case,) = expand(load(f'{text}pattern = "grid"\ninfill = "20 %"'))
-    assert case.lattice.slicer == slicer

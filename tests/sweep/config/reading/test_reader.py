@@ -312,7 +312,7 @@ def test_keys_of_the_config_win_over_a_profile(load, profile):
 def test_cells_that_are_drawn_take_the_lines_of_a_profile(load, profile):
     (case,) = load(f'{profile}kind = "hex"').cases
     assert (case.lattice.kind, case.lattice.perimeters) == ("hex", 3)
-    assert case.lattice.line == 0.45e-3
+    assert case.lattice.line_printed == 0.45e-3
 
 
 def test_keys_of_a_profile_need_have_no_effect(load, profile, tmp_path):

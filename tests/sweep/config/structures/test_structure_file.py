@@ -80,10 +80,6 @@ def test_one_value_stands_for_each(key, read, one, each):
     assert getattr(Structure.model_validate(walls | {key: each}), read) == each
 
 
-def test_a_sound_file_is_read(lines):
-    assert lines(GOOD) == []
-
-
 @pytest.mark.parametrize(("parts", "key", "words"), WRONG)
 def test_a_mistake_is_a_line(lines, parts, key, words):
     (line,) = lines(GOOD | parts)
