@@ -61,7 +61,7 @@ from sweep.report.page.thinning import (
     thin_stairs,
     work_until,
 )
-from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, plan
+from sweep.report.page.trails import UNIT, at_rest, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import (
     EQUAL,
@@ -474,12 +474,10 @@ class _Stored:
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which an earlier case may share."""
-        frames = plan(frames) if "quads" in frames else frames
-        at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
-        thickness = frames["edge_thickness_m"].astype(float)
-        key = b"".join(a.tobytes() for a in (np.rint(at_rest / UNIT), edges, thickness))
+        position, edges, thickness = at_rest(frames)
+        key = b"".join(a.tobytes() for a in (np.rint(position / UNIT), edges, thickness))
         if key not in self._known and self._room["drawings"] > 0:
-            drawn = drawing(at_rest, edges, thickness)
+            drawn = drawing(position, edges, thickness)
             if self._fits("drawings", len(json.dumps(drawn))):
                 self._known[key] = len(self.drawings)
                 self.drawings.append(drawn)
