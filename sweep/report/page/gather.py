@@ -56,10 +56,8 @@ from sweep.report.page.selection import (
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
-    stair_strokes,
     thin_curves,
     thin_stairs,
-    work_until,
 )
 from sweep.report.page.trails import UNIT, at_rest, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
@@ -85,6 +83,7 @@ from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.report.tables.size_notes import narrow_note, size_note
 from sweep.result import Status
 from sweep.simulation.filter_class import without_blows
+from sweep.simulation.up_to_force import absorbed_until
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
@@ -465,12 +464,11 @@ class _Stored:
         loading = history.iloc[: last_loaded(history, row) + 1]
         force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
         work = loading["work_in_J"].to_numpy()
-        highest, done = force_stairs(force, work)
+        travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
+        highest, done, way = force_stairs(force, work, travel)
         kept = thin_stairs(highest, done, self.points)
         self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
-        travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
-        way = stair_strokes(force, travel)[kept]
-        return [numbers(column, 9) for column in (highest[kept], done[kept], way)]
+        return [numbers(column[kept], 9) for column in (highest, done, way)]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which an earlier case may share."""
@@ -506,7 +504,7 @@ class _Stored:
 def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> float:
     """Greatest relative error of the work up to a force, where it is no small part of all work."""
     works = [
-        (work_until(limit, *full), work_until(limit, *thin))
+        (absorbed_until(limit, *full), absorbed_until(limit, *thin))
         for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
     ]
     large = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
