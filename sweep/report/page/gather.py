@@ -45,7 +45,6 @@ from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
     SCENES,
-    SELECTED_BY,
     Counted,
     front_of_others,
     group_others,
@@ -241,19 +240,10 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 
 def _counted(summary: DataFrame) -> list[Counted]:
-    """Energies known for all cases, until densification and up to the forces of the columns,
-    with only the columns that differ between forces, and the columns that selections need.
-    """
+    """Energies known for all cases: until densification, and up to the forces of the columns."""
     texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
-    until_packed = Counted(None, *merits(summary, Question()))
-    return [until_packed, *(_up_to(force, summary) for force in sorted(map(float, texts)))]
-
-
-def _up_to(force: float, summary: DataFrame) -> Counted:
-    rows, names = merits(summary, Question(allowed_force=force))
-    energies = (names.energy, error_column(names.energy), correction_column(names.energy))
-    kept = {*SELECTED_BY, names.mass, names.per_gram, *energies}
-    return Counted(force, rows[[name for name in rows if name in kept]], names)
+    forces = [None, *sorted(map(float, texts))]
+    return [Counted(f, *merits(summary, Question(allowed_force=f))) for f in forces]
 
 
 def _cases(
@@ -315,8 +305,7 @@ def _errors(part: DataFrame, by_force: Sequence[Counted]) -> Iterator[list[dict[
     and at the end for those up to other forces, which have no error bars.
     """
     for each in by_force:
-        question = Question(allowed_force=each.force)
-        yield _known(relative_errors(*merits(part, question)))
+        yield _known(relative_errors(each.rows.loc[part.index], each.names))
     unbarred = part.drop(columns=error_column("passed_on_N"), errors="ignore")
     names = by_force[0].names._replace(energy=AT_ALLOWED)
     yield _known(relative_errors(unbarred.assign(**{AT_ALLOWED: np.nan}), names))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pandas import DataFrame
 
-from sweep.loading_modes import MODES, compared
+from sweep.loading_modes import compared
 from sweep.ranking.merit import Compared, doubtful, gap_behind, through_solid
 
 Floats = NDArray[np.float64]
@@ -41,13 +41,6 @@ LIMITS = {
     "accelerated": "peak_target_acceleration_m_per_s2",
 }
 """Columns that requirements limit from above, by their names in the page."""
-SELECTED_BY = frozenset(
-    {
-        *("case_id", "loading_mode", "outer_width_m", "depth_m", "beyond_model", "crossed"),
-        *(mode.least.column for mode in MODES.values() if mode.least),
-    }
-)
-"""Columns that select designs, whatever the force up to which energy is counted."""
 
 
 class Counted(NamedTuple):
