@@ -25,7 +25,7 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
-from sweep.loading_modes import has, is_coarse
+from sweep.loading_modes import applies_to, has, is_coarse
 from sweep.numbers import text_in
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import Quantity, Question, RankError, in_si
@@ -215,7 +215,7 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
     limits = {
         name: text_in(limit, MEASURES[name].shown)
         for name, limit in required.items()
-        if MEASURES[name].shared and mode in MEASURES[name].modes
+        if MEASURES[name].shared and mode in applies_to(name)
     }
     if question.allowed_force is not None:
         limits["allowed_force"] = text_in(in_si(question.allowed_force, "N"), "N")

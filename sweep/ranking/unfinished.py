@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
-from sweep.loading_modes import has
+from sweep.loading_modes import applies_to, has
 from sweep.ranking.budget import within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import Question, in_si
@@ -114,8 +114,7 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
 def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
     """Between which values each case would have ended in the column `by`."""
     value = rows[by].astype(float)
-    low, high = value * np.nan - np.inf, value * np.nan + np.inf
-    low, high = low.fillna(-np.inf), high.fillna(np.inf)
+    low, high = (Series(end, rows.index) for end in (-np.inf, np.inf))
     if FIXED.match(by):
         return Ends(value.fillna(-np.inf), value.fillna(np.inf))
     if RISING.match(by):
@@ -177,7 +176,7 @@ def _judged(
     if rows.empty:
         return missed, missed
     mode = rows["loading_mode"].iloc[0]
-    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].modes}
+    limits = {name: limit for name, limit in required.items() if mode in applies_to(name)}
     shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
     energy = ends(rows, names.energy, names, question)
     settled = energy.low == energy.high

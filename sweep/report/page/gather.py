@@ -232,7 +232,7 @@ def _largest(rows: DataFrame) -> list[dict[str, Any]]:
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
-    """The possible requirements, with their loadings, units and words."""
+    """The possible requirements, with their units and words."""
     return {
         name: {**measure._asdict(), "limit": measure.limit, "far": measure.far}
         for name, measure in MEASURES.items()
@@ -356,7 +356,7 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
     mode, least = mode_of(rows), compared(rows)
     return {
         "label": label,
-        "mode": rows["loading_mode"].iloc[0],
+        "requires": mode.requires,
         **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead")},
         "axes": [axis.label for axis in mode.curve],
         "shown": mode.least and mode.least._asdict(),

@@ -140,7 +140,7 @@ function settle() {
 
 // A box and a number for each requirement that the scene can be asked for, in a maker's unit.
 function showRequired() {
-  const known = Object.entries(data.measures).filter(([, measure]) => measure.modes.includes(scene().mode));
+  const known = Object.entries(data.measures).filter(([name]) => scene().requires.includes(name));
   $("require-box").hidden = !known.length;
   $("per").value = asked.per;
   for (const input of [...$("require").children]) input.hidden = !known.some(([name]) => name === input.dataset.name);

@@ -55,9 +55,8 @@ function countedStroke(data, design, question, force) {
 // a panel need a panel.
 function askedOf(data, question) {
   if (question.per === "panel" && !question.panel) return {};
-  const mode = data.scenes[question.scene].mode;
-  const limits = Object.entries(question.require ?? {});
-  return Object.fromEntries(limits.filter(([name]) => data.measures[name].modes.includes(mode)));
+  const { requires } = data.scenes[question.scene];
+  return Object.fromEntries(Object.entries(question.require ?? {}).filter(([name]) => requires.includes(name)));
 }
 
 // Whether forces, energies or masses of periods of unequal area would be compared: merit.py.

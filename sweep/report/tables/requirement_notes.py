@@ -7,7 +7,7 @@ from textwrap import fill
 
 from pandas import DataFrame, Series
 
-from sweep.loading_modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, applies_to, has, mode_of
 from sweep.numbers import (
     SMALLEST_SHOWN,
     budget_text,
@@ -71,7 +71,7 @@ def quantity(name: str, value: float) -> str:
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
     """The requirements for these kinds of loading in one sentence; empty if there are none."""
     kinds = set(modes)
-    own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].modes)}
+    own = {k: v for k, v in ranking.required.items() if kinds.intersection(applies_to(k))}
     limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
     return f"Required of {of_which(ranking)}: {', '.join(limits)}." if limits else ""
 
@@ -278,7 +278,7 @@ def column_notes(ranking: Ranking) -> list[str]:
 
 def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
     """Whether a requirement applies to the designs of one scene."""
-    return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].modes
+    return name in ranking.required and rows["loading_mode"].iloc[0] in applies_to(name)
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:

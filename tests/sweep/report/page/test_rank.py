@@ -150,7 +150,7 @@ def asked_of_both(page_answers, path, seed):
     answers = page_answers(data, each)
     for question, scenes, found in zip(each, wanted, answers, strict=True):
         for scene, answer in zip(data["scenes"], found, strict=True):
-            if question["force"] is None or scene["mode"] == "displacement":
+            if question["force"] is None or scene["driven"]:
                 yield question, answer, scenes[scene["label"]]
 
 
