@@ -145,11 +145,8 @@ class Judged(NamedTuple):
     def within(self, budget_g: float) -> "Judged":
         """The same for the rows within a budget."""
         kept = within_budget(self.rows[self.mass], budget_g)
-        parts = {
-            name: getattr(self, name)[kept]
-            for name in ("rows", "measures", "shares", "close", "fulfil")
-        }
-        return self._replace(**parts)
+        tables = ("rows", "measures", "shares", "close", "fulfil")
+        return self._replace(**{name: getattr(self, name)[kept] for name in tables})
 
 
 def judge(

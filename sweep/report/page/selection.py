@@ -153,7 +153,7 @@ def _merits(part: DataFrame, names: Compared) -> list[Floats]:
     """The values to be maximised: energy, and energy per gram; or the negative of the column
     compared instead.
     """
-    least = compared(part) if len(part) else None
+    least = compared(part)
     columns = [names.energy, names.per_gram] if least is None else [least]
     sign = 1.0 if least is None else -1.0
     return [sign * part[name].to_numpy(float) for name in columns]
