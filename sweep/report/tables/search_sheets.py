@@ -50,21 +50,17 @@ def finalist_sheet(spread: Spread, summary: DataFrame, several: bool = False) ->
 
 def _masses(spread: Spread) -> Series:
     """From the least to the greatest mass of each design, as text."""
-    rows = spread.rows
-    if spread.masses is None:
-        return numerals(rows["mass_g"])
-    low, high = (numerals(Series(one.to_numpy(), rows.index))
-                 for one in (spread.masses.min(axis=1), spread.masses.max(axis=1)))  # fmt: skip
+    masses = spread.masses.set_axis(spread.rows.index)
+    low, high = numerals(masses.min(axis=1)), numerals(masses.max(axis=1))
     return (low + "-" + high).where(low != high, low)
 
 
 def _again(values: Series) -> list[str]:
     """A design's value on the fine mesh, and its lowest and highest value with their corners."""
     others = values.drop(AS_GIVEN)
-    corners = ends(others)
-    if corners is None:
+    if others.isna().all():
         return [NOTHING] * 5
-    spans = [text for name in corners for text in (three_digits(float(others[name])), name)]
+    spans = [text for name in ends(others) for text in (three_digits(float(others[name])), name)]
     return [three_digits(float(others.get(FINE, float("nan")))), *spans]
 
 
