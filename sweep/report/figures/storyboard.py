@@ -93,23 +93,18 @@ def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
     return list(zip(turned, released, ended, strict=True))
 
 
-def parts_of(history: DataFrame) -> dict[str, str]:
-    """The `PARTS` that are not negligible in a case."""
-    greatest = history[["work_in_J", *PARTS]].abs().max()
-    least = NEGLIGIBLE * greatest["work_in_J"]
-    return {name: words for name, words in PARTS.items() if greatest[name] > least}
-
-
 def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
-    """The sum of the energies of a case (J), in words, and its `parts_of`, none negative.
+    """The sum of the energies of a case (J), in words, and those of its `PARTS` that are not
+    negligible, none negative.
 
     The sum is the work done; energy gained by time integration is no part of the work, but added to
     it.
     """
-    parts, total = parts_of(history), MODES[row["loading_mode"]].total
+    greatest, total = history[["work_in_J", *PARTS]].abs().max(), MODES[row["loading_mode"]].total
+    parts = [name for name in PARTS if greatest[name] > NEGLIGIBLE * greatest["work_in_J"]]
     gain = -np.minimum(history[INTEGRATOR], 0.0)
     total += GAINED if INTEGRATOR in parts and gain.any() else ""
-    return history["work_in_J"] + gain, total, np.maximum(history[list(parts)], 0.0)
+    return history["work_in_J"] + gain, total, np.maximum(history[parts], 0.0)
 
 
 def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
