@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from pandas import DataFrame, Series
+from pandas import DataFrame, Series, concat
 
 from sweep.columns import (
     ABSORBED_AT,
@@ -108,8 +108,8 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     if filled is not None:
         added |= _of_panel(finished, filled, energy, force, grams)
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
-    whole = finished.assign(**added)
-    return whole.copy(), names  # a copy has few blocks, from which rows are selected quickly
+    others = finished.drop(columns=list(added), errors="ignore")
+    return concat([others, DataFrame(added, finished.index)], axis=1), names
 
 
 def _of_panel(
@@ -231,8 +231,6 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
 
 def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
     """Refuse a panel that is smaller than half a specimen of one of these cases."""
-    from pandas import DataFrame
-
     sizes = [(sides_of(case), case.loading.direction, *case.footprint) for case in cases]
     panel_in(DataFrame(sizes, columns=["sides", "direction", "outer_width_m", "depth_m"]), panel)
 

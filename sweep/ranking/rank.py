@@ -7,7 +7,6 @@ whose results cannot be trusted (`merit.doubtful`) come last, whatever their val
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from os import PathLike
 
 import numpy as np
@@ -15,6 +14,7 @@ import pandas as pd
 from pandas import DataFrame
 
 from sweep.columns import (
+    COLUMNS,
     describe_column,
     error_column,
     is_grid_key,
@@ -35,12 +35,11 @@ from sweep.ranking.merit import (
     pressed_area,
 )
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.pareto import pareto
 from sweep.ranking.places import passed_over, places_by
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
-from sweep.ranking.requirements import Outcome, check, judge, limits
+from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import (
     FIRST,
@@ -184,12 +183,14 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         from sweep.store.read import read_summary  # nothing else here needs the store
 
         summary = with_allowed(summary, read_summary(summary), question)
-    whole, names = merits(needed_columns(summary, [by]), question)
+    if missing := next((name for name in COLUMNS if name not in summary), None):
+        raise RankError(f"no {missing}; needed: all columns of a summary (`read_summary`)")
+    whole, names = merits(summary, question)
     finished = loaded(whole)
     check(finished, required)
     check_budgets(finished, question)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
-    by = by and _column(widened(whole[:0], summary), by)
+    by = by and _column(whole[:0], by)
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
         np.inf
     ]
@@ -210,7 +211,6 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     placed = [
         part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
-    leading = [name for name in LEADING if name in placed[0]]
     stopped = []
     for label, cases in by_scene(whole[interrupted(whole) | unloaded(whole)], labels).items():
         rows, order = ranked.get(label, (whole[:0], by or compared(cases) or usual))
@@ -218,8 +218,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         alone = {} if label in ranked else {"least_place": np.nan}  # beside no ranked design
         stopped += [part.assign(scene=label, **alone) for part in parts]
     return Ranking(
-        table=widened(pd.concat(placed), summary, leading).reset_index(drop=True),
-        unfinished=widened(pd.concat(stopped), summary, FIRST).reset_index(drop=True),
+        table=_arranged(placed, LEADING, summary),
+        unfinished=_arranged(stopped, FIRST, summary),
         **names._asdict(),
         limited=allowed_force is not None,
         by=next((o for rows, o in scenes if by or not compared(rows)), scenes[0][1]),
@@ -234,7 +234,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
         lightest={
-            label: widened(rows.sort_values([names.mass, "case_id"])[:1], summary)
+            label: rows.sort_values([names.mass, "case_id"])[:1]
             for label, rows in scene_rows.items()
             if len(rows)
         },
@@ -243,19 +243,14 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         panel=tuple(in_si(side, "m") for side in panel or ()),
         per=per,
         required=required,
-        outcomes={
-            label: tuple(_whole(outcome, summary) for outcome in outcomes)
-            for label, (_, outcomes) in judged.items()
-            if required
-        },
+        outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},
     )
 
 
-def _whole(outcome: Outcome, summary: DataFrame) -> Outcome:
-    """An outcome whose rows have all columns of the summary."""
-    nearest, lightest = widened(outcome.nearest, summary), widened(outcome.lightest, summary)
-    close = {name: widened(rows, summary) for name, rows in outcome.close.items()}
-    return replace(outcome, nearest=nearest, lightest=lightest, close=close)
+def _arranged(parts: Iterable[DataFrame], first: Iterable[str], summary: DataFrame) -> DataFrame:
+    """All rows, with some columns first, then those of the summary, then the added ones."""
+    rows = pd.concat(parts, ignore_index=True)
+    return rows[[name for name in dict.fromkeys([*first, *summary, *rows]) if name in rows]]
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:

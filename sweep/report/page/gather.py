@@ -32,7 +32,6 @@ from sweep.ranking.merit import (
     unequal_periods,
 )
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.places import LARGE
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
@@ -98,7 +97,6 @@ FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
 DRAWINGS, SHAPES = 500_000, 2_400_000  # characters; kagome, 100 mm wide, has 440,000
 PRINTS, MOST_PRINTS = 300_000, 16  # characters of files to print; of 2 to 20 kB each
-OF_SCENES = ("second_cycle_share", "material_memory")  # read by `meanings`
 OF_THE_RUN = {
     "created": "last run",
     "git_revision": "revision of the source",
@@ -127,7 +125,7 @@ def page_data(
     print of the first designs.
     """
     heads = list(design_text(loaded(summary), summary))
-    by_force = _counted(needed_columns(summary, OF_SCENES))
+    by_force = _counted(summary)
     whole = by_force[0].rows
     finished = loaded(whole)
     labels = scene_labels(whole)
@@ -135,13 +133,11 @@ def page_data(
     scenes = [*by_label.values()]
     first = _first_ids(ranking or first_ranking(summary, question))
     ids = select_designs(first, by_force, scenes)
-    kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
+    kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
     cases = _cases(by_force, kept, summary)
     stopped_by_label = by_scene(whole[interrupted(whole)], labels)
     stopped = [stopped_by_label.get(label, whole[:0]) for label in by_label]
-    shown = [
-        widened(select_stopped(rows, by_force[0].names, len(scenes)), summary) for rows in stopped
-    ]
+    shown = [select_stopped(rows, by_force[0].names, len(scenes)) for rows in stopped]
     unfinished = _cases(by_force, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in by_force if each.force is not None]

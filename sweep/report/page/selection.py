@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pandas import DataFrame
+from pandas import DataFrame, Index
 
 from sweep.loading_modes import compared
 from sweep.ranking.merit import Compared, doubtful, gap_behind, through_solid
@@ -80,8 +80,7 @@ def on_fronts(counted: Sequence[Counted], scenes: Sequence[DataFrame]) -> list[s
     fronts = []
     for each in counted:
         for rows in scenes:
-            part = each.rows.loc[rows.index]
-            part = part[~doubtful(part)]
+            part = _sound(each, rows.index)
             merit = _merits(part, each.names)[0]
             fronts += [*_ids(part, part[each.names.mass].to_numpy(float), merit, 1)]
     return [k for depth in zip_longest(*fronts) for k in depth if k is not None]
@@ -124,8 +123,7 @@ def _layered(counted: Sequence[Counted], rows: DataFrame) -> Iterator[Iterator[l
         for ends in (values, -values):
             yield _ids(rows, np.zeros(len(rows)), ends, 1)
     for each in counted:
-        part = each.rows.loc[rows.index]
-        part = part[~doubtful(part)]
+        part = _sound(each, rows.index)
         mass, same = part[each.names.mass].to_numpy(float), np.zeros(len(part))
         merit, *per_gram = _merits(part, each.names)
         area = (part["outer_width_m"] * part["depth_m"]).to_numpy(float)
@@ -142,6 +140,11 @@ def _limited(until_packed: Counted, rows: DataFrame) -> Iterator[list[str]]:
         for merit in _merits(part, until_packed.names):
             for ids in _ids(part, part[column].to_numpy(float), merit, 1):
                 yield ids[:: -(-len(ids) // LIMITED)]
+
+
+def _sound(each: Counted, index: Index) -> DataFrame:
+    """The trusted ones of some rows, with their values up to a force."""
+    return each.rows[each.rows.index.isin(index) & ~doubtful(each.rows)]
 
 
 def _ids(part: DataFrame, limited: Floats, merit: Floats, most: int) -> Iterator[list[str]]:
@@ -190,11 +193,10 @@ def front_of_others(
     """The best trusted designs within every budget that are not on the page: their masses and
     energies, for each kind of energy; if something else is compared, the negative of it.
     """
-    rows = rows[~rows["case_id"].isin([*ids])]
+    left = rows.index[~rows["case_id"].isin([*ids])]
     fronts = []
-    for each in counted if len(rows) else ():
-        part = each.rows.loc[rows.index]
-        part = part[~doubtful(part)]
+    for each in counted if len(left) else ():
+        part = _sound(each, left)
         mass, merit = part[each.names.mass].to_numpy(float), _merits(part, each.names)[0]
         best = next(layers(mass, merit, 1), np.zeros(0, int))
         fronts.append([mass[best].tolist(), merit[best].tolist()])
@@ -227,10 +229,11 @@ def _values(counted: Sequence[Counted], rows: DataFrame) -> dict[str, Floats]:
     below = values[f"any below {last}"] = rows["absorbed_energy_J"].to_numpy(float)
     values[f"sound below {last}"] = np.where(never, np.nan, below)
     for k in reversed(range(last)):
-        part = counted[k].rows.loc[rows.index]
-        energy = values[f"any counted {k}"] = part[counted[k].names.energy].to_numpy(float)
+        every = counted[k].rows
+        energy = every.loc[rows.index, counted[k].names.energy].to_numpy(float)
+        values[f"any counted {k}"] = energy
         below = values[f"any below {k}"] = np.where(np.isfinite(energy), energy, below)
-        values[f"sound counted {k}"] = np.where(doubtful(part), np.nan, energy)
+        values[f"sound counted {k}"] = np.where(doubtful(every)[rows.index], np.nan, energy)
         values[f"sound below {k}"] = np.where(never, np.nan, below)
     if least is not None:
         values["any least"] = rows[least].to_numpy(float)
