@@ -247,10 +247,13 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
     )
 
 
-def _arranged(parts: Iterable[DataFrame], first: Iterable[str], summary: DataFrame) -> DataFrame:
+def _arranged(parts: Sequence[DataFrame], first: Iterable[str], summary: DataFrame) -> DataFrame:
     """All rows, with some columns first, then those of the summary, then the added ones."""
-    rows = pd.concat(parts, ignore_index=True)
-    return rows[[name for name in dict.fromkeys([*first, *summary, *rows]) if name in rows]]
+    rows, leading = (
+        pd.concat(parts, ignore_index=True),
+        (name for name in first if name in parts[0]),
+    )
+    return rows[[*dict.fromkeys([*leading, *summary, *rows])]]
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:

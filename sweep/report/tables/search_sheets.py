@@ -74,7 +74,8 @@ def _verdict(spread: Spread) -> Iterator[str]:
     yield from _rivals(spread)
     first = float(kept.iloc[0])
     if first < NARROW or first > 1.0 / NARROW:
-        at = _where(spread)
+        low, high = ends(spread.at_corners.iloc[0].drop(AS_GIVEN))
+        at = low if spread.sign > 0 else high
         what = f"with {at} it has {percent(first)} % of this value"
         yield f"The first design stands on a narrow peak: {what}."
     safest = worst if spread.sign > 0 else -worst
@@ -112,12 +113,6 @@ def _limits_missed(spread: Spread) -> Iterator[str]:
             yield f"{who} exceed{'' if several else 's'} the budget with {corner}."
         else:
             yield f"{who} do{'' if several else 'es'} not fulfil {what} with {corner}."
-
-
-def _where(spread: Spread) -> str:
-    """The corner at which the first design is worst."""
-    others = spread.at_corners.iloc[0].drop(AS_GIVEN)
-    return str(others.idxmin() if spread.sign > 0 else others.idxmax())
 
 
 def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
