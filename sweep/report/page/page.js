@@ -42,7 +42,7 @@ const slide = {
 };
 
 function massRange() {
-  const masses = ranked(data, { ...asked, budget: null }).rows.map((row) => row.mass);
+  const masses = now.rows.map((row) => row.mass);
   return { low: 0.95 * Math.min(...masses), high: 1.05 * Math.max(...masses) };
 }
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.columns import describe_column, is_grid_key
+from sweep.columns import is_grid_key
 from sweep.loading_modes import mode_of
 from sweep.numbers import (
     NOTHING,
@@ -17,10 +17,9 @@ from sweep.numbers import (
     short,
     text_in,
     three_digits,
-    with_unit,
 )
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
-from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
+from sweep.ranking.scenes import HELD_BY_SCENE, key_words, scene_keys, scene_label
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 
@@ -59,12 +58,7 @@ def scene_title(study: Study, name: str) -> str:
     rows = rows.drop(columns=varied)
     shown = {*scene_keys(rows), *HELD_BY_SCENE, *varied}
     kept = [key for key in keys if key not in shown]
-    words = [
-        f"{key.replace('.', ' ').replace('_', ' ')} "
-        f"{with_unit(rows[key].iloc[0], describe_column(key).units)}"
-        for key in kept
-    ]
-    return ", ".join([f"{name}: {scene_label(rows)}", *words])
+    return ", ".join([f"{name}: {scene_label(rows)}", *key_words(rows.iloc[0], kept)])
 
 
 def answers(study: Study) -> list[str]:
