@@ -60,7 +60,7 @@ def moment(
     left, right = figure.subplots(1, 2, gridspec_kw=PLACES)
     figure.suptitle(headline(row), x=0.01, ha="left", fontsize="medium")
     case_plots.one_shape(left, frames, k)
-    last = _last_row(history, frames, k)
+    last = int(np.abs(history["time_s"].to_numpy() - frames["time_s"][k]).argmin())
     if MODES[row["loading_mode"]].probed:
         _reactions(right, row, history, last)
     else:
@@ -94,8 +94,3 @@ def _reactions(ax: Axes, row: Mapping[str, Any], history: DataFrame, last: int) 
     if ax.get_legend():
         ax.legend(frameon=False, fontsize="small")
     case_plots.plain(ax)
-
-
-def _last_row(history: DataFrame, frames: Mapping[str, Any], k: int) -> int:
-    """Number of the row of the history at the time of a shape."""
-    return int(np.abs(history["time_s"].to_numpy() - frames["time_s"][k]).argmin())

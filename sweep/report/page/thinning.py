@@ -29,7 +29,8 @@ def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None =
     while len(kept) < most:
         chord = _chords(kept)
         distance = (gap or _distances)(points, points[kept[chord]], points[kept[chord + 1]])
-        farthest = _first_of_each(np.flatnonzero(distance >= _peaks(distance, kept)[chord]), chord)
+        peak = np.maximum.reduceat(distance, kept[:-1])[chord]
+        farthest = _first_of_each(np.flatnonzero(distance >= peak), chord)
         far = farthest[distance[farthest] > max(tolerance, ALIKE * distance.max())]
         if not len(far):
             break
@@ -65,10 +66,6 @@ def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
     work = start[:, 1] + share * (end[:, 1] - start[:, 1])
     least = LEAST_WORK * points[:, 1].max()
     return np.where(rise > 0.0, np.abs(work - points[:, 1]), 0.0) / (points[:, 1] + least + TINY)
-
-
-def _peaks(distance: Floats, kept: Indices) -> Floats:
-    return np.maximum.reduceat(distance, kept[:-1])
 
 
 def _first_of_each(points: Indices, chord: Indices) -> Indices:

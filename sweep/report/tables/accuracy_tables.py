@@ -36,7 +36,7 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
     rows = study.settings.iloc[np.argsort(numbers, kind="stable")]
     columns = {
         "method": list(rows["method"]),
-        **_refined(rows),
+        **{HEADS[key]: [_size(key, v, bare=True) for v in rows[key]] for key in _keys(rows)},
         **{
             f"{name} %": [_error(study, row, name) for _, row in rows.iterrows()]
             for name in study.references
@@ -162,11 +162,6 @@ HEADS = {
 def _keys(rows: DataFrame) -> list[str]:
     """The keys that are refined in these settings."""
     return [key for key in REFINED if key in rows and varies(rows[key])]
-
-
-def _refined(rows: DataFrame) -> dict[str, list[str]]:
-    """Columns of the refined keys."""
-    return {HEADS[key]: [_size(key, v, bare=True) for v in rows[key]] for key in _keys(rows)}
 
 
 def _size(key: str, value: float, bare: bool = False) -> str:

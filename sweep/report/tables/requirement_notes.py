@@ -136,7 +136,8 @@ def _of_budgets(
             yield fill(_close(name, rows, named), WIDTH)
     if widest.open:
         which = f"{widest.open} of those that fail may fulfil min_absorbed in a longer crush"
-        yield f"{which}: theirs ended before {_end(ranking)}."
+        end = "the allowed force was reached" if ranking.limited else "densification"
+        yield f"{which}: theirs ended before {end}."
     for _, alike in groupby(counted, lambda outcome: list(outcome.nearest["case_id"])):
         yield from _nearest(list(alike), ranking.required, named)
     if any(outcome.fulfil > outcome.doubtful for outcome in counted):
@@ -146,11 +147,6 @@ def _of_budgets(
         yield f"The lightest design that fulfils this weighs {mass}: {named(row)}."
     elif counted:
         yield from _rectangle(widest)
-
-
-def _end(ranking: Ranking) -> str:
-    """The point up to which the energy of a crush is counted, in words."""
-    return "the allowed force was reached" if ranking.limited else "densification"
 
 
 def _within(*outcomes: Outcome) -> str:
@@ -262,8 +258,9 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     for head, (name, column) in FELT.items():
         if struck and (name in ranking.required or column in {*rows["ranked_by"]}):
             columns[head] = numerals(in_unit(rows[column], MEASURES[name].shown))
-    limited = mode_of(rows).driven and (ranking.limited or "max_force" in ranking.required)
-    shown = limited or required_of(ranking, rows, "max_stroke")
+    mode, limits = mode_of(rows), ranking.required
+    limited = mode.driven and (ranking.limited or "max_force" in limits)
+    shown = limited or ("max_stroke" in limits and "max_stroke" in mode.requires)
     if shown and rows["counted_stroke_m"].notna().any():
         columns["stroke mm"] = numerals(in_unit(rows["counted_stroke_m"], "mm"))
     return columns
@@ -274,11 +271,6 @@ def column_notes(ranking: Ranking) -> list[str]:
     scenes = [rows for _, rows in ranking.table.groupby("scene", sort=False)]
     shown = {head for rows in scenes for head in requirement_columns(rows, ranking)}
     return [line for head, line in COLUMN_NOTES.items() if head in shown]
-
-
-def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
-    """Whether a requirement applies to the designs of one scene."""
-    return name in ranking.required and rows["loading_mode"].iloc[0] in applies_to(name)
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:
