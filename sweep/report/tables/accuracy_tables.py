@@ -15,6 +15,7 @@ from sweep.numbers import (
     energy_text,
     in_unit,
     short,
+    significant,
     text_in,
     three_digits,
 )
@@ -118,15 +119,7 @@ def setting(study: Study, row: Series) -> str:
 
 def percents(share: float) -> str:
     """A share in percent, two digits."""
-    return f"{_percent(share)} %"
-
-
-def _percent(share: float) -> str:
-    """A share in percent, two digits, never in powers of ten."""
-    value = in_unit(share, "%")
-    decimals = 1 - int(np.floor(np.log10(value))) if value > 0.0 else 0
-    text = f"{value:.{max(decimals, 0)}f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    return text_in(share, "%", 2)
 
 
 def _error(study: Study, row: Series, name: str) -> str:
@@ -136,7 +129,8 @@ def _error(study: Study, row: Series, name: str) -> str:
     doubt = max(study.references[name].doubt, LEAST_SHOWN)
     if not np.isfinite(doubt) or not np.isfinite(row[name]):
         return NOTHING
-    return f"< {_percent(doubt)}" if row[name] < doubt else _percent(row[name])
+    text = significant(in_unit(max(row[name], doubt), "%"), 2)
+    return f"< {text}" if row[name] < doubt else text
 
 
 def _orders(study: Study) -> Sheet:
