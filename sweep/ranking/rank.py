@@ -248,7 +248,7 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
 
 
 def _arranged(parts: Sequence[DataFrame], first: Iterable[str], summary: DataFrame) -> DataFrame:
-    """All rows, with some columns first, then those of the summary, then the added ones."""
+    """All rows: some columns first, then the columns of the summary, then the added ones."""
     rows, leading = (
         pd.concat(parts, ignore_index=True),
         (name for name in first if name in parts[0]),

@@ -94,8 +94,8 @@ def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
 
 
 def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
-    """The sum of the energies of a case (J), in words, and those of its `PARTS` that are not
-    negligible, none negative.
+    """The sum of the energies of a case (J), in words, and its `PARTS` that are not negligible,
+    none negative.
 
     The sum is the work done; energy gained by time integration is no part of the work, but added to
     it.
