@@ -91,8 +91,6 @@ FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""
 POINTS = 60  # most points of a curve
 LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
-LEAST_POINTS = 12  # most points of a curve in a page of many cases
-FULL = 500  # cases whose curves may have all `POINTS`
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
 DRAWINGS, SHAPES = 500_000, 2_400_000  # characters; kagome, 100 mm wide, has 440,000
@@ -143,13 +141,16 @@ def page_data(
     forces = [each.force for each in by_force if each.force is not None]
     leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(by_force, scenes)]))
     rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
-    stored = _Stored(len(cases))
+    stored = _Stored()
     for run in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = rows_by_id[run.case_id]
         case = _as_measured(run, row)
         design = cases.get(case.case_id) or unfinished[case.case_id]
-        design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
+        if case.case_id in cases:
+            design |= stored.take(case, row)
         if len(case.history) and MODES[row["loading_mode"]].driven:
+            if len(case.history) > 1:
+                design["stairs"] = stored.stairs(case.history, row)
             most = row["stroke_m"]  # curves have single precision
             ends = (min(reached(case.history, force)[1], most) for force in forces)
             design["strokes"] += _exact(ends)
@@ -200,7 +201,7 @@ def page_data(
         "drawings": stored.drawings,
         "shapes": stored.shapes,
         "prints": _prints([*islice(leading, MOST_PRINTS)], files_of) if files_of else {},
-        "points": stored.points,
+        "points": POINTS,
         "doubt": stored.doubt,
         "about": _about(about, summary),
         "config": _config(about),
@@ -394,8 +395,7 @@ def _first_ids(ranking: Ranking) -> list[str]:
 class _Stored:
     """Makes curves and shapes small; shapes only as long as there is room for them."""
 
-    def __init__(self, count: int) -> None:
-        self.points = int(np.clip(POINTS * FULL // max(count, 1), LEAST_POINTS, POINTS))
+    def __init__(self) -> None:
         self.drawings: list[dict[str, Any]] = []
         self.shapes: dict[str, dict[str, Any]] = {}
         self.doubt = 0.0
@@ -407,51 +407,21 @@ class _Stored:
         history, frames = case.history, case.frames
         more: dict[str, Any] = {}
         if len(history) > 1:
-            more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
-            more |= self._base(history, row)
-            if MODES[row["loading_mode"]].driven:
-                more["stairs"] = self._stairs(history, row)
+            more |= {"curve": _thin(curve_of(history, row), POINTS), "book": _book(history, row)}
+            more |= _base(history, row)
         if frames:
             more["drawing"] = self._drawing(frames)
             self._move(case, row)
         return more
 
-    def so_far(self, case: StoredRun, row: Series) -> dict[str, Any]:
-        """The data that rank a case that stopped: its curve until then."""
-        if len(case.history) < 2 or not MODES[row["loading_mode"]].driven:
-            return {}
-        curve, stairs = self._curve(case.history, row), self._stairs(case.history, row)
-        return {"curve": curve, "stairs": stairs}
-
-    def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
-        """Abscissa and ordinate of the curve of a case, as in `curve_of`."""
-        return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
-
-    def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Work done and its parts (J) over the path: `stacked`."""
-        (total, words, parts), (place, label) = stacked(history, row), path_of(history, row)
-        columns = [place, total, *(parts[name] for name in parts)]
-        values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
-        names = [PARTS[name] for name in parts]
-        return {"label": label, "total": words, "parts": names, "values": values}
-
-    def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Greatest pressure (kPa) on a patch of the base over the path, if there is one."""
-        pressure = in_unit(history["base_pressure_Pa"], "kPa")
-        if not pressure.max() > 0.0:
-            return {}
-        place, label = path_of(history, row)
-        values = thin_curves([place, pressure], self.points // 3)
-        return {"base": {"label": label, "values": [numbers(column) for column in values]}}
-
-    def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
+    def stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Force (N), work (J) and travel (m) of `force_stairs` while the platen comes down."""
         loading = history.iloc[: last_loaded(history, row) + 1]
         force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
         work = loading["work_in_J"].to_numpy()
         travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
         highest, done, way = force_stairs(force, work, travel)
-        kept = thin_stairs(highest, done, self.points)
+        kept = thin_stairs(highest, done, POINTS)
         self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
         return [numbers(column[kept], 9) for column in (highest, done, way)]
 
@@ -484,6 +454,28 @@ class _Stored:
         """
         self._room[what] -= length
         return self._room[what] >= 0
+
+
+def _thin(columns: Iterable[Any], most: int) -> list[list[float | int | None]]:
+    """Columns at the same rows, of which there are at most so many."""
+    return [numbers(column) for column in thin_curves(columns, most)]
+
+
+def _book(history: DataFrame, row: Series) -> dict[str, Any]:
+    """Work done and its parts (J) over the path: `stacked`."""
+    (total, words, parts), (place, label) = stacked(history, row), path_of(history, row)
+    values = _thin([place, total, *(parts[name] for name in parts)], POINTS * 2 // 3)
+    names = [PARTS[name] for name in parts]
+    return {"label": label, "total": words, "parts": names, "values": values}
+
+
+def _base(history: DataFrame, row: Series) -> dict[str, Any]:
+    """Greatest pressure (kPa) on a patch of the base over the path, if there is one."""
+    pressure = in_unit(history["base_pressure_Pa"], "kPa")
+    if not pressure.max() > 0.0:
+        return {}
+    place, label = path_of(history, row)
+    return {"base": {"label": label, "values": _thin([place, pressure], POINTS // 3)}}
 
 
 def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> float:
