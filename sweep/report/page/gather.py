@@ -518,8 +518,8 @@ def _failures(summary: DataFrame, labels: Series) -> Iterator[dict[str, str]]:
     failed = summary[summary["status"] != Status.CONVERGED][:FAILURES]
     for label, rows in by_scene(failed, labels).items():
         for (_, row), design in zip(rows.iterrows(), design_labels(rows, summary), strict=True):
-            kept = {name: str(row[name]) for name in ("case_id", "status", "message")}
-            yield kept | {"scene": label, "label": design}
+            where = {"case": str(row["case_id"]), "design": design, "scene": label}
+            yield where | {"status": str(row["status"]), "why": str(row["message"])}
 
 
 def _config(about: Mapping[str, Any]) -> dict[str, Any]:

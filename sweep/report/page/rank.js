@@ -40,7 +40,7 @@ function storedEnergy(data, question) {
 // which it is absorbed; read from the stairs where they are not stored.
 function countedUntil(data, design, question, force) {
   const known = storedEnergy(data, question);
-  if (known >= 0) return [...design.energies[known], design.strokes?.[known] ?? null];
+  if (known >= 0) return [...design.energies[known], design.strokes[known] ?? null];
   if (!design.stairs) return [null, null, null, null];
   const [forces, works, strokes] = design.stairs;
   return [valueUntil(force, forces, works, 2), null, null, valueUntil(force, forces, strokes, 1)];
@@ -51,7 +51,7 @@ function countedUntil(data, design, question, force) {
 function askedOf(data, question) {
   if (question.per === "panel" && !question.panel) return {};
   const { requires } = data.scenes[question.scene];
-  return Object.fromEntries(Object.entries(question.require ?? {}).filter(([name]) => requires.includes(name)));
+  return Object.fromEntries(Object.entries(question.require).filter(([name]) => requires.includes(name)));
 }
 
 // Whether forces, energies or masses of periods of unequal area would be compared: merit.py.

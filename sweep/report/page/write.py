@@ -27,8 +27,6 @@ from sweep.whole_file import write_whole
 HERE = Path(__file__).parent
 PROGRAM = ("rank.js", "link.js", "print.js", "plots.js", "page.js")
 IN_HTML = ("failures", "failed", "unloaded", "missing", "about", "config", "total", "designs")
-FAILURE = {"case": "case_id", "design": "label", "scene": "scene", "status": "status"}
-FAILURE |= {"why": "message"}
 LEFT_OUT = (
     "The page holds {} of {} designs: those that are first for some budget, per gram or per area, "
     "up to the forces of the columns or below some limit, and a sample of the others. Where a "
@@ -121,10 +119,10 @@ def _failures(failures: Sequence[Mapping[str, str]], failed: int, late: int, fil
         return ""
     words = [f"{counted(failed, 'case')} failed"] * bool(failed)
     words += [f"{counted(late, 'case')} stopped after the loading"] * bool(late)
-    rows = [[each[name] for name in FAILURE.values()] for each in failures]
-    left = failed + late - len(rows)
+    left = failed + late - len(failures)
     notes = (f"{left} more are left out: crumple status {file} says why.",) * (left > 0)
-    table = html_table(Sheet("", list(FAILURE), rows, notes=notes))
+    rows = [list(each.values()) for each in failures]
+    table = html_table(Sheet("", list(failures[0]), rows, notes=notes))
     return f'<details class="block"><summary>{", ".join(words)}</summary>{table}</details>'
 
 

@@ -145,7 +145,7 @@ def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
     column = "" if rows.empty else str(rows["ranked_by"].iloc[0])
     shown = dict.fromkeys([other, column])
     columns = {
-        "#": rows["place"].astype(str) + marks(rows) if len(rows) else rows.get("place", Series()),
+        "#": rows["place"].astype(str) + marks(rows),
         **design_text(rows, summary),
         **{name: numerals(rows[name]) for name in shown if name},
     }

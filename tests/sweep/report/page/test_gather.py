@@ -53,7 +53,7 @@ def test_page_has_every_case_once_in_the_scenes_of_the_terminal(tmp_path):
     on_the_page = {case["id"]: data["scenes"][case["scene"]]["label"] for case in data["cases"]}
     assert on_the_page == dict(ranking.table[["case_id", "scene"]].to_numpy())
     (failure,) = data["failures"]
-    assert (failure["case_id"], failure["message"]) == (table["case_id"][5], lost["message"])
+    assert (failure["case"], failure["why"]) == (table["case_id"][5], lost["message"])
     assert [failure["scene"]] == list(ranking.lost)
     assert data["total"] == 6
 
