@@ -34,7 +34,7 @@ from sweep.ranking.merit import (
 from sweep.ranking.narrow import narrow_patterns
 from sweep.ranking.places import LARGE
 from sweep.ranking.question import Question
-from sweep.ranking.rank import answer
+from sweep.ranking.rank import answer, model_versions
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy, relative_errors
@@ -530,9 +530,9 @@ def _config(about: Mapping[str, Any]) -> dict[str, Any]:
 
 def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]]:
     """Origin of the numbers, as pairs of words."""
-    versions = summary["model_version"].value_counts().sort_index().items()
+    versions = model_versions(summary)
     packages = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
-    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)
+    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions.items())
     pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
     pairs += [("version of the model", model)]
     pairs += [(name, short(version)) for name, version in packages.items()]
