@@ -542,8 +542,8 @@ function columns() {
 function requiredColumns() {
   const limits = askedOf(data, asked);
   const found = [];
-  if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && inUnits(row.design.deceleration, "g0")]);
-  for (const [name, head, value] of [["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]])
+  const felt = [["max_deceleration", "decel.", "deceleration"], ["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]];
+  for (const [name, head, value] of felt)
     if (name in limits) {
       const { shown } = data.measures[name];
       found.push([`${head} ${shown}`, (row) => row.design[value] && inUnits(row.design[value], shown)]);

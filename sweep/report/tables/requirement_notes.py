@@ -23,7 +23,6 @@ from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import Outcome
 
-DECELERATION = "peak_deceleration_filtered_m_per_s2"
 ONE_SPECIMEN = "panel N: force of the panel, which is one specimen of {} mm."
 ONE_BY_ONE = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
@@ -51,10 +50,11 @@ COLUMN_NOTES = {
     "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }
 FELT = {
+    "decel. g0": ("max_deceleration", "peak_deceleration_filtered_m_per_s2"),
     "base kPa": ("max_base_pressure", "peak_base_pressure_Pa"),
     "target g0": ("max_target_acceleration", "peak_target_acceleration_m_per_s2"),
 }
-"""Columns on the load of the base, each with its requirement and its column of results."""
+"""Columns on what striker and base feel, each with its requirement and its column of results."""
 WIDTH = 100  # most letters in a line
 LESS = "less than "
 DISTRUST = "marked {}: do not trust it"
@@ -253,8 +253,6 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     """
     columns = {}
     struck = rows["striker_mass_g"].notna().any()
-    if struck and ("max_deceleration" in ranking.required or DECELERATION in {*rows["ranked_by"]}):
-        columns["decel. g0"] = numerals(in_unit(rows[DECELERATION], "g0"))
     for head, (name, column) in FELT.items():
         if struck and (name in ranking.required or column in {*rows["ranked_by"]}):
             columns[head] = numerals(in_unit(rows[column], MEASURES[name].shown))

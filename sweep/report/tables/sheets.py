@@ -22,7 +22,6 @@ from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.marks import densifies_twice, is_unsure, marks
 from sweep.report.tables.requirement_notes import (
-    DECELERATION,
     FELT,
     panel_column,
     panel_size,
@@ -226,7 +225,6 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
             columns |= {} if ranking.limited else crush_text(rows)
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
-    shown |= {DECELERATION} if "decel. g0" in columns else set()
     shown |= {column for head, (_, column) in FELT.items() if head in columns}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}
