@@ -43,6 +43,7 @@ from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
 from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
+    LIMITS,
     SCENES,
     Counted,
     front_of_others,
@@ -90,7 +91,7 @@ Floats = NDArray[np.float64]
 FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""
 POINTS = 60  # most points of a curve
-LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
+FORCES, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
 DRAWINGS, SHAPES = 500_000, 2_400_000  # characters; kagome, 100 mm wide, has 440,000
@@ -268,13 +269,9 @@ def _cases(
             "energies": list(zip(*energies, strict=True)),
             "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
-            "passed": _exact(part["passed_on_N"]),
-            "peak": _exact(part["peak_force_N"]),
+            **{name: _exact(part[column]) for name, column in LIMITS.items()},
             "within": _exact(part["absorbed_energy_within_model_J"]),
             "height": _exact(part["height_m"]),
-            "deceleration": _exact(part["peak_deceleration_filtered_m_per_s2"]),
-            "pressure": _exact(part["peak_base_pressure_Pa"]),
-            "accelerated": _exact(part["peak_target_acceleration_m_per_s2"]),
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
@@ -482,7 +479,7 @@ def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> flo
     """Greatest relative error of the work up to a force, where it is no small part of all work."""
     works = [
         (absorbed_until(limit, *full), absorbed_until(limit, *thin))
-        for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
+        for limit in np.linspace(full[0][0], full[0][-1], FORCES)
     ]
     large = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
     return max((abs(value / true - 1.0) for true, value in large), default=0.0)
