@@ -46,8 +46,7 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
         "": ["*" if best else "" for best in rows["front"]],
     }
     notes = tuple(fill(line, WIDTH) for line in answers(study))
-    texts = [list(row) for row in zip(*columns.values(), strict=True)]
-    yield Sheet(title, list(columns), texts, _opens(rows["method"]), notes)
+    yield Sheet.of(title, columns, opens=_opens(rows["method"]), notes=notes)
     yield _orders(study)
 
 

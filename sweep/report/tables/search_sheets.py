@@ -132,12 +132,8 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         "stroke mm": numerals(in_unit(rows["counted_stroke_m"], "mm")),
         "misses by %": numerals(in_unit(shares, "%")),
     }
-    return Sheet(
-        "Nearest to what is required",
-        list(columns),
-        [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=("misses by: the worst miss, in % of its limit.", *mark_notes(rows)),
-    )
+    notes = ("misses by: the worst miss, in % of its limit.", *mark_notes(rows))
+    return Sheet.of("Nearest to what is required", columns, notes=notes)
 
 
 def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
@@ -149,9 +145,5 @@ def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
         **design_text(rows, summary),
         **{name: numerals(rows[name]) for name in shown if name},
     }
-    return Sheet(
-        f"Pareto front of {column} and {other}",
-        list(columns),
-        [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=(FRONT.format(column, in_unit(ALIKE, "%")), *mark_notes(rows)),
-    )
+    notes = (FRONT.format(column, in_unit(ALIKE, "%")), *mark_notes(rows))
+    return Sheet.of(f"Pareto front of {column} and {other}", columns, notes=notes)

@@ -87,10 +87,9 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             **_measures(rows, ranking),
         }
         order = FIRST.get(rows["ranked_by"].iloc[0], "")
-        yield Sheet(
-            title=f"{scene}{order}",
-            heads=list(columns),
-            rows=[list(row) for row in zip(*columns.values(), strict=True)],
+        yield Sheet.of(
+            f"{scene}{order}",
+            columns,
             opens=frozenset(i for texts in first.values() for i, text in enumerate(texts) if text),
             notes=(
                 *_passed_over(rows, unit),
@@ -201,7 +200,7 @@ def case_sheet(summary: DataFrame) -> Sheet:
     """All cases with their designs, scenes and statuses."""
     columns = {"case": summary["case_id"], **design_text(summary, summary)}
     columns |= {"scene": scene_labels(summary), "status": summary["status"]}
-    return Sheet("", list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+    return Sheet.of("", columns)
 
 
 def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
