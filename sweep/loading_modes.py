@@ -254,8 +254,10 @@ def mode_of(rows: DataFrame) -> Mode:
 
 
 def compared(rows: DataFrame) -> str | None:
-    """The column that is compared instead of energy in one scene; None if energy is."""
-    return least.column if (least := mode_of(rows).least) else None
+    """The column that is compared instead of energy in one scene; None if energy is, or without
+    rows.
+    """
+    return least.column if len(rows) and (least := mode_of(rows).least) else None
 
 
 def has(rows: DataFrame, trait: Literal["driven", "dead", "struck", "probed"]) -> Series:

@@ -12,7 +12,6 @@ from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.pareto import pareto
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import answer
-from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirements import check, limits, measured, misses, nearest_first
 from sweep.ranking.scenes import ASSUMPTIONS, OF_DESIGN
 
@@ -54,7 +53,8 @@ def assess(summary: DataFrame, question: Question) -> Assessment:
     column = ranking.by if table.empty else str(table["ranked_by"].iloc[0])
     check(table, required)
     sound = _sound(table)
-    shares = misses(sound, measured(sound, _names(ranking), ranking.per), required)
+    names = Compared(ranking.mass, ranking.energy, ranking.per_gram, ranking.until)
+    shares = misses(sound, measured(sound, names, ranking.per), required)
     missed = nearest_first(sound, ranking.mass, shares)
     fulfil, others = sound[missed[sound.index] == 0.0], missed[missed > 0.0]
     fulfil = fulfil.sort_values(column, ascending=less_is_better(column), kind="stable")
@@ -64,10 +64,6 @@ def assess(summary: DataFrame, question: Question) -> Assessment:
         {str(sound.loc[at, "case_id"]): float(value) for at, value in others.items()},
         len(table) - len(sound),
     )
-
-
-def _names(ranking: Ranking) -> Compared:
-    return Compared(ranking.mass, ranking.energy, ranking.per_gram, ranking.until)
 
 
 def front(summary: DataFrame, question: Question, other: str) -> DataFrame:

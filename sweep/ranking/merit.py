@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from pandas import DataFrame, Series
+from pandas import DataFrame, Series, concat
 
 from sweep.columns import (
     ABSORBED_AT,
@@ -25,7 +25,7 @@ from sweep.columns import (
     error_column,
 )
 from sweep.design.panel import BEHIND, Panel, panel_of, too_small
-from sweep.loading_modes import has, is_coarse
+from sweep.loading_modes import applies_to, has, is_coarse
 from sweep.numbers import text_in
 from sweep.ranking.budget import ROUND_OFF, counted_mass
 from sweep.ranking.question import Quantity, Question, RankError, in_si
@@ -108,8 +108,8 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     if filled is not None:
         added |= _of_panel(finished, filled, energy, force, grams)
         names = names._replace(mass="panel_mass_g", energy="panel_energy_J")
-    whole = finished.assign(**added)
-    return whole.copy(), names  # a copy has few blocks, from which rows are selected quickly
+    others = finished.drop(columns=list(added), errors="ignore")
+    return concat([others, DataFrame(added, finished.index)], axis=1), names
 
 
 def _of_panel(
@@ -215,7 +215,7 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
     limits = {
         name: text_in(limit, MEASURES[name].shown)
         for name, limit in required.items()
-        if MEASURES[name].shared and mode in MEASURES[name].modes
+        if MEASURES[name].shared and mode in applies_to(name)
     }
     if question.allowed_force is not None:
         limits["allowed_force"] = text_in(in_si(question.allowed_force, "N"), "N")
@@ -231,8 +231,6 @@ def check_areas(rows: DataFrame, question: Question, required: Mapping[str, floa
 
 def check_panel(panel: Sequence[Quantity], cases: Iterable[Case]) -> None:
     """Refuse a panel that is smaller than half a specimen of one of these cases."""
-    from pandas import DataFrame
-
     sizes = [(sides_of(case), case.loading.direction, *case.footprint) for case in cases]
     panel_in(DataFrame(sizes, columns=["sides", "direction", "outer_width_m", "depth_m"]), panel)
 
@@ -244,16 +242,14 @@ def _counted(
 
     count: specimens of a panel, if there is one.
     """
-    by, force = question.by, question.allowed_force
-    if question.per == "panel":
-        if count is None:
-            raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
-        if force is not None:
-            return _counted_of_panel(finished, count, force)
+    by, force, of_panel = question.by, question.allowed_force, question.per == "panel"
+    if of_panel and count is None:
+        raise RankError('per "panel" needs a panel: --panel, or rank.panel in the config')
     if force is not None:
-        limit = in_si(force, "N")
-        energy, until = _energy_column(finished, limit), f"until the force exceeds {limit:g} N"
-        return energy, finished["peak_force_N"].clip(upper=limit), until
+        limit, noun = in_si(force, "N"), "the force of the panel" if of_panel else "the force"
+        share = limit / count if of_panel and count is not None else limit
+        peak = finished["peak_force_N"].clip(upper=share)
+        return _energy_column(finished, limit, of_panel), peak, f"until {noun} exceeds {limit:g} N"
     if by in WHOLE_CRUSH:
         return "absorbed_energy_J", finished["peak_force_N"], "to the end of the stroke"
     if by in AT_DENSIFICATION:
@@ -261,19 +257,6 @@ def _counted(
         return AT_DENSIFICATION[0], peak, "up to the strain of greatest efficiency"
     peak = finished["peak_force_until_packed_N"]
     return UNTIL_PACKED, peak, "until densification"
-
-
-def _counted_of_panel(
-    finished: DataFrame, count: Series, allowed_force: Quantity
-) -> tuple[str, Series, str]:
-    """The values of `_counted` up to a force of the panel, from columns of `curves`."""
-    limit = in_si(allowed_force, "N")
-    if AT_ALLOWED not in finished:
-        raise RankError(
-            "a force of the panel needs the curves of the results: rank the file itself"
-        )
-    force = finished["peak_force_N"].clip(upper=limit / count)
-    return AT_ALLOWED, force, f"until the force of the panel exceeds {limit:g} N"
 
 
 def _stroke(finished: DataFrame, energy: str, limited: bool) -> Series:
@@ -304,15 +287,19 @@ def _ends_early(finished: DataFrame, energy: str, force: Series, limited: bool) 
     return crushed & unpacked & (energy != WHOLE_CRUSH[0])
 
 
-def _energy_column(frame: DataFrame, force: float) -> str:
-    """The column of the energy absorbed up to an allowed force (N), from the sweep or from
-    `curves`.
+def _energy_column(frame: DataFrame, force: float, of_panel: bool) -> str:
+    """The column of the energy absorbed up to an allowed force (N) of a specimen or of the panel,
+    from the sweep or from `curves`.
     """
     name = absorbed_energy_column(force)
-    if name in frame:
+    if name in frame and not of_panel:
         return name
     if AT_ALLOWED in frame:
         return AT_ALLOWED
+    if of_panel:
+        raise RankError(
+            "a force of the panel needs the curves of the results: rank the file itself"
+        )
     forces = [match[1] for key in frame if (match := ABSORBED_AT.fullmatch(key))]
     allowed = ", ".join(f"{text} N" for text in forces) or "none"
     others = "other forces need the curves of the results: rank the file itself"

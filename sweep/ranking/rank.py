@@ -7,7 +7,6 @@ whose results cannot be trusted (`merit.doubtful`) come last, whatever their val
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from os import PathLike
 
 import numpy as np
@@ -15,6 +14,7 @@ import pandas as pd
 from pandas import DataFrame
 
 from sweep.columns import (
+    COLUMNS,
     describe_column,
     error_column,
     is_grid_key,
@@ -35,12 +35,11 @@ from sweep.ranking.merit import (
     pressed_area,
 )
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.pareto import pareto
 from sweep.ranking.places import passed_over, places_by
 from sweep.ranking.question import Quantity, Question, RankError, check_units, in_si
 from sweep.ranking.ranking import Ranking
-from sweep.ranking.requirements import Outcome, check, judge, limits
+from sweep.ranking.requirements import check, judge, limits
 from sweep.ranking.scenes import by_scene, scene_labels
 from sweep.ranking.unfinished import (
     FIRST,
@@ -181,13 +180,17 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         raise RankError(f'per = "{per}"; allowed: {" or ".join(PER)}')
     required, summary = limits(require), source
     if not isinstance(summary, DataFrame):
-        summary = with_allowed(summary, _read(summary), question)
-    whole, names = merits(needed_columns(summary, [by]), question)
+        from sweep.store.read import read_summary  # nothing else here needs the store
+
+        summary = with_allowed(summary, read_summary(summary), question)
+    if missing := next((name for name in COLUMNS if name not in summary), None):
+        raise RankError(f"no {missing}; needed: all columns of a summary (`read_summary`)")
+    whole, names = merits(summary, question)
     finished = loaded(whole)
     check(finished, required)
     check_budgets(finished, question)
     usual = names.energy if question.budgets or panel is not None else names.per_gram
-    by = by and _column(widened(whole[:0], summary), by)
+    by = by and _column(whole[:0], by)
     masses = [*dict.fromkeys(in_unit(in_si(mass, "kg"), "g") for mass in question.budgets)] or [
         np.inf
     ]
@@ -200,27 +203,26 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         label: judge(rows, names, required, per, masses, allowed)
         for label, rows in scene_rows.items()
     }
-    scenes = [
-        (_with_scene(rows[judged[label][0]], label, _least(rows), names), _order(rows, by, usual))
+    ranked = {
+        label: (_with_scene(rows[judged[label][0]], label, names), by or compared(rows) or usual)
         for label, rows in scene_rows.items()
-    ]
+    }
+    scenes = list(ranked.values())
     placed = [
         part for rows, order in scenes for part in _places(rows, names.mass, order, masses, top)
     ]
-    leading = [name for name in LEADING if name in placed[0]]
-    ranked = dict(zip(scene_rows, scenes, strict=True))
     stopped = []
     for label, cases in by_scene(whole[interrupted(whole) | unloaded(whole)], labels).items():
-        rows, order = ranked.get(label, (whole[:0], _order(cases, by, usual)))
+        rows, order = ranked.get(label, (whole[:0], by or compared(cases) or usual))
         parts = could_place(rows, cases, order, masses, names, question, required)
         alone = {} if label in ranked else {"least_place": np.nan}  # beside no ranked design
         stopped += [part.assign(scene=label, **alone) for part in parts]
     return Ranking(
-        table=widened(pd.concat(placed), summary, leading).reset_index(drop=True),
-        unfinished=widened(pd.concat(stopped), summary, FIRST).reset_index(drop=True),
+        table=_arranged(placed, LEADING, summary),
+        unfinished=_arranged(stopped, FIRST, summary),
         **names._asdict(),
         limited=allowed_force is not None,
-        by=next((o for rows, o in scenes if by or not _least(rows)), scenes[0][1]),
+        by=next((o for rows, o in scenes if by or not compared(rows)), scenes[0][1]),
         cases=len(summary),
         failed=len(summary) - len(finished),
         unloaded=int(unloaded(finished).sum()),
@@ -231,11 +233,8 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         pointed=int((finished["solid_joint_share"] < 1.0).sum()),
         versions=model_versions(finished),
         budgets_g=tuple(limit for limit in masses if np.isfinite(limit)),
-        lightest_g={
-            label: rows[names.mass].min() for label, rows in scene_rows.items() if len(rows)
-        },
         lightest={
-            label: widened(_lightest(rows, names.mass), summary)
+            label: rows.sort_values([names.mass, "case_id"])[:1]
             for label, rows in scene_rows.items()
             if len(rows)
         },
@@ -244,25 +243,15 @@ def answer(source: str | PathLike[str] | DataFrame, question: Question) -> Ranki
         panel=tuple(in_si(side, "m") for side in panel or ()),
         per=per,
         required=required,
-        outcomes={
-            label: tuple(_whole(outcome, summary) for outcome in outcomes)
-            for label, (_, outcomes) in judged.items()
-            if required
-        },
+        outcomes={label: outcomes for label, (_, outcomes) in judged.items() if required},
     )
 
 
-def _lightest(rows: DataFrame, mass: str) -> DataFrame:
-    """The row of the lightest design, the first by its id among equals."""
-    some = rows[~(rows[mass] > rows[mass].min())]
-    return some.sort_values([mass, "case_id"]).iloc[:1]
-
-
-def _whole(outcome: Outcome, summary: DataFrame) -> Outcome:
-    """An outcome whose rows have all columns of the summary."""
-    nearest, lightest = widened(outcome.nearest, summary), widened(outcome.lightest, summary)
-    close = {name: widened(rows, summary) for name, rows in outcome.close.items()}
-    return replace(outcome, nearest=nearest, lightest=lightest, close=close)
+def _arranged(parts: Sequence[DataFrame], first: Iterable[str], summary: DataFrame) -> DataFrame:
+    """All rows: some columns first, then the columns of the summary, then the added ones."""
+    rows = pd.concat(parts, ignore_index=True)
+    leading = [name for name in first if name in parts[0]]
+    return rows[[*dict.fromkeys([*leading, *summary, *rows])]]
 
 
 def model_versions(summary: DataFrame) -> dict[int, int]:
@@ -271,24 +260,14 @@ def model_versions(summary: DataFrame) -> dict[int, int]:
     return {int(version): int(number) for version, number in counts.items()}
 
 
-def _order(rows: DataFrame, by: str | None, usual: str) -> str:
-    """The column by which the rows of one scene are sorted."""
-    return by or _least(rows) or usual
-
-
-def _least(rows: DataFrame) -> str | None:
-    """The column that is compared instead of energy in the rows of one scene, if there is one."""
-    return None if rows.empty else compared(rows)
-
-
-def _with_scene(rows: DataFrame, label: str, least: str | None, names: Compared) -> DataFrame:
+def _with_scene(rows: DataFrame, label: str, names: Compared) -> DataFrame:
     """Rows of one scene with its label and their Pareto flag; the front consists of trusted
     designs.
 
     Where some are periods of a wide panel, whose sizes have no meaning, mass and energy per area
     are compared.
     """
-    sound = rows[~doubtful(rows)]
+    sound, least = rows[~doubtful(rows)], compared(rows)
     mass, merit = sound[names.mass], sound[names.energy] if least is None else -sound[least]
     if least is None and names.mass != "panel_mass_g" and is_period(sound).any():
         area = pressed_area(sound)
@@ -347,10 +326,3 @@ def _column(frame: DataFrame, by: str) -> str:
         f'cannot sort by "{by}": {why}{nearest_names(by, allowed)}\nallowed: {usual} and '
         f"{more} others: the first line of rank --csv has all, docs/results.md explains most"
     )
-
-
-def _read(path: str | PathLike[str]) -> DataFrame:
-    """The summary of a results file; only this function needs the store."""
-    from sweep.store.read import read_summary
-
-    return read_summary(path)

@@ -1,7 +1,7 @@
 """The answer of `rank.ranked`, a `Ranking`: the table, and data that are not in the table."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from pandas import DataFrame, concat
 
@@ -31,7 +31,7 @@ class Ranking:
     pointed: number of loaded cases with solid joints in which some walls end in points.
     versions: number of loaded cases of each version of the model, the oldest first.
     budgets_g: the budgets (g), each once.
-    lightest_g: the least mass (g) of each scene. lightest: the row of that design.
+    lightest: the row of the lightest design of each scene, the first by its id among equals.
     lost: number of cases of each scene in which no case completed its loading.
     narrow: patterns of few cells across in scenes that mix patterns (`narrow_patterns`).
     panel: the two lengths (m) of the panel in the question; none without one.
@@ -56,14 +56,13 @@ class Ranking:
     pointed: int
     versions: Mapping[int, int]
     budgets_g: tuple[float, ...]
-    lightest_g: Mapping[str, float]
     lightest: Mapping[str, DataFrame]
-    lost: Mapping[str, int] = field(default_factory=dict)
-    narrow: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    panel: tuple[float, ...] = ()
-    per: str = "specimen"
-    required: Mapping[str, float] = field(default_factory=dict)
-    outcomes: Mapping[str, tuple[Outcome, ...]] = field(default_factory=dict)
+    lost: Mapping[str, int]
+    narrow: Mapping[str, tuple[str, ...]]
+    panel: tuple[float, ...]
+    per: str
+    required: Mapping[str, float]
+    outcomes: Mapping[str, tuple[Outcome, ...]]
 
     def __repr__(self) -> str:
         scenes = counted(len(self.scenes), "scene")
@@ -81,6 +80,11 @@ class Ranking:
             return self.table
         whole = concat([self.table, self.unfinished], ignore_index=True)
         return whole.astype(dict.fromkeys(["place", *PLACES], "Int64"))
+
+    @property
+    def lightest_g(self) -> dict[str, float]:
+        """The least mass (g) of each scene."""
+        return {scene: float(row[self.mass].item()) for scene, row in self.lightest.items()}
 
     @property
     def is_above_budgets(self) -> bool:

@@ -1,4 +1,4 @@
-"""The requirements on a part, one in each row: the quantity, the loadings, and the words for it.
+"""The requirements on a part, one in each row: the quantity and the words for it.
 
 Rankings, sentences, options of the command line and the page take them from here; `Require` in
 `config/question.py` has the keys of a config. No heavy imports, as every command reads this.
@@ -6,25 +6,22 @@ Rankings, sentences, options of the command line and the page take them from her
 
 from typing import Any, NamedTuple
 
-from sweep.loading_modes import applies_to
-
 
 class Measure(NamedTuple):
     """The quantity that a requirement limits.
 
     unit: in SI. shown: the unit that people read. kind: of quantity, in the help of an option.
-    shared: whether the values of the specimens of a panel add up. modes: of loading in which the
-    design, not the loading, sets the value. least: the limit is a least value; else it is
-    a greatest one. noun: the value in words. none: why nothing fulfils it. unknown: why a value is
-    unknown. example: a limit. about: the meaning of the option, before the example. step_error:
-    column of the error of load steps, as a share of the value in a crush; empty without one.
+    shared: whether the values of the specimens of a panel add up. least: the limit is a least
+    value; else it is a greatest one. noun: the value in words. none: why nothing fulfils it.
+    unknown: why a value is unknown. example: a limit. about: the meaning of the option, before the
+    example. step_error: column of the error of load steps, as a share of the value in a crush;
+    empty without one.
     """
 
     unit: str
     shown: str
     kind: str
     shared: bool
-    modes: tuple[str, ...]
     noun: str
     none: str
     example: str
@@ -52,7 +49,6 @@ MEASURES = {
     "max_force": Measure(
         *("N", "N", "FORCE"),
         shared=True,
-        modes=applies_to("max_force"),
         noun="force",
         none="None transmits less than {}; the least is {}",
         example="60 N",
@@ -63,7 +59,6 @@ MEASURES = {
     "max_deceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
         shared=False,
-        modes=applies_to("max_deceleration"),
         noun="deceleration",
         none="None stops the striker with less than {}; the least is {}",
         example="80 g0",
@@ -73,7 +68,6 @@ MEASURES = {
     "max_base_pressure": Measure(
         *("Pa", "kPa", "PRESSURE"),
         shared=False,
-        modes=applies_to("max_base_pressure"),
         noun="base pressure",
         none="None presses on the base with less than {}; the least is {}",
         example="200 kPa",
@@ -83,7 +77,6 @@ MEASURES = {
     "max_target_acceleration": Measure(
         *("m/s^2", "g0", "ACCELERATION"),
         shared=False,
-        modes=applies_to("max_target_acceleration"),
         noun="acceleration of the target",
         none="None accelerates the target by less than {}; the least is {}",
         example="40 g0",
@@ -93,7 +86,6 @@ MEASURES = {
     "max_mass": Measure(
         *("kg", "g", "MASS"),
         shared=True,
-        modes=applies_to("max_mass"),
         noun="mass",
         none="None weighs less than {}; the lightest weighs {}",
         example="2 g",
@@ -101,7 +93,6 @@ MEASURES = {
     "min_absorbed": Measure(
         *("J", "J", "ENERGY"),
         shared=True,
-        modes=applies_to("min_absorbed"),
         noun="usable energy",
         none="None absorbs as much as {}; the most is {}",
         example="1.5 J",
@@ -111,10 +102,9 @@ MEASURES = {
     "max_stroke": Measure(
         *("m", "mm", "LENGTH"),
         shared=False,
-        modes=applies_to("max_stroke"),
         noun="stroke",
         none="None needs less stroke than {}; the least is {}",
         example="8 mm",
     ),
 }
-"""By their keys in [require]."""
+"""By their keys in [require]; `Mode.requires` has those that apply to a kind of loading."""

@@ -20,7 +20,7 @@ import numpy as np
 from pandas import DataFrame, Series
 
 from sweep.columns import SAME_EFFICIENCY, end_columns, error_column
-from sweep.loading_modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, applies_to, has, mode_of
 from sweep.numbers import text_in, to_si
 from sweep.ranking.budget import ROUND_OFF, within_budget
 from sweep.ranking.merit import Compared, doubtful
@@ -106,7 +106,7 @@ def check_modes(required: Mapping[str, float], modes: Iterable[str]) -> None:
     """Refuse a requirement (SI) that applies to none of these kinds of loading."""
     kinds = set(modes)
     for name, limit in required.items():
-        fitting = MEASURES[name].modes
+        fitting = applies_to(name)
         if kinds and not kinds.intersection(fitting):
             loadings = " or ".join(sorted(MODES[mode].noun for mode in kinds))
             needed = " or ".join(MODES[mode].noun for mode in fitting)
@@ -145,11 +145,8 @@ class Judged(NamedTuple):
     def within(self, budget_g: float) -> "Judged":
         """The same for the rows within a budget."""
         kept = within_budget(self.rows[self.mass], budget_g)
-        parts = {
-            name: getattr(self, name)[kept]
-            for name in ("rows", "measures", "shares", "close", "fulfil")
-        }
-        return self._replace(**parts)
+        tables = ("rows", "measures", "shares", "close", "fulfil")
+        return self._replace(**{name: getattr(self, name)[kept] for name in tables})
 
 
 def judge(
@@ -166,7 +163,7 @@ def judge(
     energy of a crush is counted; NaN without one.
     """
     mode = str(rows["loading_mode"].iloc[0]) if len(rows) else ""
-    mode_limits = {k: limit for k, limit in required.items() if mode in MEASURES[k].modes}
+    mode_limits = {k: limit for k, limit in required.items() if mode in applies_to(k)}
     measures = measured(rows, names, per)
     values = DataFrame({name: measures[name] for name in mode_limits}, index=rows.index)
     shares = misses(rows, measures, mode_limits)
@@ -309,7 +306,7 @@ def misses(
     shares = DataFrame(index=rows.index)
     for name, limit in required.items():
         share = MEASURES[name].share_missed(measures[name].astype(float), limit)
-        in_mode = rows["loading_mode"].isin(MEASURES[name].modes)
+        in_mode = rows["loading_mode"].isin(applies_to(name))
         shares[name] = share.mask(share <= ROUND_OFF, 0.0).where(in_mode, 0.0)
     return shares
 

@@ -74,7 +74,9 @@ def scene_labels(frame: DataFrame) -> Series:
     for _, alike in labels[labels.duplicated(keep=False)].groupby(labels):
         keys = [key for key in values if len(values.loc[alike.index, key].unique()) > 1]
         for scene in alike.index:
-            labels[scene] = ", ".join([labels[scene], *_words(rows.loc[scene], keys, DIGITS[-1])])
+            labels[scene] = ", ".join(
+                [labels[scene], *key_words(rows.loc[scene], keys, DIGITS[-1])]
+            )
     return number.map(labels)
 
 
@@ -144,10 +146,10 @@ def scene_label(rows: DataFrame, digits: int = DIGITS[0]) -> str:
         words += _standing(first)
     keys = [key for key in scene_keys(rows) if key not in SCENE]
     used = [key for key in keys if short(first[key]) not in ("", NOTHING)]
-    return ", ".join([*words, *_words(first, used, digits)])
+    return ", ".join([*words, *key_words(first, used, digits)])
 
 
-def _words(row: Series, keys: Iterable[str], digits: int) -> list[str]:
+def key_words(row: Series, keys: Iterable[str], digits: int = DIGITS[0]) -> list[str]:
     """Keys of a row with their values."""
     values = {key: with_unit(row[key], describe_column(key).units, digits) for key in keys}
     return [f"{key.replace('.', ' ').replace('_', ' ')} {value}" for key, value in values.items()]

@@ -47,8 +47,8 @@ class Spread(NamedTuple):
     at_corners: DataFrame
     places: DataFrame
     failed: int
-    masses: DataFrame | None = None
-    missed: tuple[tuple[int, str, str], ...] = ()
+    masses: DataFrame
+    missed: tuple[tuple[int, str, str], ...]
 
     @property
     def sign(self) -> float:
@@ -115,13 +115,13 @@ def _table_rows(spread: Spread) -> Iterator[dict[str, Any]]:
     order = ", ".join(spread.swaps)
     for k, (_, design) in enumerate(spread.rows.iterrows()):
         values, places = spread.at_corners.iloc[k], spread.places.iloc[k]
-        low, high = ends(values) or ("", "")
+        low, high = ends(values)
         row = {name: design[name] for name in TABLE if name in design.index}
         yield row | {
             "value": design[spread.column],
-            "lowest": values.get(low, np.nan),
+            "lowest": values[low],
             "lowest_at": low,
-            "highest": values.get(high, np.nan),
+            "highest": values[high],
             "highest_at": high,
             "best_place": int(places.min()),
             "worst_place": int(places.max()),
@@ -158,7 +158,6 @@ def _not_kept(row: Series, mass: str, budget: float) -> list[str]:
     return (["budget"] if row[mass] > greatest_mass(budget) else []) + kept
 
 
-def ends(values: Series) -> tuple[str, str] | None:
-    """The corners with the least and the greatest value; None without any value."""
-    numbers = values.dropna()
-    return None if numbers.empty else (str(numbers.idxmin()), str(numbers.idxmax()))
+def ends(values: Series) -> tuple[str, str]:
+    """The corners with the least and the greatest value; there must be one."""
+    return str(values.idxmin()), str(values.idxmax())

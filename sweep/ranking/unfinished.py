@@ -17,14 +17,13 @@ misses, or its mass, excludes it.
 
 import re
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
 from sweep.columns import less_is_better
-from sweep.loading_modes import has
+from sweep.loading_modes import applies_to, has
 from sweep.ranking.budget import within_budget
 from sweep.ranking.merit import Compared, doubtful
 from sweep.ranking.question import Question, in_si
@@ -44,13 +43,6 @@ least, NaN if nothing is certain.
 """
 FIRST = ["budget_g", *PLACES, "case_id", "ranked_by"]
 """The first columns of `could_place`."""
-
-
-class Ends(NamedTuple):
-    """The least and the greatest final value of each row."""
-
-    low: Series
-    high: Series
 
 
 def loaded(summary: DataFrame) -> DataFrame:
@@ -111,19 +103,18 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
     return parts
 
 
-def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> Ends:
-    """Between which values each case would have ended in the column `by`."""
+def ends(rows: DataFrame, by: str, names: Compared, question: Question) -> tuple[Series, Series]:
+    """The least and the greatest final value that each case could have had in the column `by`."""
     value = rows[by].astype(float)
-    low, high = value * np.nan - np.inf, value * np.nan + np.inf
-    low, high = low.fillna(-np.inf), high.fillna(np.inf)
+    low, high = (Series(end, rows.index) for end in (-np.inf, np.inf))
     if FIXED.match(by):
-        return Ends(value.fillna(-np.inf), value.fillna(np.inf))
+        return value.fillna(-np.inf), value.fillna(np.inf)
     if RISING.match(by):
         value = value.where(rows["status"] != Status.UNRESOLVED)
         low = value.fillna(-np.inf)
         if question.allowed_force is not None and by in (names.energy, names.per_gram):
             high = (value + _further(rows, by, names, question)).fillna(np.inf)
-    return Ends(low, high)
+    return low, high
 
 
 def _further(rows: DataFrame, by: str, names: Compared, question: Question) -> Series:
@@ -177,10 +168,10 @@ def _judged(
     if rows.empty:
         return missed, missed
     mode = rows["loading_mode"].iloc[0]
-    limits = {name: limit for name, limit in required.items() if mode in MEASURES[name].modes}
+    limits = {name: limit for name, limit in required.items() if mode in applies_to(name)}
     shares = misses(rows, measured(rows, names, question.per), limits) > 0.0
-    energy = ends(rows, names.energy, names, question)
-    settled = energy.low == energy.high
+    low, high = ends(rows, names.energy, names, question)
+    settled = low == high
     resolved = rows["status"] != Status.UNRESOLVED
     for name in limits:
         sure = settled if MEASURES[name].least else resolved | (name == "max_mass")

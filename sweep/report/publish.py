@@ -230,28 +230,20 @@ def case_figures(file: str, row: Series) -> Named:
     history, frames = read_history(file, row["case_id"]), _frames(file, row)
     mode = MODES[row["loading_mode"]]
     if len(history) > 1:
-        figure = case_plots.blank(8.0, 4.4)
-        if mode.probed:
-            probe_reactions(figure.subplots(), history, row)
-        else:
-            case_plots.force_displacement(figure.subplots(), history, row)
-        yield "force", figure
-        figure = case_plots.blank(8.0, 4.2)
-        case_plots.energies(figure.subplots(), history, row)
-        yield "energies", figure
+        charts = {
+            "force": (4.4, probe_reactions if mode.probed else case_plots.force_displacement),
+            "energies": (4.2, case_plots.energies),
+        }
         if history["base_pressure_Pa"].max() > 0.0:
-            figure = case_plots.blank(8.0, 4.2)
-            base_pressure(figure.subplots(), history, row)
-            yield "base_pressure", figure
+            charts["base_pressure"] = 4.2, base_pressure
+        for name, (height, draw) in charts.items():
+            figure = case_plots.blank(8.0, height)
+            draw(figure.subplots(), history, row)
+            yield name, figure
     if frames:
         release = history["time_s"][last_loaded(history, row)] if mode.dead else None
-        drawn = ", ".join(design_and_scene(row)), frames, release
-        figure = case_plots.blank(*case_plots.shapes_size(*drawn))
-        case_plots.deformed_shapes(figure, *drawn)
-        yield "shapes", figure
+        title = ", ".join(design_and_scene(row))
+        yield "shapes", case_plots.shapes_figure(title, frames, release)
         if "quads" in frames:
-            title, shapes, release = drawn
-            inside = f"{title}, cut open", cut_open(shapes), release
-            figure = case_plots.blank(*case_plots.shapes_size(*inside))
-            case_plots.deformed_shapes(figure, *inside)
-            yield "inside", figure
+            inside = cut_open(frames)
+            yield "inside", case_plots.shapes_figure(f"{title}, cut open", inside, release)

@@ -205,7 +205,7 @@ def of_spread(corners) -> Iterator[str]:
     for column in ("mass_g", "absorbed_energy_J"):
         rows = ranked(own, by=column).table
         table = DataFrame({AS_GIVEN: [1.0, 2.0], **corners})
-        spread = Spread(rows, column, table, table.rank(method="min"), 2)
+        spread = Spread(rows, column, table, table.rank(method="min"), 2, table, ())
         if FINE in corners:
             limits = ((1, FINE, "budget"), (1, FINE, "max_force"), (2, FINE, "max_force"))
             yield from finalist_sheet(spread._replace(missed=limits), own).notes

@@ -15,7 +15,7 @@ from sweep.numbers import in_unit
 from sweep.report.figures import case_plots
 from sweep.report.figures.panel_piece import piece
 from sweep.report.figures.probe_plots import probe_reactions
-from sweep.report.figures.storyboard import FLOWN, headline
+from sweep.report.figures.storyboard import headline, standing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 SIZE = (8.0, 4.2)  # inches
 PLACES = {"left": 0.02, "right": 0.97, "bottom": 0.14, "top": 0.84, "wspace": 0.25}
 DPI, COLOURS = 80, 128
+EACH = ("strain", "time_s", "position_m", "plate_y_m")  # one of each shape
 STEP, REST = 120, 1200  # ms for which a shape and the last one are shown
 
 
@@ -33,8 +34,9 @@ def write_gif(
     """Write the animation of a case, which repeats forever."""
     from PIL import Image
 
-    frames = piece(standing(frames), row)
-    count, figure = len(frames["strain"]), case_plots.blank(*SIZE)
+    # shapes from the first one on that has lifted off would make all others small
+    count, figure = standing(frames["position_m"]), case_plots.blank(*SIZE)
+    frames = piece({**frames, **{name: frames[name][:count] for name in EACH}}, row)
     figure.set_layout_engine("none")  # pictures of one series have one layout
     pictures = []
     for k in range(count):
@@ -43,17 +45,6 @@ def write_gif(
         pictures.append(Image.open(_rendered(figure)).convert("RGB").quantize(COLOURS))
     shown = [STEP] * (count - 1) + [REST]
     pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=shown, loop=0)
-
-
-def standing(frames: Mapping[str, Any]) -> dict[str, Any]:
-    """The shapes up to the first one that has lifted off: later ones would make all others
-    small.
-    """
-    height = frames["position_m"][..., -1]  # the last coordinate is upwards
-    lifted = height.min(axis=1) - height[0].min() > FLOWN * np.ptp(height[0])
-    count = int(np.append(lifted, True).argmax())
-    each = ("strain", "time_s", "position_m", "plate_y_m")
-    return {name: array[:count] if name in each else array for name, array in frames.items()}
 
 
 def moment(
@@ -69,7 +60,7 @@ def moment(
     left, right = figure.subplots(1, 2, gridspec_kw=PLACES)
     figure.suptitle(headline(row), x=0.01, ha="left", fontsize="medium")
     case_plots.one_shape(left, frames, k)
-    last = _last_row(history, frames, k)
+    last = int(np.abs(history["time_s"].to_numpy() - frames["time_s"][k]).argmin())
     if MODES[row["loading_mode"]].probed:
         _reactions(right, row, history, last)
     else:
@@ -103,8 +94,3 @@ def _reactions(ax: Axes, row: Mapping[str, Any], history: DataFrame, last: int) 
     if ax.get_legend():
         ax.legend(frameon=False, fontsize="small")
     case_plots.plain(ax)
-
-
-def _last_row(history: DataFrame, frames: Mapping[str, Any], k: int) -> int:
-    """Number of the row of the history at the time of a shape."""
-    return int(np.abs(history["time_s"].to_numpy() - frames["time_s"][k]).argmin())

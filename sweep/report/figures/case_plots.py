@@ -267,6 +267,13 @@ def shapes_size(
     return max(row, LETTER * len(title)), scale * height + LINE * lines + GAP
 
 
+def shapes_figure(title: str, frames: Mapping[str, Any], release: float | None) -> Figure:
+    """A figure of the size of its `deformed_shapes`."""
+    figure = blank(*shapes_size(title, frames, release))
+    deformed_shapes(figure, title, frames, release)
+    return figure
+
+
 def deformed_shapes(
     fig: Figure | SubFigure, title: str, frames: Mapping[str, Any], release: float | None = None
 ) -> None:

@@ -122,8 +122,7 @@ def same_design(rows: DataFrame, design: Series) -> DataFrame:
 def _crushed(rows: DataFrame, crushes: Mapping[str, Crush]) -> Iterator[tuple[Series, Crush]]:
     """The rows that have a crush in which energy was absorbed."""
     for _, row in rows.iterrows():
-        crush = crushes.get(row["case_id"])
-        if crush is not None and len(crush.work):
+        if len((crush := crushes[row["case_id"]]).work):
             yield row, crush
 
 

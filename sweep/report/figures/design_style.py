@@ -176,11 +176,6 @@ def _compared(rows: DataFrame, energy: str) -> tuple[str, str]:
     return (least.column, least.unit) if least else (energy, "J")
 
 
-def until(ranking: Ranking) -> str:
-    """The end of the usable energy, on a line of its own."""
-    return f"\n{ranking.until}"
-
-
 def budget_winners(rows: DataFrame, ranking: Ranking) -> list[tuple[str, float, float]]:
     """Words, mass and merit of the best design of one scene within each budget.
 

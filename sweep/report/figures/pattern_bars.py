@@ -15,7 +15,7 @@ from sweep.ranking.budget import greatest_mass
 from sweep.ranking.merit import doubtful
 from sweep.ranking.ranking import Ranking
 from sweep.report.figures.case_plots import GREY, beside, legend, walls
-from sweep.report.figures.design_style import errors_of, until
+from sweep.report.figures.design_style import errors_of
 from sweep.report.figures.ranking_plots import COARSE, HEAVY, heading, mark_coarse
 from sweep.report.tables.design_text import design_labels
 from sweep.report.tables.requirement_notes import titled
@@ -61,7 +61,7 @@ def pattern_bars(
             _draw(ax, [shapes[case_id] for case_id in ordered["case_id"]])
         ax.margins(y=0.5 / len(ordered))
         ax.set_title(heading(titled(str(scene), ranking)), loc="left", fontsize="medium")
-        ax.set_xlabel(f"energy absorbed{until(ranking)}, J/g")
+        ax.set_xlabel(f"energy absorbed\n{ranking.until}, J/g")
         ax.spines[["top", "right"]].set_visible(False)
     entries: list[dict[str, Any]] = [HEAVY | {"marker": "s"}] * bool(heavy.any())
     entries += [COARSE] * bool(designs["coarse"].any())

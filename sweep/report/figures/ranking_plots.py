@@ -26,7 +26,6 @@ from sweep.report.figures.design_style import (
     looks,
     merit_errors,
     merits,
-    until,
 )
 from sweep.report.tables.requirement_notes import titled
 
@@ -102,7 +101,7 @@ def merit_over_mass(fig: Figure, ranking: Ranking) -> None:
         ax.set_title("\n".join(words), loc="left", fontsize="small")
         ax.set_xlabel(f"mass of the {noun}, g")
         own = least and f"{least.axis}{', of a specimen' if noun == 'panel' else ''}"
-        ax.set_ylabel(own or f"energy absorbed by the {noun}{until(ranking)}, J")
+        ax.set_ylabel(own or f"energy absorbed by the {noun}\n{ranking.until}, J")
         round_ticks(ax.xaxis)
         round_ticks(ax.yaxis)
     barred = bool(merit_errors(designs, energy).notna().any())
@@ -132,7 +131,7 @@ def thickness_trends(fig: Figure, ranking: Ranking) -> None:
             if named:
                 numbers = " x ".join(map(str, best[cells].iloc[0]))
                 ax.annotate(numbers, (wall.iloc[-1], best[per_gram].iloc[-1]), **BESIDE)
-        what = f"energy absorbed{until(ranking)}, J/g"
+        what = f"energy absorbed\n{ranking.until}, J/g"
         ax.set(xlabel="wall thickness, mm", ylabel=what, yscale="log")
         ax.margins(x=0.15 if named else 0.05)
         title = heading(titled(rows["scene"].iloc[0], ranking))

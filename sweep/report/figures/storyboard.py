@@ -93,23 +93,18 @@ def crushes(history: DataFrame) -> list[tuple[int, int, int]]:
     return list(zip(turned, released, ended, strict=True))
 
 
-def parts_of(history: DataFrame) -> dict[str, str]:
-    """The `PARTS` that are not negligible in a case."""
-    greatest = history[["work_in_J", *PARTS]].abs().max()
-    least = NEGLIGIBLE * greatest["work_in_J"]
-    return {name: words for name, words in PARTS.items() if greatest[name] > least}
-
-
 def stacked(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str, DataFrame]:
-    """The sum of the energies of a case (J), in words, and its `parts_of`, none negative.
+    """The sum of the energies of a case (J), in words, and its `PARTS` that are not negligible,
+    none negative.
 
     The sum is the work done; energy gained by time integration is no part of the work, but added to
     it.
     """
-    parts, total = parts_of(history), MODES[row["loading_mode"]].total
+    greatest, total = history[["work_in_J", *PARTS]].abs().max(), MODES[row["loading_mode"]].total
+    parts = [name for name in PARTS if greatest[name] > NEGLIGIBLE * greatest["work_in_J"]]
     gain = -np.minimum(history[INTEGRATOR], 0.0)
     total += GAINED if INTEGRATOR in parts and gain.any() else ""
-    return history["work_in_J"] + gain, total, np.maximum(history[list(parts)], 0.0)
+    return history["work_in_J"] + gain, total, np.maximum(history[parts], 0.0)
 
 
 def path_of(history: DataFrame, row: Mapping[str, Any]) -> tuple[Series, str]:
@@ -131,7 +126,8 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     if np.isnan(strain).all():
         return [(i, f"{time[i]:.3g} s") for i in dict.fromkeys(_even(time, SHAPES))]
     turn = _turn(strain) if release is None else int((time <= release).sum()) - 1
-    back = _last_standing(frames["position_m"], turn)
+    stood = standing(frames["position_m"], turn + 1)
+    back = [turn + stood] if stood else []
     count = SHAPES - len(back) - (release is not None)
     down = sorted({*_even(strain[: turn + 1], count), turn})
     free = release is not None or strain[-1] < RELEASED
@@ -153,11 +149,10 @@ def _even(strain: NDArray[np.float64], count: int) -> list[int]:
     return frames
 
 
-def _last_standing(position: NDArray[np.float64], turn: int) -> list[int]:
-    """The last frame after `turn` in which the specimen has not lifted off, if any; position (f, n,
-    2), or (f, n, 3) for plates: the last coordinate is upwards.
+def standing(position: NDArray[np.float64], first: int = 0) -> int:
+    """Number of frames, from the ``first`` one on, before the specimen has lifted off; position (f,
+    n, 2), or (f, n, 3) for plates: the last coordinate is upwards.
     """
-    height = np.ptp(position[0, :, -1])
-    lift = position[turn + 1 :, :, -1].min(1) - position[0, :, -1].min()
-    standing = int(np.append(lift > FLOWN * height, True).argmax())
-    return [turn + standing] if standing else []
+    height = position[..., -1]
+    lifted = height[first:].min(axis=1) - height[0].min() > FLOWN * np.ptp(height[0])
+    return int(np.append(lifted, True).argmax())

@@ -32,10 +32,9 @@ from sweep.ranking.merit import (
     unequal_periods,
 )
 from sweep.ranking.narrow import narrow_patterns
-from sweep.ranking.needed_columns import needed_columns, widened
 from sweep.ranking.places import LARGE
 from sweep.ranking.question import Question
-from sweep.ranking.rank import answer
+from sweep.ranking.rank import answer, model_versions
 from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits, relative_energy, relative_errors
@@ -44,8 +43,8 @@ from sweep.ranking.unfinished import interrupted, loaded, stroke_left, unloaded
 from sweep.report.figures.panel_piece import piece, places
 from sweep.report.figures.storyboard import PARTS, last_loaded, path_of, stacked
 from sweep.report.page.selection import (
+    LIMITS,
     SCENES,
-    SELECTED_BY,
     Counted,
     front_of_others,
     group_others,
@@ -56,12 +55,10 @@ from sweep.report.page.selection import (
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
-    stair_strokes,
     thin_curves,
     thin_stairs,
-    work_until,
 )
-from sweep.report.page.trails import UNIT, drawing, moving_faces, moving_shape, plan
+from sweep.report.page.trails import UNIT, at_rest, drawing, moving_faces, moving_shape
 from sweep.report.tables.design_text import design_labels, design_text
 from sweep.report.tables.legend import (
     EQUAL,
@@ -85,6 +82,7 @@ from sweep.report.tables.sheets import crush_text, impact_text
 from sweep.report.tables.size_notes import narrow_note, size_note
 from sweep.result import Status
 from sweep.simulation.filter_class import without_blows
+from sweep.simulation.up_to_force import absorbed_until
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
 
@@ -93,14 +91,11 @@ Floats = NDArray[np.float64]
 FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""
 POINTS = 60  # most points of a curve
-LIMITS, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
-LEAST_POINTS = 12  # most points of a curve in a page of many cases
-FULL = 500  # cases whose curves may have all `POINTS`
+FORCES, SMALL = 60, 0.01  # forces at which the work of thin curves is checked; share of all work
 FAILURES = 500
 TOP, TOP_OF_A_BUDGET = 10, 3  # of the ranking that the page starts with
 DRAWINGS, SHAPES = 500_000, 2_400_000  # characters; kagome, 100 mm wide, has 440,000
 PRINTS, MOST_PRINTS = 300_000, 16  # characters of files to print; of 2 to 20 kB each
-OF_SCENES = ("second_cycle_share", "material_memory")  # read by `meanings`
 OF_THE_RUN = {
     "created": "last run",
     "git_revision": "revision of the source",
@@ -129,7 +124,7 @@ def page_data(
     print of the first designs.
     """
     heads = list(design_text(loaded(summary), summary))
-    by_force = _counted(needed_columns(summary, OF_SCENES))
+    by_force = _counted(summary)
     whole = by_force[0].rows
     finished = loaded(whole)
     labels = scene_labels(whole)
@@ -137,25 +132,26 @@ def page_data(
     scenes = [*by_label.values()]
     first = _first_ids(ranking or first_ranking(summary, question))
     ids = select_designs(first, by_force, scenes)
-    kept = [widened(rows[rows["case_id"].isin(ids)], summary) for rows in scenes]
+    kept = [rows[rows["case_id"].isin(ids)] for rows in scenes]
     cases = _cases(by_force, kept, summary)
     stopped_by_label = by_scene(whole[interrupted(whole)], labels)
     stopped = [stopped_by_label.get(label, whole[:0]) for label in by_label]
-    shown = [
-        widened(select_stopped(rows, by_force[0].names, len(scenes)), summary) for rows in stopped
-    ]
+    shown = [select_stopped(rows, by_force[0].names, len(scenes)) for rows in stopped]
     unfinished = _cases(by_force, shown, summary)
     about = read_attributes(file)
     forces = [each.force for each in by_force if each.force is not None]
     leading = filter(cases.__contains__, dict.fromkeys([*first, *on_fronts(by_force, scenes)]))
     rows_by_id = {row["case_id"]: row for part in (*kept, *shown) for _, row in part.iterrows()}
-    stored = _Stored(len(cases))
+    stored = _Stored()
     for run in read_runs(file, [*filter(cases.__contains__, ids), *unfinished]):
         row = rows_by_id[run.case_id]
         case = _as_measured(run, row)
         design = cases.get(case.case_id) or unfinished[case.case_id]
-        design |= stored.take(case, row) if case.case_id in cases else stored.so_far(case, row)
+        if case.case_id in cases:
+            design |= stored.take(case, row)
         if len(case.history) and MODES[row["loading_mode"]].driven:
+            if len(case.history) > 1:
+                design["stairs"] = stored.stairs(case.history, row)
             most = row["stroke_m"]  # curves have single precision
             ends = (min(reached(case.history, force)[1], most) for force in forces)
             design["strokes"] += _exact(ends)
@@ -206,7 +202,7 @@ def page_data(
         "drawings": stored.drawings,
         "shapes": stored.shapes,
         "prints": _prints([*islice(leading, MOST_PRINTS)], files_of) if files_of else {},
-        "points": stored.points,
+        "points": POINTS,
         "doubt": stored.doubt,
         "about": _about(about, summary),
         "config": _config(about),
@@ -234,7 +230,7 @@ def _largest(rows: DataFrame) -> list[dict[str, Any]]:
 
 
 def _requirements() -> dict[str, dict[str, Any]]:
-    """The possible requirements, with their loadings, units and words."""
+    """The possible requirements, with their units and words."""
     return {
         name: {**measure._asdict(), "limit": measure.limit, "far": measure.far}
         for name, measure in MEASURES.items()
@@ -242,19 +238,10 @@ def _requirements() -> dict[str, dict[str, Any]]:
 
 
 def _counted(summary: DataFrame) -> list[Counted]:
-    """Energies known for all cases, until densification and up to the forces of the columns,
-    with only the columns that differ between forces, and the columns that selections need.
-    """
+    """Energies known for all cases: until densification, and up to the forces of the columns."""
     texts = [match[1] for name in summary if (match := ABSORBED_AT.fullmatch(str(name)))]
-    until_packed = Counted(None, *merits(summary, Question()))
-    return [until_packed, *(_up_to(force, summary) for force in sorted(map(float, texts)))]
-
-
-def _up_to(force: float, summary: DataFrame) -> Counted:
-    rows, names = merits(summary, Question(allowed_force=force))
-    energies = (names.energy, error_column(names.energy), correction_column(names.energy))
-    kept = {*SELECTED_BY, names.mass, names.per_gram, *energies}
-    return Counted(force, rows[[name for name in rows if name in kept]], names)
+    forces = [None, *sorted(map(float, texts))]
+    return [Counted(f, *merits(summary, Question(allowed_force=f))) for f in forces]
 
 
 def _cases(
@@ -282,13 +269,9 @@ def _cases(
             "energies": list(zip(*energies, strict=True)),
             "ends": list(zip(*(_exact(part[name]) for name in ends), strict=True)),
             "least": _with_bars(part, least) if least else [None] * len(part),
-            "passed": _exact(part["passed_on_N"]),
-            "peak": _exact(part["peak_force_N"]),
+            **{name: _exact(part[column]) for name, column in LIMITS.items()},
             "within": _exact(part["absorbed_energy_within_model_J"]),
             "height": _exact(part["height_m"]),
-            "deceleration": _exact(part["peak_deceleration_filtered_m_per_s2"]),
-            "pressure": _exact(part["peak_base_pressure_Pa"]),
-            "accelerated": _exact(part["peak_target_acceleration_m_per_s2"]),
             "strokes": [[stroke] for stroke in _exact(part["counted_stroke_m"])],
             "solid": through_solid(part).tolist(),
             "crossed": part["crossed"].tolist(),
@@ -316,8 +299,7 @@ def _errors(part: DataFrame, by_force: Sequence[Counted]) -> Iterator[list[dict[
     and at the end for those up to other forces, which have no error bars.
     """
     for each in by_force:
-        question = Question(allowed_force=each.force)
-        yield _known(relative_errors(*merits(part, question)))
+        yield _known(relative_errors(each.rows.loc[part.index], each.names))
     unbarred = part.drop(columns=error_column("passed_on_N"), errors="ignore")
     names = by_force[0].names._replace(energy=AT_ALLOWED)
     yield _known(relative_errors(unbarred.assign(**{AT_ALLOWED: np.nan}), names))
@@ -368,7 +350,7 @@ def _scene(label: str, rows: DataFrame, kept: DataFrame) -> dict[str, Any]:
     mode, least = mode_of(rows), compared(rows)
     return {
         "label": label,
-        "mode": rows["loading_mode"].iloc[0],
+        "requires": mode.requires,
         **{trait: getattr(mode, trait) for trait in ("driven", "struck", "dead")},
         "axes": [axis.label for axis in mode.curve],
         "shown": mode.least and mode.least._asdict(),
@@ -410,8 +392,7 @@ def _first_ids(ranking: Ranking) -> list[str]:
 class _Stored:
     """Makes curves and shapes small; shapes only as long as there is room for them."""
 
-    def __init__(self, count: int) -> None:
-        self.points = int(np.clip(POINTS * FULL // max(count, 1), LEAST_POINTS, POINTS))
+    def __init__(self) -> None:
         self.drawings: list[dict[str, Any]] = []
         self.shapes: dict[str, dict[str, Any]] = {}
         self.doubt = 0.0
@@ -423,63 +404,30 @@ class _Stored:
         history, frames = case.history, case.frames
         more: dict[str, Any] = {}
         if len(history) > 1:
-            more |= {"curve": self._curve(history, row), "book": self._book(history, row)}
-            more |= self._base(history, row)
-            if MODES[row["loading_mode"]].driven:
-                more["stairs"] = self._stairs(history, row)
+            more |= {"curve": _thin(curve_of(history, row), POINTS), "book": _book(history, row)}
+            more |= _base(history, row)
         if frames:
             more["drawing"] = self._drawing(frames)
             self._move(case, row)
         return more
 
-    def so_far(self, case: StoredRun, row: Series) -> dict[str, Any]:
-        """The data that rank a case that stopped: its curve until then."""
-        if len(case.history) < 2 or not MODES[row["loading_mode"]].driven:
-            return {}
-        curve, stairs = self._curve(case.history, row), self._stairs(case.history, row)
-        return {"curve": curve, "stairs": stairs}
-
-    def _curve(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
-        """Abscissa and ordinate of the curve of a case, as in `curve_of`."""
-        return [numbers(column) for column in thin_curves(curve_of(history, row), self.points)]
-
-    def _book(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Work done and its parts (J) over the path: `stacked`."""
-        (total, words, parts), (place, label) = stacked(history, row), path_of(history, row)
-        columns = [place, total, *(parts[name] for name in parts)]
-        values = [numbers(column) for column in thin_curves(columns, self.points * 2 // 3)]
-        names = [PARTS[name] for name in parts]
-        return {"label": label, "total": words, "parts": names, "values": values}
-
-    def _base(self, history: DataFrame, row: Series) -> dict[str, Any]:
-        """Greatest pressure (kPa) on a patch of the base over the path, if there is one."""
-        pressure = in_unit(history["base_pressure_Pa"], "kPa")
-        if not pressure.max() > 0.0:
-            return {}
-        place, label = path_of(history, row)
-        values = thin_curves([place, pressure], self.points // 3)
-        return {"base": {"label": label, "values": [numbers(column) for column in values]}}
-
-    def _stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
+    def stairs(self, history: DataFrame, row: Series) -> list[list[float | int | None]]:
         """Force (N), work (J) and travel (m) of `force_stairs` while the platen comes down."""
         loading = history.iloc[: last_loaded(history, row) + 1]
         force = np.fmax(loading["reaction_top_N"], loading["reaction_bottom_N"]).to_numpy()
         work = loading["work_in_J"].to_numpy()
-        highest, done = force_stairs(force, work)
-        kept = thin_stairs(highest, done, self.points)
-        self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
         travel = np.minimum(loading["top_displacement_m"].to_numpy(float), row["stroke_m"])
-        way = stair_strokes(force, travel)[kept]
-        return [numbers(column, 9) for column in (highest[kept], done[kept], way)]
+        highest, done, way = force_stairs(force, work, travel)
+        kept = thin_stairs(highest, done, POINTS)
+        self.doubt = max(self.doubt, _work_error((highest, done), (highest[kept], done[kept])))
+        return [numbers(column[kept], 9) for column in (highest, done, way)]
 
     def _drawing(self, frames: Mapping[str, Any]) -> int | None:
         """Number of the drawing of a shape at rest, which an earlier case may share."""
-        frames = plan(frames) if "quads" in frames else frames
-        at_rest, edges = frames["position_m"][0].astype(float), frames["edges"]
-        thickness = frames["edge_thickness_m"].astype(float)
-        key = b"".join(a.tobytes() for a in (np.rint(at_rest / UNIT), edges, thickness))
+        position, edges, thickness = at_rest(frames)
+        key = b"".join(a.tobytes() for a in (np.rint(position / UNIT), edges, thickness))
         if key not in self._known and self._room["drawings"] > 0:
-            drawn = drawing(at_rest, edges, thickness)
+            drawn = drawing(position, edges, thickness)
             if self._fits("drawings", len(json.dumps(drawn))):
                 self._known[key] = len(self.drawings)
                 self.drawings.append(drawn)
@@ -505,11 +453,33 @@ class _Stored:
         return self._room[what] >= 0
 
 
+def _thin(columns: Iterable[Any], most: int) -> list[list[float | int | None]]:
+    """Columns at the same rows, of which there are at most so many."""
+    return [numbers(column) for column in thin_curves(columns, most)]
+
+
+def _book(history: DataFrame, row: Series) -> dict[str, Any]:
+    """Work done and its parts (J) over the path: `stacked`."""
+    (total, words, parts), (place, label) = stacked(history, row), path_of(history, row)
+    values = _thin([place, total, *(parts[name] for name in parts)], POINTS * 2 // 3)
+    names = [PARTS[name] for name in parts]
+    return {"label": label, "total": words, "parts": names, "values": values}
+
+
+def _base(history: DataFrame, row: Series) -> dict[str, Any]:
+    """Greatest pressure (kPa) on a patch of the base over the path, if there is one."""
+    pressure = in_unit(history["base_pressure_Pa"], "kPa")
+    if not pressure.max() > 0.0:
+        return {}
+    place, label = path_of(history, row)
+    return {"base": {"label": label, "values": _thin([place, pressure], POINTS // 3)}}
+
+
 def _work_error(full: tuple[Floats, Floats], thin: tuple[Floats, Floats]) -> float:
     """Greatest relative error of the work up to a force, where it is no small part of all work."""
     works = [
-        (work_until(limit, *full), work_until(limit, *thin))
-        for limit in np.linspace(full[0][0], full[0][-1], LIMITS)
+        (absorbed_until(limit, *full), absorbed_until(limit, *thin))
+        for limit in np.linspace(full[0][0], full[0][-1], FORCES)
     ]
     large = [(true, value) for true, value in works if true > SMALL * full[1][-1]]
     return max((abs(value / true - 1.0) for true, value in large), default=0.0)
@@ -545,8 +515,8 @@ def _failures(summary: DataFrame, labels: Series) -> Iterator[dict[str, str]]:
     failed = summary[summary["status"] != Status.CONVERGED][:FAILURES]
     for label, rows in by_scene(failed, labels).items():
         for (_, row), design in zip(rows.iterrows(), design_labels(rows, summary), strict=True):
-            kept = {name: str(row[name]) for name in ("case_id", "status", "message")}
-            yield kept | {"scene": label, "label": design}
+            where = {"case": str(row["case_id"]), "design": design, "scene": label}
+            yield where | {"status": str(row["status"]), "why": str(row["message"])}
 
 
 def _config(about: Mapping[str, Any]) -> dict[str, Any]:
@@ -557,9 +527,9 @@ def _config(about: Mapping[str, Any]) -> dict[str, Any]:
 
 def _about(about: Mapping[str, Any], summary: DataFrame) -> list[tuple[str, str]]:
     """Origin of the numbers, as pairs of words."""
-    versions = summary["model_version"].value_counts().sort_index().items()
+    versions = model_versions(summary)
     packages = {name.removeprefix("version_"): v for name, v in about.items() if "version_" in name}
-    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions)
+    model = ", ".join(f"{version} ({counted(n, 'case')})" for version, n in versions.items())
     pairs = [(words, str(about[name])) for name, words in OF_THE_RUN.items() if name in about]
     pairs += [("version of the model", model)]
     pairs += [(name, short(version)) for name, version in packages.items()]

@@ -42,7 +42,7 @@ const slide = {
 };
 
 function massRange() {
-  const masses = ranked(data, { ...asked, budget: null }).rows.map((row) => row.mass);
+  const masses = now.rows.map((row) => row.mass);
   return { low: 0.95 * Math.min(...masses), high: 1.05 * Math.max(...masses) };
 }
 
@@ -140,7 +140,7 @@ function settle() {
 
 // A box and a number for each requirement that the scene can be asked for, in a maker's unit.
 function showRequired() {
-  const known = Object.entries(data.measures).filter(([, measure]) => measure.modes.includes(scene().mode));
+  const known = Object.entries(data.measures).filter(([name]) => scene().requires.includes(name));
   $("require-box").hidden = !known.length;
   $("per").value = asked.per;
   for (const input of [...$("require").children]) input.hidden = !known.some(([name]) => name === input.dataset.name);
@@ -443,11 +443,6 @@ function detail(best) {
   return [...words(best), requiredText(), ...(now.nearest ? nearestText() : []), ...(unmet() ? instead() : []), ...lackText(), ...stoppedText()].filter(Boolean);
 }
 
-// Whether the page leaves designs of the scene out.
-function isPart() {
-  return scene().others.length > 0;
-}
-
 // What the page may lack, as it does not hold all designs.
 function* lackText() {
   if (now.better) yield "A design that this page leaves out may be better for this question: crumple rank compares all.";
@@ -455,7 +450,7 @@ function* lackText() {
 
 // What the page holds, and how far its places are those among all designs.
 function* partText() {
-  if (!isPart()) return;
+  if (!scene().others.length) return; // the page has all designs of the scene
   yield `This page holds ${now.rows.length} of ${scene().designs} designs: the best within every budget, per gram and per area, until densification ` +
     "and up to the forces of the columns, the best below some limits, and a sample of the others. Numbers of designs are of these.";
   const { certain, placed } = now;
@@ -547,8 +542,8 @@ function columns() {
 function requiredColumns() {
   const limits = askedOf(data, asked);
   const found = [];
-  if ("max_deceleration" in limits) found.push(["decel. g0", (row) => row.design.deceleration && inUnits(row.design.deceleration, "g0")]);
-  for (const [name, head, value] of [["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]])
+  const felt = [["max_deceleration", "decel.", "deceleration"], ["max_base_pressure", "base", "pressure"], ["max_target_acceleration", "target", "accelerated"]];
+  for (const [name, head, value] of felt)
     if (name in limits) {
       const { shown } = data.measures[name];
       found.push([`${head} ${shown}`, (row) => row.design[value] && inUnits(row.design[value], shown)]);
@@ -803,10 +798,6 @@ function lookAt(id) {
   showOne();
 }
 
-function curveLabels() {
-  return scene().axes;
-}
-
 function showCurves() {
   const designs = chosen().map(designOf).filter((design) => design?.curve?.[0].length);
   $("legend").replaceChildren(
@@ -816,7 +807,7 @@ function showCurves() {
   );
   view.mark = null;
   if (!designs.length) return $("curves").replaceChildren("No selected design has a curve.");
-  const [x, y] = curveLabels();
+  const [x, y] = scene().axes;
   const plot = chart($("curves"), {
     x: { range: extent(designs.map((design) => design.curve[0])), label: x },
     y: { range: extent(designs.map((design) => design.curve[1])), label: y },

@@ -144,8 +144,7 @@ function drawingFile(drawing) {
 
 // A function of a frame, a node and an axis to the coordinate of a moving shape.
 function coordinates({ position, low, step, nodes }) {
-  const bytes = Uint8Array.from(atob(position), (letter) => letter.charCodeAt(0));
-  const counts = new DataView(bytes.buffer);
+  const counts = new DataView(bytesOf(position).buffer);
   return (k, node, axis) => low[axis] + step * counts.getUint16(2 * (low.length * (k * nodes + node) + axis), true);
 }
 

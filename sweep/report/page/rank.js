@@ -1,9 +1,10 @@
 // Ranks designs as sweep/ranking/rank.py does: the same sums in the same order, so the same ties.
 // Other files of that folder are repeated too: merit.py (measured, incomparable), places.py (markFront,
 // markPlaces), unfinished.py (couldPlace) and requirements.py (which limits a scene has, and by how much a design misses them).
-// An unknown value is null, which JavaScript takes for 0: `times`, `least` and `exceeds` do not.
+// An unknown value is null, which JavaScript takes for 0: `times`, `ratio`, `least` and `exceeds` do not.
 
 const times = (value, by) => (value === null ? null : by * value);
+const ratio = (value, by) => (value === null || by === null ? null : value / by);
 const least = (value, most) => (value === null ? null : Math.min(value, most));
 const exceeds = (value, limit) => value !== null && limit !== null && value > limit;
 
@@ -14,7 +15,7 @@ function greatestMass(data, question) {
 
 // The value at which the force first exceeds a limit (N), linear in a power of the force between two
 // points: a stroke in the force itself, the work (J), from stairs, in its square.
-function valueUntil(limit, [forces, values], power) {
+function valueUntil(limit, forces, values, power) {
   const k = forces.findIndex((force) => force > limit);
   if (k < 0) return values[values.length - 1];
   if (k === 0) return values[0];
@@ -35,29 +36,22 @@ function storedEnergy(data, question) {
   return data.energies.findIndex((energy) => energy.force === name(question.force));
 }
 
-// Energy (J) until a specimen bears a force (N), its error and its correction.
-function countedEnergy(data, design, question, force) {
+// Energy (J) until a specimen bears a force (N), its error and its correction, and the stroke (m) in
+// which it is absorbed; read from the stairs where they are not stored.
+function countedUntil(data, design, question, force) {
   const known = storedEnergy(data, question);
-  if (known >= 0) return design.energies[known];
-  return design.stairs ? [valueUntil(force, design.stairs, 2), null, null] : [null, null, null];
-}
-
-// Stroke (m) in which that energy is absorbed; read from the curve where it is not stored.
-function countedStroke(data, design, question, force) {
-  const known = storedEnergy(data, question);
-  if (known >= 0) return design.strokes?.[known] ?? null;
-  if (!design.stairs) return null;
-  const [forces, , strokes] = design.stairs;
-  return valueUntil(force, [forces, strokes], 1);
+  if (known >= 0) return [...design.energies[known], design.strokes[known] ?? null];
+  if (!design.stairs) return [null, null, null, null];
+  const [forces, works, strokes] = design.stairs;
+  return [valueUntil(force, forces, works, 2), null, null, valueUntil(force, forces, strokes, 1)];
 }
 
 // The limits (SI) that are asked of the designs of a scene: sweep/ranking/requirements.py. Those of
 // a panel need a panel.
 function askedOf(data, question) {
   if (question.per === "panel" && !question.panel) return {};
-  const mode = data.scenes[question.scene].mode;
-  const limits = Object.entries(question.require ?? {});
-  return Object.fromEntries(limits.filter(([name]) => data.measures[name].modes.includes(mode)));
+  const { requires } = data.scenes[question.scene];
+  return Object.fromEntries(Object.entries(question.require).filter(([name]) => requires.includes(name)));
 }
 
 // Whether forces, energies or masses of periods of unequal area would be compared: merit.py.
@@ -185,30 +179,25 @@ function measured(data, design, question) {
   const panel = question.panel ? panelOf(question.panel, design, data.beside) : null;
   const factor = panel ? panel.specimens : 1;
   const force = question.force === null ? null : question.force / (ofPanel(question) ? factor : 1);
-  const [energy, error, correction] = countedEnergy(data, design, question, force);
+  const [energy, error, correction, stroke] = countedUntil(data, design, question, force);
   const slack = storedEnergy(data, question) < 0 ? data.round_off_of_curves : data.round_off;
   const row = {
     design,
     panel,
     mass: factor * design.mass,
     energy: times(energy, factor),
-    perGram: energy === null || design.mass === null ? null : energy / design.mass,
+    stroke,
+    perGram: ratio(energy, design.mass),
     passed: force === null ? design.passed : least(design.peak, force),
     pareto: false, // until `markFront`
     beyond: design.solid || exceeds(energy, times(design.within, 1 + slack)),
   };
-  row.stroke = countedStroke(data, design, question, force);
   row.early = scene.driven && force !== null && design.peak !== null && design.peak <= row.passed;
   row.open = force === null ? design.open : row.early;
-  let bars;
-  if (scene.least) bars = design.least;
-  else if (question.panel || question.budget !== null)
-    bars = [row.energy, times(error, factor), times(correction, factor)];
-  else
-    bars = [row.perGram, ...[error, correction].map((v) => (v === null ? null : v / design.mass))];
-  [row.value, row.error, row.correction] = bars;
+  const whole = question.panel || question.budget !== null; // else energy per gram is compared
+  const scaled = (v) => (whole ? times(v, factor) : ratio(v, design.mass));
+  [row.value, row.error, row.correction] = scene.least ? design.least : [energy, error, correction].map(scaled);
   const [low, high] = scene.least || force !== null ? [null, null] : design.ends;
-  const scaled = (end) => (question.panel || question.budget !== null ? factor * end : end / design.mass);
   row.below = low === null ? 0 : Math.max(0, row.value - scaled(low));
   row.above = high === null ? 0 : Math.max(0, scaled(high) - row.value);
   row.misses = missesOf(data, row, question);

@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pandas import DataFrame
+from pandas import DataFrame, Index
 
-from sweep.loading_modes import MODES, compared
+from sweep.loading_modes import compared
 from sweep.ranking.merit import Compared, doubtful, gap_behind, through_solid
 
 Floats = NDArray[np.float64]
@@ -41,13 +41,6 @@ LIMITS = {
     "accelerated": "peak_target_acceleration_m_per_s2",
 }
 """Columns that requirements limit from above, by their names in the page."""
-SELECTED_BY = frozenset(
-    {
-        *("case_id", "loading_mode", "outer_width_m", "depth_m", "beyond_model", "crossed"),
-        *(mode.least.column for mode in MODES.values() if mode.least),
-    }
-)
-"""Columns that select designs, whatever the force up to which energy is counted."""
 
 
 class Counted(NamedTuple):
@@ -87,8 +80,7 @@ def on_fronts(counted: Sequence[Counted], scenes: Sequence[DataFrame]) -> list[s
     fronts = []
     for each in counted:
         for rows in scenes:
-            part = each.rows.loc[rows.index]
-            part = part[~doubtful(part)]
+            part = _sound(each, rows.index)
             merit = _merits(part, each.names)[0]
             fronts += [*_ids(part, part[each.names.mass].to_numpy(float), merit, 1)]
     return [k for depth in zip_longest(*fronts) for k in depth if k is not None]
@@ -131,8 +123,7 @@ def _layered(counted: Sequence[Counted], rows: DataFrame) -> Iterator[Iterator[l
         for ends in (values, -values):
             yield _ids(rows, np.zeros(len(rows)), ends, 1)
     for each in counted:
-        part = each.rows.loc[rows.index]
-        part = part[~doubtful(part)]
+        part = _sound(each, rows.index)
         mass, same = part[each.names.mass].to_numpy(float), np.zeros(len(part))
         merit, *per_gram = _merits(part, each.names)
         area = (part["outer_width_m"] * part["depth_m"]).to_numpy(float)
@@ -151,6 +142,11 @@ def _limited(until_packed: Counted, rows: DataFrame) -> Iterator[list[str]]:
                 yield ids[:: -(-len(ids) // LIMITED)]
 
 
+def _sound(each: Counted, index: Index) -> DataFrame:
+    """The trusted ones of some rows, with their values up to a force."""
+    return each.rows[each.rows.index.isin(index) & ~doubtful(each.rows)]
+
+
 def _ids(part: DataFrame, limited: Floats, merit: Floats, most: int) -> Iterator[list[str]]:
     names = part["case_id"].to_numpy()
     return (list(names[layer]) for layer in layers(limited, merit, most))
@@ -160,7 +156,7 @@ def _merits(part: DataFrame, names: Compared) -> list[Floats]:
     """The values to be maximised: energy, and energy per gram; or the negative of the column
     compared instead.
     """
-    least = compared(part) if len(part) else None
+    least = compared(part)
     columns = [names.energy, names.per_gram] if least is None else [least]
     sign = 1.0 if least is None else -1.0
     return [sign * part[name].to_numpy(float) for name in columns]
@@ -197,11 +193,10 @@ def front_of_others(
     """The best trusted designs within every budget that are not on the page: their masses and
     energies, for each kind of energy; if something else is compared, the negative of it.
     """
-    rows = rows[~rows["case_id"].isin([*ids])]
+    left = rows.index[~rows["case_id"].isin([*ids])]
     fronts = []
-    for each in counted if len(rows) else ():
-        part = each.rows.loc[rows.index]
-        part = part[~doubtful(part)]
+    for each in counted if len(left) else ():
+        part = _sound(each, left)
         mass, merit = part[each.names.mass].to_numpy(float), _merits(part, each.names)[0]
         best = next(layers(mass, merit, 1), np.zeros(0, int))
         fronts.append([mass[best].tolist(), merit[best].tolist()])
@@ -234,10 +229,11 @@ def _values(counted: Sequence[Counted], rows: DataFrame) -> dict[str, Floats]:
     below = values[f"any below {last}"] = rows["absorbed_energy_J"].to_numpy(float)
     values[f"sound below {last}"] = np.where(never, np.nan, below)
     for k in reversed(range(last)):
-        part = counted[k].rows.loc[rows.index]
-        energy = values[f"any counted {k}"] = part[counted[k].names.energy].to_numpy(float)
+        every = counted[k].rows
+        energy = every.loc[rows.index, counted[k].names.energy].to_numpy(float)
+        values[f"any counted {k}"] = energy
         below = values[f"any below {k}"] = np.where(np.isfinite(energy), energy, below)
-        values[f"sound counted {k}"] = np.where(doubtful(part), np.nan, energy)
+        values[f"sound counted {k}"] = np.where(doubtful(every)[rows.index], np.nan, energy)
         values[f"sound below {k}"] = np.where(never, np.nan, below)
     if least is not None:
         values["any least"] = rows[least].to_numpy(float)

@@ -29,7 +29,8 @@ def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None =
     while len(kept) < most:
         chord = _chords(kept)
         distance = (gap or _distances)(points, points[kept[chord]], points[kept[chord + 1]])
-        farthest = _first_of_each(np.flatnonzero(distance >= _peaks(distance, kept)[chord]), chord)
+        peak = np.maximum.reduceat(distance, kept[:-1])[chord]
+        farthest = _first_of_each(np.flatnonzero(distance >= peak), chord)
         far = farthest[distance[farthest] > max(tolerance, ALIKE * distance.max())]
         if not len(far):
             break
@@ -67,10 +68,6 @@ def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
     return np.where(rise > 0.0, np.abs(work - points[:, 1]), 0.0) / (points[:, 1] + least + TINY)
 
 
-def _peaks(distance: Floats, kept: Indices) -> Floats:
-    return np.maximum.reduceat(distance, kept[:-1])
-
-
 def _first_of_each(points: Indices, chord: Indices) -> Indices:
     """The first of the points, which are in order, on each chord."""
     numbers = chord[points]
@@ -88,31 +85,20 @@ def thin_curves(columns: Iterable[Any], most: int) -> list[Floats]:
     return list(values[kept].T)
 
 
-def force_stairs(force: Floats, work: Floats) -> tuple[Floats, Floats]:
-    """Greatest force so far (N) over the work done (J), (rows + dips,) each.
+def force_stairs(force: Floats, work: Floats, travel: Floats) -> tuple[Floats, Floats, Floats]:
+    """Greatest force so far (N), work done (J) and travel of the platen (m), (rows + dips,) each.
 
     The work done until a force is exceeded is the last one at which these stairs are not above it.
     Where the force rises again after a dip, a point is added at its former height.
     """
     highest = np.maximum.accumulate(force)
-    again = _risen_again(force, highest)
-    added = _at(highest[again], np.maximum(force, 0.0), work, again, 2)
+    again = np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
+    former = highest[again]
     return (
-        np.insert(highest, again + 1, highest[again]),
-        np.insert(work, again + 1, added),
+        np.insert(highest, again + 1, former),
+        np.insert(work, again + 1, _at(former, np.maximum(force, 0.0), work, again, 2)),
+        np.insert(travel, again + 1, _at(former, force, travel, again, 1)),
     )
-
-
-def stair_strokes(force: Floats, travel: Floats) -> Floats:
-    """Travel (m) of the platen at the points of `force_stairs`."""
-    highest = np.maximum.accumulate(force)
-    again = _risen_again(force, highest)
-    return np.insert(travel, again + 1, _at(highest[again], force, travel, again, 1))
-
-
-def _risen_again(force: Floats, highest: Floats) -> Indices:
-    """The rows before which the force was higher and after which it is, too."""
-    return np.flatnonzero((force[1:] > highest[:-1]) & (force[:-1] < highest[:-1]))
 
 
 def _at(limit: Floats, force: Floats, values: Floats, rows: Indices, power: int) -> Floats:
@@ -121,20 +107,6 @@ def _at(limit: Floats, force: Floats, values: Floats, rows: Indices, power: int)
     return values[rows] + (limit**power - before) / (after - before) * (
         values[rows + 1] - values[rows]
     )
-
-
-def work_until(limit: float, highest: Floats, work: Floats) -> float:
-    """Work (J) at which stairs from `force_stairs` first exceed a force (N); all if they never
-    do.
-    """
-    over = np.flatnonzero(highest > limit)
-    if not len(over):
-        return float(work[-1])
-    k = int(over[0])
-    if k == 0:
-        return float(work[0])
-    share = (limit**2 - highest[k - 1] ** 2) / (highest[k] ** 2 - highest[k - 1] ** 2)
-    return float(work[k - 1] + share * (work[k] - work[k - 1]))
 
 
 def thin_stairs(highest: Floats, done: Floats, most: int) -> list[int]:

@@ -1,5 +1,5 @@
-"""Stores walls of a shape as few long polylines, or as faces, and shapes as short text; plates as
-their plan.
+"""Stores walls of a shape as few long polylines, or as faces, and shapes as short text; plates at
+rest as their plan.
 """
 
 from base64 import b64encode
@@ -14,7 +14,7 @@ from sweep.numbers import in_unit
 from sweep.ranking.budget import ROUND_OFF
 from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
-from sweep.report.page.thinning import thinned
+from sweep.report.page.thinning import numbers, thinned
 
 Floats = NDArray[np.float64]
 
@@ -23,6 +23,7 @@ UNIT = 1e-5  # m: coordinates of drawings are multiples of it
 GRID = 65535  # steps of a coordinate of a frame
 FRAMES = 24
 PLATEN = 0.05  # share of the width of plates by which their platens are wider
+LEVEL = 1e-6  # share of the height within which nodes have one height
 
 
 class Trail(NamedTuple):
@@ -97,6 +98,19 @@ def _walk(
     return nodes
 
 
+def at_rest(frames: Mapping[str, Any]) -> tuple[Floats, NDArray[np.int64], Floats]:
+    """Nodes (n, 2) m, elements (m, 2) and their thickness (m,) at rest; of plates, their plan."""
+    position = frames["position_m"][0].astype(float)
+    if "quads" not in frames:
+        return position, frames["edges"], frames["edge_thickness_m"].astype(float)
+    sides = np.concatenate([frames["quads"][:, [k, (k + 1) % 4]] for k in range(4)])
+    edges, first = np.unique(np.sort(sides, axis=1), axis=0, return_index=True)
+    thickness = np.tile(frames["quad_thickness_m"], 4)[first].astype(float)
+    height = position[:, 2]
+    bottom = np.all(height[edges] <= height.min() + LEVEL * np.ptp(height), axis=1)
+    return position[:, :2], edges[bottom], thickness[bottom]
+
+
 def drawing(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> dict[str, Any]:
     """A shape at rest: its box (x, y, width, height; mm) and the paths of its walls, by thickness.
 
@@ -168,10 +182,10 @@ def _moving(frames: Mapping[str, Any], position: Floats, forces: Sequence[Any]) 
     counts = np.rint((position - low) / step).astype("<u2")
     plates = in_unit(frames["plate_y_m"][chosen], "mm")
     return {
-        "strain": _few(in_unit(frames["strain"][chosen], "%")),
-        "time": _few(in_unit(frames["time_s"][chosen], "ms")),
+        "strain": numbers(in_unit(frames["strain"][chosen], "%")),
+        "time": numbers(in_unit(frames["time_s"][chosen], "ms")),
         "force": [forces[i] for i in chosen],
-        "plates": [_few(ends) for ends in plates],
+        "plates": [numbers(ends) for ends in plates],
         "low": [float(f"{v:.7g}") for v in low],
         "step": float(f"{step:.9g}"),
         "nodes": position.shape[1],
@@ -179,8 +193,8 @@ def _moving(frames: Mapping[str, Any], position: Floats, forces: Sequence[Any]) 
     }
 
 
-def _points(outline: Floats) -> list[list[float]]:
-    return [[float(f"{v:.4g}") for v in point] for point in outline]
+def _points(outline: Floats) -> list[list[float | int | None]]:
+    return [numbers(point) for point in outline]
 
 
 def _frame_numbers(strain: Floats) -> list[int]:
@@ -194,26 +208,3 @@ def _frame_numbers(strain: Floats) -> list[int]:
     first_of_each = np.flatnonzero(reached[1:last] & ~reached[: last - 1]) + 1
     turns = first_of_each[: FRAMES - 2].tolist()
     return sorted({*np.linspace(0, last, FRAMES - len(turns)).round().astype(int).tolist(), *turns})
-
-
-def _few(values: Any) -> list[float | None]:
-    return [float(f"{v:.4g}") if np.isfinite(v) else None for v in values]
-
-
-LEVEL = 1e-6  # share of the height within which nodes have one height
-
-
-def plan(frames: Mapping[str, Any]) -> dict[str, Any]:
-    """The shape at rest as walls in the plan: `frames` with `edges`, and one frame."""
-    sides = np.concatenate([frames["quads"][:, [k, (k + 1) % 4]] for k in range(4)])
-    edges, first = np.unique(np.sort(sides, axis=1), axis=0, return_index=True)
-    thickness = np.tile(frames["quad_thickness_m"], 4)[first]
-    position = frames["position_m"][:1]
-    height = position[0, :, 2]
-    bottom = np.all(height[edges] <= height.min() + LEVEL * np.ptp(height), axis=1)
-    return {
-        **{name: frames[name][:1] for name in ("strain", "time_s", "plate_y_m")},
-        "position_m": position[..., :2],
-        "edges": edges[bottom],
-        "edge_thickness_m": thickness[bottom],
-    }

@@ -2,7 +2,7 @@
 
 import json
 from base64 import b64encode
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from html import escape
 from pathlib import Path
@@ -18,8 +18,9 @@ from sweep.ranking.ranking import Ranking
 from sweep.report.figures.storyboard import PARTS
 from sweep.report.page.gather import FilesOf, first_ranking, page_data
 from sweep.report.tables.design_text import design_labels
-from sweep.report.tables.html import cells, html_table, paragraphs
+from sweep.report.tables.html import html_table, paragraphs
 from sweep.report.tables.legend import legend
+from sweep.report.tables.sheet import Sheet
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.whole_file import write_whole
 
@@ -109,28 +110,20 @@ def _as_script(data: Mapping[str, Any]) -> str:
     return text
 
 
-def _failures(failures: Iterable[Mapping[str, str]], failed: int, late: int, file: str) -> str:
+def _failures(failures: Sequence[Mapping[str, str]], failed: int, late: int, file: str) -> str:
     """The cases that did not converge, with their messages; "" if there is none. failed, late:
     numbers of those that stopped before and after the end of their loading, of which the page may
     have only the first.
     """
-    rows = [
-        f"<tr>{cells([each['case_id'], each['label'], each['scene'], each['status']])}"
-        f'<td class="sentence">{escape(each["message"])}</td></tr>'
-        for each in failures
-    ]
-    if not rows:
+    if not failures:
         return ""
-    heads = "".join(f"<th>{head}</th>" for head in ("case", "design", "scene", "status", "why"))
     words = [f"{counted(failed, 'case')} failed"] * bool(failed)
     words += [f"{counted(late, 'case')} stopped after the loading"] * bool(late)
-    count, left = ", ".join(words), failed + late - len(rows)
-    note = paragraphs([f"{left} more are left out: crumple status {file} says why."] * (left > 0))
-    return (
-        f'<details class="block"><summary>{count}</summary><div class="scroll"><table><thead>'
-        f"<tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
-        f"{note}</details>"
-    )
+    left = failed + late - len(failures)
+    notes = (f"{left} more are left out: crumple status {file} says why.",) * (left > 0)
+    rows = [list(each.values()) for each in failures]
+    table = html_table(Sheet("", list(failures[0]), rows, notes=notes))
+    return f'<details class="block"><summary>{", ".join(words)}</summary>{table}</details>'
 
 
 def _origin(data: Mapping[str, Any]) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
-from sweep.columns import describe_column, is_grid_key
+from sweep.columns import is_grid_key
 from sweep.loading_modes import mode_of
 from sweep.numbers import (
     NOTHING,
@@ -15,12 +15,12 @@ from sweep.numbers import (
     energy_text,
     in_unit,
     short,
+    significant,
     text_in,
     three_digits,
-    with_unit,
 )
 from sweep.ranking.accuracy import REFINED, TARGETS, Study, varies
-from sweep.ranking.scenes import HELD_BY_SCENE, scene_keys, scene_label
+from sweep.ranking.scenes import HELD_BY_SCENE, key_words, scene_keys, scene_label
 from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 
@@ -37,7 +37,7 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
     rows = study.settings.iloc[np.argsort(numbers, kind="stable")]
     columns = {
         "method": list(rows["method"]),
-        **_refined(rows),
+        **{HEADS[key]: [_size(key, v, bare=True) for v in rows[key]] for key in _keys(rows)},
         **{
             f"{name} %": [_error(study, row, name) for _, row in rows.iterrows()]
             for name in study.references
@@ -46,8 +46,7 @@ def accuracy_sheets(study: Study, title: str) -> Iterator[Sheet]:
         "": ["*" if best else "" for best in rows["front"]],
     }
     notes = tuple(fill(line, WIDTH) for line in answers(study))
-    texts = [list(row) for row in zip(*columns.values(), strict=True)]
-    yield Sheet(title, list(columns), texts, _opens(rows["method"]), notes)
+    yield Sheet.of(title, columns, opens=_opens(rows["method"]), notes=notes)
     yield _orders(study)
 
 
@@ -59,12 +58,7 @@ def scene_title(study: Study, name: str) -> str:
     rows = rows.drop(columns=varied)
     shown = {*scene_keys(rows), *HELD_BY_SCENE, *varied}
     kept = [key for key in keys if key not in shown]
-    words = [
-        f"{key.replace('.', ' ').replace('_', ' ')} "
-        f"{with_unit(rows[key].iloc[0], describe_column(key).units)}"
-        for key in kept
-    ]
-    return ", ".join([f"{name}: {scene_label(rows)}", *words])
+    return ", ".join([f"{name}: {scene_label(rows)}", *key_words(rows.iloc[0], kept)])
 
 
 def answers(study: Study) -> list[str]:
@@ -124,15 +118,7 @@ def setting(study: Study, row: Series) -> str:
 
 def percents(share: float) -> str:
     """A share in percent, two digits."""
-    return f"{_percent(share)} %"
-
-
-def _percent(share: float) -> str:
-    """A share in percent, two digits, never in powers of ten."""
-    value = in_unit(share, "%")
-    decimals = 1 - int(np.floor(np.log10(value))) if value > 0.0 else 0
-    text = f"{value:.{max(decimals, 0)}f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    return text_in(share, "%", 2)
 
 
 def _error(study: Study, row: Series, name: str) -> str:
@@ -142,7 +128,8 @@ def _error(study: Study, row: Series, name: str) -> str:
     doubt = max(study.references[name].doubt, LEAST_SHOWN)
     if not np.isfinite(doubt) or not np.isfinite(row[name]):
         return NOTHING
-    return f"< {_percent(doubt)}" if row[name] < doubt else _percent(row[name])
+    text = significant(in_unit(max(row[name], doubt), "%"), 2)
+    return f"< {text}" if row[name] < doubt else text
 
 
 def _orders(study: Study) -> Sheet:
@@ -168,11 +155,6 @@ HEADS = {
 def _keys(rows: DataFrame) -> list[str]:
     """The keys that are refined in these settings."""
     return [key for key in REFINED if key in rows and varies(rows[key])]
-
-
-def _refined(rows: DataFrame) -> dict[str, list[str]]:
-    """Columns of the refined keys."""
-    return {HEADS[key]: [_size(key, v, bare=True) for v in rows[key]] for key in _keys(rows)}
 
 
 def _size(key: str, value: float, bare: bool = False) -> str:

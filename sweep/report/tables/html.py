@@ -14,19 +14,15 @@ def html_table(sheet: Sheet, pictures: Mapping[str, str] | None = None) -> str:
     title = f"<h3>{escape(sheet.title)}</h3>" if sheet.title else ""
     drawn = [(pictures or {}).get(case_id, "") for case_id in sheet.cases]
     first = [f"<td>{picture}</td>" for picture in drawn] if any(drawn) else [""] * len(sheet.rows)
+    cells = ["".join(f"<td>{escape(text)}</td>" for text in row) for row in sheet.rows]
     rows = "".join(
-        f"<tr>{picture}{cells(row)}</tr>" for picture, row in zip(first, sheet.rows, strict=True)
+        f"<tr>{picture}{texts}</tr>" for picture, texts in zip(first, cells, strict=True)
     )
     heads = "<th></th>" if any(drawn) else ""
     heads += "".join(f'<th scope="col">{escape(head)}</th>' for head in sheet.heads)
     grid = f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
     scrolled = f'<div class="scroll">{grid}</div>' if sheet.heads else ""
     return f"{title}{scrolled}{paragraphs(sheet.notes)}"
-
-
-def cells(texts: Iterable[str]) -> str:
-    """The cells of a row."""
-    return "".join(f"<td>{escape(text)}</td>" for text in texts)
 
 
 def paragraphs(lines: Iterable[str]) -> str:

@@ -121,7 +121,11 @@ def meanings(rows: DataFrame, mode: Mode) -> list[str]:
     scenes = [part for _, part in rows.groupby("scene")] if "scene" in rows else [rows]
     period += [UNEQUAL_PERIODS] * any(map(unequal_periods, scenes))
     shaped = [] if rows["striker"].isin(("flat", "none")).all() else [SHAPED]
-    return [*_meanings(rows, mode), *shaped, *_first_loading(rows), *period]
+    second = [SECOND] if rows["second_cycle_share"].notna().any() else []
+    pulled = [PULLED] if (rows["returned_energy_J"] < 0.0).any() else []
+    crushed = [*_not_densified(rows), RETURNED, *pulled, *second] if mode.driven else []
+    losses = [_losses(rows)] if mode.driven or mode.struck else []
+    return [*mode.notes, *crushed, *losses, *shaped, *_first_loading(rows), *period]
 
 
 def _first_loading(rows: DataFrame) -> list[str]:
@@ -136,14 +140,6 @@ def printed_note(rows: DataFrame) -> str:
     """Which mass a slicer extrudes: lines of a sheet do not cross."""
     crossed = ~rows["lattice_kind"].map(is_sheet) & rows["printed_mass_g"].notna()
     return PRINTED.format(", crossings twice" if crossed.any() else "")
-
-
-def _meanings(rows: DataFrame, mode: Mode) -> list[str]:
-    if mode.driven:
-        second = [SECOND] if rows["second_cycle_share"].notna().any() else []
-        pulled = [PULLED] if (rows["returned_energy_J"] < 0.0).any() else []
-        return [*mode.notes, *_not_densified(rows), RETURNED, *pulled, *second, _losses(rows)]
-    return [*mode.notes, *([_losses(rows)] if mode.struck else [])]
 
 
 def _not_densified(rows: DataFrame) -> list[str]:

@@ -93,7 +93,7 @@ def _marked(rows: DataFrame) -> dict[str, Series]:
         "p": rows["does_not_print"] != "",
         "u": unloaded(rows),
         "r": retried(rows),
-        "b": other_bow(rows),
+        "b": rows["retry"].str.contains("imperfection"),
     }
 
 
@@ -119,11 +119,6 @@ def retried(rows: DataFrame) -> Series:
     """True for results whose retry has another value of a key that varies in the sweep."""
     keys = [str(name) for name in rows if is_grid_key(str(name))]
     return rows["retry"].map(lambda retry: any(f"{key} = " in retry for key in keys)).astype(bool)
-
-
-def other_bow(rows: DataFrame) -> Series:
-    """True for results of a retry with another imperfection."""
-    return rows["retry"].str.contains("imperfection")
 
 
 def is_unsure(rows: DataFrame) -> Series:

@@ -7,7 +7,7 @@ from textwrap import fill
 
 from pandas import DataFrame, Series
 
-from sweep.loading_modes import MODES, has, mode_of
+from sweep.loading_modes import MODES, applies_to, has, mode_of
 from sweep.numbers import (
     SMALLEST_SHOWN,
     budget_text,
@@ -23,7 +23,6 @@ from sweep.ranking.ranking import Ranking
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import Outcome
 
-DECELERATION = "peak_deceleration_filtered_m_per_s2"
 ONE_SPECIMEN = "panel N: force of the panel, which is one specimen of {} mm."
 ONE_BY_ONE = (
     "Specimens are simulated one by one: neighbours that widen by more than the gap\n"
@@ -51,10 +50,11 @@ COLUMN_NOTES = {
     "stroke mm": "stroke: over which the energy counts; without a crush, the greatest.",
 }
 FELT = {
+    "decel. g0": ("max_deceleration", "peak_deceleration_filtered_m_per_s2"),
     "base kPa": ("max_base_pressure", "peak_base_pressure_Pa"),
     "target g0": ("max_target_acceleration", "peak_target_acceleration_m_per_s2"),
 }
-"""Columns on the load of the base, each with its requirement and its column of results."""
+"""Columns on what striker and base feel, each with its requirement and its column of results."""
 WIDTH = 100  # most letters in a line
 LESS = "less than "
 DISTRUST = "marked {}: do not trust it"
@@ -71,7 +71,7 @@ def quantity(name: str, value: float) -> str:
 def required(ranking: Ranking, modes: Iterable[str]) -> str:
     """The requirements for these kinds of loading in one sentence; empty if there are none."""
     kinds = set(modes)
-    own = {k: v for k, v in ranking.required.items() if kinds.intersection(MEASURES[k].modes)}
+    own = {k: v for k, v in ranking.required.items() if kinds.intersection(applies_to(k))}
     limits = [MEASURES[k].limit.format(quantity(k, v)) for k, v in own.items()]
     return f"Required of {of_which(ranking)}: {', '.join(limits)}." if limits else ""
 
@@ -136,7 +136,8 @@ def _of_budgets(
             yield fill(_close(name, rows, named), WIDTH)
     if widest.open:
         which = f"{widest.open} of those that fail may fulfil min_absorbed in a longer crush"
-        yield f"{which}: theirs ended before {_end(ranking)}."
+        end = "the allowed force was reached" if ranking.limited else "densification"
+        yield f"{which}: theirs ended before {end}."
     for _, alike in groupby(counted, lambda outcome: list(outcome.nearest["case_id"])):
         yield from _nearest(list(alike), ranking.required, named)
     if any(outcome.fulfil > outcome.doubtful for outcome in counted):
@@ -146,11 +147,6 @@ def _of_budgets(
         yield f"The lightest design that fulfils this weighs {mass}: {named(row)}."
     elif counted:
         yield from _rectangle(widest)
-
-
-def _end(ranking: Ranking) -> str:
-    """The point up to which the energy of a crush is counted, in words."""
-    return "the allowed force was reached" if ranking.limited else "densification"
 
 
 def _within(*outcomes: Outcome) -> str:
@@ -257,13 +253,12 @@ def requirement_columns(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
     """
     columns = {}
     struck = rows["striker_mass_g"].notna().any()
-    if struck and ("max_deceleration" in ranking.required or DECELERATION in {*rows["ranked_by"]}):
-        columns["decel. g0"] = numerals(in_unit(rows[DECELERATION], "g0"))
     for head, (name, column) in FELT.items():
         if struck and (name in ranking.required or column in {*rows["ranked_by"]}):
             columns[head] = numerals(in_unit(rows[column], MEASURES[name].shown))
-    limited = mode_of(rows).driven and (ranking.limited or "max_force" in ranking.required)
-    shown = limited or required_of(ranking, rows, "max_stroke")
+    mode, limits = mode_of(rows), ranking.required
+    limited = mode.driven and (ranking.limited or "max_force" in limits)
+    shown = limited or ("max_stroke" in limits and "max_stroke" in mode.requires)
     if shown and rows["counted_stroke_m"].notna().any():
         columns["stroke mm"] = numerals(in_unit(rows["counted_stroke_m"], "mm"))
     return columns
@@ -274,11 +269,6 @@ def column_notes(ranking: Ranking) -> list[str]:
     scenes = [rows for _, rows in ranking.table.groupby("scene", sort=False)]
     shown = {head for rows in scenes for head in requirement_columns(rows, ranking)}
     return [line for head, line in COLUMN_NOTES.items() if head in shown]
-
-
-def required_of(ranking: Ranking, rows: DataFrame, name: str) -> bool:
-    """Whether a requirement applies to the designs of one scene."""
-    return name in ranking.required and rows["loading_mode"].iloc[0] in MEASURES[name].modes
 
 
 def panel_column(rows: DataFrame) -> dict[str, Series]:

@@ -50,21 +50,17 @@ def finalist_sheet(spread: Spread, summary: DataFrame, several: bool = False) ->
 
 def _masses(spread: Spread) -> Series:
     """From the least to the greatest mass of each design, as text."""
-    rows = spread.rows
-    if spread.masses is None:
-        return numerals(rows["mass_g"])
-    low, high = (numerals(Series(one.to_numpy(), rows.index))
-                 for one in (spread.masses.min(axis=1), spread.masses.max(axis=1)))  # fmt: skip
+    masses = spread.masses.set_axis(spread.rows.index)
+    low, high = numerals(masses.min(axis=1)), numerals(masses.max(axis=1))
     return (low + "-" + high).where(low != high, low)
 
 
 def _again(values: Series) -> list[str]:
     """A design's value on the fine mesh, and its lowest and highest value with their corners."""
     others = values.drop(AS_GIVEN)
-    corners = ends(others)
-    if corners is None:
+    if others.isna().all():
         return [NOTHING] * 5
-    spans = [text for name in corners for text in (three_digits(float(others[name])), name)]
+    spans = [text for name in ends(others) for text in (three_digits(float(others[name])), name)]
     return [three_digits(float(others.get(FINE, float("nan")))), *spans]
 
 
@@ -78,7 +74,8 @@ def _verdict(spread: Spread) -> Iterator[str]:
     yield from _rivals(spread)
     first = float(kept.iloc[0])
     if first < NARROW or first > 1.0 / NARROW:
-        at = _where(spread)
+        low, high = ends(spread.at_corners.iloc[0].drop(AS_GIVEN))
+        at = low if spread.sign > 0 else high
         what = f"with {at} it has {percent(first)} % of this value"
         yield f"The first design stands on a narrow peak: {what}."
     safest = worst if spread.sign > 0 else -worst
@@ -118,12 +115,6 @@ def _limits_missed(spread: Spread) -> Iterator[str]:
             yield f"{who} do{'' if several else 'es'} not fulfil {what} with {corner}."
 
 
-def _where(spread: Spread) -> str:
-    """The corner at which the first design is worst."""
-    others = spread.at_corners.iloc[0].drop(AS_GIVEN)
-    return str(others.idxmin() if spread.sign > 0 else others.idxmax())
-
-
 def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFrame) -> Sheet:
     """The designs that come nearest to all requirements; missed: from `Assessment`, by id.
 
@@ -141,12 +132,8 @@ def nearest_sheet(ranking: Ranking, missed: Mapping[str, float], summary: DataFr
         "stroke mm": numerals(in_unit(rows["counted_stroke_m"], "mm")),
         "misses by %": numerals(in_unit(shares, "%")),
     }
-    return Sheet(
-        "Nearest to what is required",
-        list(columns),
-        [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=("misses by: the worst miss, in % of its limit.", *mark_notes(rows)),
-    )
+    notes = ("misses by: the worst miss, in % of its limit.", *mark_notes(rows))
+    return Sheet.of("Nearest to what is required", columns, notes=notes)
 
 
 def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
@@ -154,13 +141,9 @@ def front_sheet(rows: DataFrame, summary: DataFrame, other: str) -> Sheet:
     column = "" if rows.empty else str(rows["ranked_by"].iloc[0])
     shown = dict.fromkeys([other, column])
     columns = {
-        "#": rows["place"].astype(str) + marks(rows) if len(rows) else rows.get("place", Series()),
+        "#": rows["place"].astype(str) + marks(rows),
         **design_text(rows, summary),
         **{name: numerals(rows[name]) for name in shown if name},
     }
-    return Sheet(
-        f"Pareto front of {column} and {other}",
-        list(columns),
-        [list(row) for row in zip(*columns.values(), strict=True)],
-        notes=(FRONT.format(column, in_unit(ALIKE, "%")), *mark_notes(rows)),
-    )
+    notes = (FRONT.format(column, in_unit(ALIKE, "%")), *mark_notes(rows))
+    return Sheet.of(f"Pareto front of {column} and {other}", columns, notes=notes)

@@ -1,6 +1,7 @@
 """A table of text, for a terminal, a page or a file."""
 
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 
 class Sheet(NamedTuple):
@@ -17,6 +18,12 @@ class Sheet(NamedTuple):
     spare: tuple[str, ...] = ()
     elsewhere: str = ""
     cases: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, title: str, columns: Mapping[str, Iterable[str]], **more: Any) -> "Sheet":
+        """A table from its columns, by their heads."""
+        rows = [list(row) for row in zip(*columns.values(), strict=True)]
+        return cls(title, list(columns), rows, **more)
 
     def without(self, head: str) -> "Sheet":
         """The table without a column."""

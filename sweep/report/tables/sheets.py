@@ -22,7 +22,6 @@ from sweep.ranking.scenes import scene_labels
 from sweep.report.tables.design_text import design_text, named_case
 from sweep.report.tables.marks import densifies_twice, is_unsure, marks
 from sweep.report.tables.requirement_notes import (
-    DECELERATION,
     FELT,
     panel_column,
     panel_size,
@@ -88,10 +87,9 @@ def ranking_sheets(ranking: Ranking, summary: DataFrame) -> Iterator[Sheet]:
             **_measures(rows, ranking),
         }
         order = FIRST.get(rows["ranked_by"].iloc[0], "")
-        yield Sheet(
-            title=f"{scene}{order}",
-            heads=list(columns),
-            rows=[list(row) for row in zip(*columns.values(), strict=True)],
+        yield Sheet.of(
+            f"{scene}{order}",
+            columns,
             opens=frozenset(i for texts in first.values() for i, text in enumerate(texts) if text),
             notes=(
                 *_passed_over(rows, unit),
@@ -202,7 +200,7 @@ def case_sheet(summary: DataFrame) -> Sheet:
     """All cases with their designs, scenes and statuses."""
     columns = {"case": summary["case_id"], **design_text(summary, summary)}
     columns |= {"scene": scene_labels(summary), "status": summary["status"]}
-    return Sheet("", list(columns), [list(row) for row in zip(*columns.values(), strict=True)])
+    return Sheet.of("", columns)
 
 
 def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
@@ -226,7 +224,6 @@ def _measures(rows: DataFrame, ranking: Ranking) -> dict[str, Series]:
             columns |= {} if ranking.limited else crush_text(rows)
     columns |= requirement_columns(rows, ranking)
     shown |= {SPARE[head] for head in columns if head in SPARE}
-    shown |= {DECELERATION} if "decel. g0" in columns else set()
     shown |= {column for head, (_, column) in FELT.items() if head in columns}
     for by in rows["ranked_by"].unique():
         columns |= {} if by in shown else {by: numerals(rows[by])}

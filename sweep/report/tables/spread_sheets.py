@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 
 from pandas import DataFrame, Series
 
-from sweep.numbers import NOTHING, budget_text, three_digits
-from sweep.ranking.spread import Spread, ends
+from sweep.numbers import budget_text, three_digits
+from sweep.ranking.spread import Spread, spread_table
 from sweep.report.tables.design_text import design_text
 from sweep.report.tables.sheet import Sheet
 
@@ -18,7 +18,7 @@ ABOUT = (
 def spread_sheets(spreads: Iterable[Spread], summary: DataFrame) -> Iterator[Sheet]:
     """A sheet for each scene and budget; summary: all designs, among which they are described."""
     for spread in spreads:
-        rows = spread.rows
+        rows, table = spread.rows, spread_table([spread])
         budget = rows["budget_g"].iloc[0]
         within = f", up to {budget_text(budget)}" if budget > 0.0 else ""
         design = _differing(rows, summary)
@@ -28,7 +28,7 @@ def spread_sheets(spreads: Iterable[Spread], summary: DataFrame) -> Iterator[She
         yield Sheet(
             f"Spread of {spread.column}: {rows['scene'].iloc[0]}{within}",
             heads,
-            [_row(spread, k, text) for k, text in enumerate(texts)],
+            [_row(row, text) for (_, row), text in zip(table.iterrows(), texts, strict=True)],
             notes=(ABOUT, *_order(spread, labels)),
         )
 
@@ -39,23 +39,13 @@ def _differing(rows: DataFrame, summary: DataFrame) -> dict[str, Series]:
     return {head: text for head, text in columns.items() if len(set(text)) > 1} or columns
 
 
-def _row(spread: Spread, k: int, design: list[str]) -> list[str]:
-    row, values = spread.rows.iloc[k], spread.at_corners.iloc[k]
-    value = three_digits(float(row[spread.column]))
-    corners = ends(values)
-    if corners is None:
-        return [str(row["place"]), *design, value, *[NOTHING] * 5]
-    low, high = corners
-    places = spread.places.iloc[k].dropna()
-    best, worst = int(places.min()), int(places.max())
+def _row(row: Series, design: list[str]) -> list[str]:
+    """The texts of a row of `spread_table`."""
+    best, worst = row["best_place"], row["worst_place"]
     return [
-        str(row["place"]),
-        *design,
-        value,
-        three_digits(float(values[low])),
-        low,
-        three_digits(float(values[high])),
-        high,
+        *(str(row["place"]), *design, three_digits(row["value"])),
+        *(three_digits(row["lowest"]), row["lowest_at"]),
+        *(three_digits(row["highest"]), row["highest_at"]),
         str(best) if best == worst else f"{best} to {worst}",
     ]
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from sweep.columns import absorbed_energy_column
+from sweep.loading_modes import applies_to
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import limits
 from tests.support.results.specimens import (
@@ -133,7 +134,7 @@ def random_question(rng, table):
     force = [None, None, *FORCES, 27.0, 41.5][rng.integers(7)]
     force = None if force is None else force * (count if per == "panel" else 1.0)
     modes = {*table["loading_mode"]}
-    known = [name for name, measure in MEASURES.items() if modes.intersection(measure.modes)]
+    known = [name for name in MEASURES if modes.intersection(applies_to(name))]
     (apart,) = rng.spawn(1)
     draws = {name: apart if name in FELT else rng for name in known}
     names = [name for name in known if draws[name].random() < 0.25]

@@ -19,15 +19,6 @@ def struck(force, energy, **other):
     return hit | speed | {"peak_force_N": force, "absorbed_energy_J": energy} | other
 
 
-def test_steps_are_coarse_by_the_measure_of_their_loading():
-    loads = [{"loading_mode": "force", "force_N": 5.0, "path_error": e} for e in (0.004, 0.006)]
-    blows = [struck(60.0, 0.1, integrator_share=share) for share in (0.009, 0.011)]
-    crushed = [{"load_step_error": e, "integrator_share": NAN} for e in (0.004, 0.006, NAN)]
-    moving = [{"load_step_error": NAN, "integrator_share": share} for share in (0.009, 0.011)]
-    table = ranked(summary(*loads, *blows, *crushed, *moving)).table
-    assert sorted(ids(table[table["coarse"]])) == [1, 3, 5, 8]
-
-
 def test_under_a_striker_the_least_force_wins():
     """Every design takes all the energy, to a little more or less."""
     table = summary(

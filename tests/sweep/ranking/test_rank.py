@@ -200,6 +200,11 @@ def test_the_usual_columns_are_those_of_the_pages():
     assert len(USUAL) == 12
 
 
+def test_a_column_that_is_missing_is_named():
+    with pytest.raises(RankError, match=r"no height_m; needed: all columns of a summary"):
+        rank(summary({}).drop(columns="height_m"))
+
+
 def test_forces_of_the_table_are_named_where_another_is_asked_for():
     table = summary({"absorbed_energy_at_50N_J": 0.1, "absorbed_energy_at_200N_J": 0.2})
     with pytest.raises(RankError, match="up to 60 N in this table; allowed: 50 N, 200 N; other"):

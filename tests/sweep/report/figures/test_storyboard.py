@@ -8,9 +8,9 @@ from sweep.report.figures.storyboard import (
     design_and_scene,
     headline,
     last_loaded,
-    parts_of,
     path_of,
     shots,
+    stacked,
     turns,
 )
 from tests.support.results.specimens import squeezed_cell, summary, there_and_back, under_dead_load
@@ -104,7 +104,8 @@ def test_a_long_scene_takes_more_lines_of_a_headline():
 
 
 def test_negligible_energies_are_no_parts():
-    assert list(parts_of(there_and_back())) == ["bend_J", "dissipated_friction_J"]
+    _, _, parts = stacked(there_and_back(), {"loading_mode": "displacement"})
+    assert list(parts) == ["bend_J", "dissipated_friction_J"]
 
 
 def test_path_of_a_platen_goes_on_as_it_turns_and_others_have_time():

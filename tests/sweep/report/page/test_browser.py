@@ -73,6 +73,10 @@ def tab(chromium, file):
     assert {url.rpartition("/")[2] for url in files} == {"trial.html"}
 
 
+def text(tab, name):
+    return tab.run(f'document.getElementById("{name}").textContent')
+
+
 def put(tab, name, value, what="value", event="input"):
     tab.run(SET.format(name=name, value=json.dumps(value), what=what, event=event))
 
@@ -94,44 +98,36 @@ def ranked_by_the_command(tab, capsys, file, scene=0):
 
 
 MOVES = [
-    [],
-    [("budget-slide", "900"), ("force-slide", "1"), ("force", "20")],
-    [("width-slide", "350"), ("height", "75"), ("budget", "61")],
-    [("unit", "28.349523125"), ("budget", "2")],
-    [("min_absorbed", "0.3"), ("max_force", "60")],
-    [("min_absorbed", "12"), ("per", "panel")],
-    [("force", "24.5")],
-    [("force", "700"), ("per", "panel")],
+    {},
+    {"budget-slide": "900", "force-slide": "1", "force": "20"},
+    {"width-slide": "350", "height": "75", "budget": "61"},
+    {"unit": "28.349523125", "budget": "2"},
+    {"min_absorbed": "0.3", "max_force": "60"},
+    {"min_absorbed": "12", "per": "panel"},
+    {"force": "24.5"},
+    {"force": "700", "per": "panel"},
+    {"scene": "1"},
+    {"scene": "2"},
 ]
 
 
 @pytest.mark.parametrize("moves", MOVES)
 def test_sliders_rank_as_the_command_that_is_shown(tab, capsys, file, moves):
-    before = tab.run(ROWS)
-    for name, value in moves:
-        put(tab, name, value, event="change" if name in ("unit", "per") else "input")
-    shown = tab.run(ROWS)
-    ids, order = ranked_by_the_command(tab, capsys, file)
-    assert [row[0] for row in shown] == ids
-    assert places(row[1] for row in shown) == order
-    assert len(ids) > 5
-    assert (shown != before) == bool(moves)
-
-
-@pytest.mark.parametrize("scene", [1, 2])
-def test_other_scenes_are_ranked_by_their_own_column(tab, capsys, file, scene):
-    put(tab, "scene", str(scene), event="change")
+    before, scene = tab.run(ROWS), int(moves.get("scene", 0))
+    for name, value in moves.items():
+        put(tab, name, value, event="change" if name in ("unit", "per", "scene") else "input")
     shown = tab.run(ROWS)
     ids, order = ranked_by_the_command(tab, capsys, file, scene)
     assert ([row[0] for row in shown], places(row[1] for row in shown)) == (ids, order)
-    assert tab.run('document.getElementById("force-box").hidden') is True
+    assert len(ids) > 5
+    assert (shown != before) == bool(moves)
+    assert tab.run('document.getElementById("force-box").hidden') == (scene > 0)
 
 
 def test_answer_comes_first_and_names_the_winner(tab):
     first = tab.run(ROWS)[0][0]
     label = tab.run(f'data.cases.find((design) => design.id === "{first}").label')
-    said = tab.run('document.getElementById("sentence").textContent')
-    assert said.startswith(f"The best design up to 60 g is {label}: ")
+    assert text(tab, "sentence").startswith(f"The best design up to 60 g is {label}: ")
     assert tab.run("document.querySelectorAll('img, #static').length") == 0
 
 
@@ -140,8 +136,7 @@ def test_budgets_in_ounces_stay_in_ounces(chromium, tmp_path):
     file = write(tmp_path / "trial.h5", table, {"config": "{}"})
     question = Question([1.5 * 28.349523125e-3, 2 * 28.349523125e-3])
     chromium.open(write_page(file, table, question, tmp_path / "trial.html"))
-    said = chromium.run('document.getElementById("sentence").textContent')
-    assert said.startswith("The best design up to 2 oz is ")
+    assert text(chromium, "sentence").startswith("The best design up to 2 oz is ")
     picks = "[...document.querySelectorAll('#budgets button')].map((pick) => pick.textContent)"
     assert chromium.run(picks) == ["1.5 oz", "2 oz"]
     command = chromium.run('document.querySelector("#command code").textContent')
@@ -162,10 +157,10 @@ def test_a_phone_shows_the_whole_scene(chromium, file, width, seen):
 def test_a_budget_below_the_lightest_design_is_answered(tab):
     put(tab, "budget", "0.5")
     assert tab.run(ROWS) == []
-    said = tab.run('document.getElementById("sentence").textContent')
+    said = text(tab, "sentence")
     assert said.startswith("No design weighs 0.5 g or less; the lightest weighs ")
     put(tab, "max_force", "60")
-    more = tab.run('document.getElementById("detail").textContent')
+    more = text(tab, "detail")
     assert "force at most 60 N." in more
     assert "0 of 0" not in more
 
@@ -173,14 +168,12 @@ def test_a_budget_below_the_lightest_design_is_answered(tab):
 def test_requirements_that_nothing_fulfils_are_answered(tab):
     put(tab, "min_absorbed", "1000")
     assert tab.run(ROWS) == []
-    said = tab.run('document.getElementById("sentence").textContent')
-    assert said == "No design up to 60 g meets the requirements."
-    more = tab.run('document.getElementById("detail").textContent')
+    assert text(tab, "sentence") == "No design up to 60 g meets the requirements."
+    more = text(tab, "detail")
     assert "Required of a specimen: usable energy at least 1000 J." in more
     assert "Nearest: " in more
     put(tab, "budget-on", False, what="checked", event="change")
-    without_budget = tab.run('document.getElementById("sentence").textContent')
-    assert without_budget == "No design meets the requirements."
+    assert text(tab, "sentence") == "No design meets the requirements."
     put(tab, "min_absorbed-on", False, what="checked", event="change")
     assert len(tab.run(ROWS)) > 5
 
@@ -188,7 +181,7 @@ def test_requirements_that_nothing_fulfils_are_answered(tab):
 def test_what_would_be_needed_is_told_as_in_a_terminal_and_the_nearest_is_drawn(tab, capsys, file):
     put(tab, "min_absorbed", "1000")
     put(tab, "max_force", "60")
-    more = tab.run('document.getElementById("detail").textContent')
+    more = text(tab, "detail")
     asked = ["--budget", "60 g", "--min-absorbed", "1 kJ", "--max-force", "60 N"]
     told = " ".join(crumple(capsys, "rank", file, *asked)[1].split())
     needed = "Absorbing 1000 J at no more than 60 N takes a stroke of at least 16667 mm"
@@ -198,7 +191,7 @@ def test_what_would_be_needed_is_told_as_in_a_terminal_and_the_nearest_is_drawn(
     nearest = tab.run("now.nearest.design.id")
     assert f"case {nearest}, " in told
     assert tab.run("document.querySelectorAll('#picture svg').length") == 1
-    assert nearest in tab.run('document.getElementById("one-words").textContent')
+    assert nearest in text(tab, "one-words")
     assert tab.run("document.querySelectorAll('#curves polyline').length") == 1
 
 
@@ -213,8 +206,7 @@ def test_energy_of_a_crush_that_ended_early_is_a_lower_bound(tab):
 def test_the_lightest_design_above_the_budget_is_told(tab):
     put(tab, "min_absorbed", "1.9")
     put(tab, "budget", "24")
-    more = tab.run('document.getElementById("detail").textContent')
-    assert "The lightest design that fulfils this weighs " in more
+    assert "The lightest design that fulfils this weighs " in text(tab, "detail")
 
 
 def test_marks_are_those_of_the_terminal(tab, file):
@@ -226,8 +218,7 @@ def test_marks_are_those_of_the_terminal(tab, file):
     assert shown == dict(zip(rows["case_id"], told, strict=True))
     assert any("p" in text for text in shown.values())
     assert any("^" in text for text in shown.values())
-    notes = tab.run('document.getElementById("notes").textContent')
-    assert "p: does not print as drawn" in notes
+    assert "p: does not print as drawn" in text(tab, "notes")
 
 
 def heads(tab):
@@ -242,7 +233,7 @@ def test_stroke_and_deceleration_are_shown_where_the_terminal_shows_them(tab):
     put(tab, "max_force-on", False, what="checked", event="change")
     put(tab, "force", "20")
     assert heads(tab)[-1] == "stroke mm"
-    assert "stroke: over which" in tab.run('document.getElementById("notes").textContent')
+    assert "stroke: over which" in text(tab, "notes")
     put(tab, "scene", "2", event="change")
     assert "stroke mm" not in heads(tab)
     put(tab, "max_deceleration", "900")
@@ -250,13 +241,13 @@ def test_stroke_and_deceleration_are_shown_where_the_terminal_shows_them(tab):
 
 
 def test_columns_of_the_whole_crush_are_explained(tab):
-    notes = tab.run('document.getElementById("notes").textContent')
+    notes = text(tab, "notes")
     assert "dens.: densification strain" in notes
     assert "returned: returned energy" in notes
     put(tab, "force", "20")
-    assert "dens.: " not in tab.run('document.getElementById("notes").textContent')
+    assert "dens.: " not in text(tab, "notes")
     put(tab, "scene", "2", event="change")
-    notes = tab.run('document.getElementById("notes").textContent')
+    notes = text(tab, "notes")
     assert "rebound: energy of the striker" in notes
     assert "All specimens of a panel are struck at once" in notes
 
@@ -308,7 +299,7 @@ def test_a_click_chooses_a_design(tab):
     last = tab.run(ROWS)[-1][0]
     curves = tab.run("document.querySelectorAll('#curves polyline').length")
     tab.run("document.querySelector('#table tbody tr:last-child td:last-child').click()")
-    assert last in tab.run('document.getElementById("one-words").textContent')
+    assert last in text(tab, "one-words")
     assert tab.run("document.querySelectorAll('#curves polyline').length") == curves + 1
     assert tab.run("document.querySelectorAll('#book polyline').length") == 3  # two parts, the work
 

@@ -11,7 +11,7 @@ from sweep.ranking.rank import ranked
 from sweep.report.page import gather
 from sweep.report.page.gather import curve_of, page_data
 from sweep.report.page.selection import MOST
-from sweep.report.page.thinning import work_until
+from sweep.simulation.up_to_force import absorbed_until
 from tests.support.results.page_data import sweep
 from tests.support.results.specimens import (
     HEIGHT,
@@ -53,7 +53,7 @@ def test_page_has_every_case_once_in_the_scenes_of_the_terminal(tmp_path):
     on_the_page = {case["id"]: data["scenes"][case["scene"]]["label"] for case in data["cases"]}
     assert on_the_page == dict(ranking.table[["case_id", "scene"]].to_numpy())
     (failure,) = data["failures"]
-    assert (failure["case_id"], failure["message"]) == (table["case_id"][5], lost["message"])
+    assert (failure["case"], failure["why"]) == (table["case_id"][5], lost["message"])
     assert [failure["scene"]] == list(ranking.lost)
     assert data["total"] == 6
 
@@ -87,7 +87,7 @@ def test_energies_and_forces_of_the_page_are_those_of_the_curves(tmp_path):
     assert case["book"]["parts"] == ["bending", "lost to friction"]
     highest, done, _ = map(np.array, case["stairs"])  # they end where the platen turns
     assert done[-1] == pytest.approx(history["work_in_J"].max(), rel=1e-4)
-    assert work_until(1e9, highest, done) == done[-1]
+    assert absorbed_until(1e9, highest, done) == done[-1]
     time, force = history["time_s"].astype("f4"), history["reaction_top_N"]
     forces = np.interp(squeezed_cell()["time_s"], time, force)
     np.testing.assert_allclose(shape["force"], forces, rtol=1e-3)

@@ -97,3 +97,49 @@ def test_a_force_of_no_panel_is_asked_of_nothing(page):
         assert run("asked.force") == 500.0
         run(ASK.format(question=json.dumps({"panel": None})))
         assert run("[asked.force, $('force-box').hidden]") == [None, True]
+
+
+REQUIRE = """
+(() => {{
+  asked.require = {{ max_force: 60 }};
+  const counts = {{ designs: 5, fulfil: 3, doubtful: 0, coarse: 0, open: 0 }};
+  const each = {{ failed: {{ max_force: 2 }}, unknown: {{}}, close: {{}} }};
+  outcomeOf = () => ({{ ...counts, ...each, ...{changes} }});
+  return requiredText();
+}})()
+"""
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ("{}", "3 of 5 designs fulfil this; the others fail: force (2)."),
+        (
+            "{ coarse: 1 }",
+            "3 of 5 designs fulfil this; the others fail: force (2). "
+            "1 of those that do is marked i: with shorter steps it may fail.",
+        ),
+        (
+            "{ coarse: 2, failed: {}, fulfil: 5, doubtful: 3 }",
+            "5 of 5 designs fulfil this, 3 of them marked ! or x. "
+            "2 of those that do are marked i: with shorter steps they may fail.",
+        ),
+        (
+            "{ close: { max_force: 1 }, unknown: { max_force: 2 } }",
+            "3 of 5 designs fulfil this; the others fail: force (2). 2 without a value for force: "
+            "time steps are too long for peaks (solver.time_step). 1 meets or misses the limit of "
+            "force by less than the uncertainty of the value.",
+        ),
+        (
+            "{ failed: { max_force: 2, max_mass: 1 }, open: 1 }",
+            "3 of 5 designs fulfil this; the others fail: force (2), mass (1); some fail several. "
+            "1 of those that fail may absorb enough in a longer crush: theirs ended before "
+            "densification.",
+        ),
+        ("{ designs: 0 }", ""),
+    ],
+)
+def test_requirements_are_counted_in_words(page, changes, said):
+    with opened(page) as run:
+        words = run(REQUIRE.format(changes=changes))
+    assert words == f"Required of the part: force at most 60 N. {said}".strip()

@@ -1,17 +1,13 @@
 """The ranking of the page, `rank.js`, against Python's, on random sweeps and questions."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from py_mini_racer import MiniRacer
 
 from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import UNEQUAL
 from sweep.ranking.question import Question, RankError
 from sweep.ranking.rank import ranked
 from sweep.ranking.unfinished import PLACES
-from sweep.report.page import gather
 from sweep.report.page.gather import page_data
 from tests.support.results.questions import (
     OTHERS,
@@ -150,7 +146,7 @@ def asked_of_both(page_answers, path, seed):
     answers = page_answers(data, each)
     for question, scenes, found in zip(each, wanted, answers, strict=True):
         for scene, answer in zip(data["scenes"], found, strict=True):
-            if question["force"] is None or scene["mode"] == "displacement":
+            if question["force"] is None or scene["driven"]:
                 yield question, answer, scenes[scene["label"]]
 
 
@@ -206,56 +202,3 @@ def test_page_and_python_refuse_alike_what_periods_cannot_be_compared_by(
             for scene, own in zip(scenes, wanted.values(), strict=True):
                 assert len(scene["placed"]) == len(own["placed"])
     assert 2 < refused < ASKED - 2
-
-
-STAND_INS = """
-const force = { noun: "force", shown: "N", limit: "force at most {}", unknown: "none" };
-const data = { measures: { max_force: force, max_mass: force } };
-const require = { max_force: 60 };
-const asked = { per: "specimen", budget: null, panel: null, force: null, require };
-const counts = { designs: 5, fulfil: 3, doubtful: 0, coarse: 0, open: 0 };
-const usual = { ...counts, failed: { max_force: 2 }, unknown: {}, close: {} };
-let outcome = usual;
-const askedOf = () => asked.require, inUnits = (value) => value, ofOne = () => "the part";
-const outcomeOf = () => outcome;
-let now = {};
-"""
-SAYS = "Required of the part: force at most 60 N."
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ("{}", "3 of 5 designs fulfil this; the others fail: force (2)."),
-        (
-            "{ coarse: 1 }",
-            "3 of 5 designs fulfil this; the others fail: force (2). "
-            "1 of those that do is marked i: with shorter steps it may fail.",
-        ),
-        (
-            "{ coarse: 2, failed: {}, fulfil: 5, doubtful: 3 }",
-            "5 of 5 designs fulfil this, 3 of them marked ! or x. "
-            "2 of those that do are marked i: with shorter steps they may fail.",
-        ),
-        (
-            "{ close: { max_force: 1 }, unknown: { max_force: 2 } }",
-            "3 of 5 designs fulfil this; the others fail: force (2). 2 without a value for force: "
-            "none. 1 meets or misses the limit of force by less than the uncertainty of the value.",
-        ),
-        (
-            "{ failed: { max_force: 2, max_mass: 1 }, open: 1 }",
-            "3 of 5 designs fulfil this; the others fail: force (2), force (1); some fail several. "
-            "1 of those that fail may absorb enough in a longer crush: theirs ended before "
-            "densification.",
-        ),
-        ("{ designs: 0 }", ""),
-    ],
-)
-def test_requirements_are_counted_in_words(changes, said):
-    folder = Path(gather.__file__).parent
-    page = (folder / "page.js").read_text("utf-8")
-    words = page[page.index("function limitText") : page.index("// The requirements that a row")]
-    with MiniRacer() as engine:
-        engine.eval(STAND_INS + words)
-        engine.eval(f"outcome = {{ ...usual, ...{changes} }}")
-        assert engine.eval("requiredText()") == f"{SAYS} {said}".strip()

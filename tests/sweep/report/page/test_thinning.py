@@ -6,13 +6,11 @@ import pytest
 from sweep.report.page.thinning import (
     force_stairs,
     numbers,
-    stair_strokes,
     thin_curves,
     thin_stairs,
     thinned,
-    work_until,
 )
-from sweep.simulation.summary import absorbed_until
+from sweep.simulation.up_to_force import absorbed_until, stroke_until
 
 
 def test_corners_of_a_polyline_are_enough_and_the_farthest_point_comes_first():
@@ -44,15 +42,16 @@ def test_rows_without_a_number_are_left_out():
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_stairs_tell_the_same_work_as_the_curve(seed):
+def test_stairs_tell_the_same_work_and_stroke_as_the_curve(seed):
     rng = np.random.default_rng(seed)
     force = np.abs(np.cumsum(rng.normal(size=200)))
-    work = np.cumsum(rng.random(200))
-    highest, done = force_stairs(force, work)
+    work, travel = np.cumsum(rng.random((2, 200)), axis=1)
+    highest, done, way = force_stairs(force, work, travel)
     assert (np.diff(highest) >= 0.0).all()
     for limit in [*np.linspace(0.01, 1.1, 60) * force.max(), force[0], force.max()]:
-        expected = absorbed_until(limit, force, work)
-        assert work_until(limit, highest, done) == pytest.approx(expected, rel=1e-12)
+        true = absorbed_until(limit, force, work), stroke_until(limit, force, travel)
+        stairs = absorbed_until(limit, highest, done), stroke_until(limit, highest, way)
+        assert stairs == pytest.approx(true, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -63,27 +62,13 @@ def test_thin_stairs_tell_small_works_too(seed):
     plateau = 10.0 + np.cumsum(rng.normal(size=400)) * 0.05
     force = np.minimum(1e3 * travel, plateau) + 100.0 * np.clip(travel - 0.7, 0.0, None) ** 2
     work = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(travel)))
-    highest, done = force_stairs(force, work)
+    highest, done, _ = force_stairs(force, work, travel)
     kept = thin_stairs(highest, done, 60)
     thin = highest[kept], done[kept]
     assert len(kept) <= 60
     for limit in np.linspace(1.0, force.max(), 200):
         true = absorbed_until(limit, force, work)
-        assert work_until(limit, *thin) == pytest.approx(true, rel=0.02), limit
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_strokes_of_stairs_are_those_at_which_a_force_is_first_exceeded(seed):
-    rng = np.random.default_rng(seed)
-    travel = np.cumsum(rng.uniform(0.1, 1.0, 60))
-    force = 1.0 + np.abs(np.cumsum(rng.normal(size=60)))
-    highest, _ = force_stairs(force, travel)
-    strokes = stair_strokes(force, travel)
-    for limit in np.linspace(force[0] + 1e-6, force.max() - 1e-6, 50):
-        k, step = np.argmax(force > limit), np.argmax(highest > limit)
-        true = np.interp(limit, force[k - 1 : k + 1], travel[k - 1 : k + 1])
-        stair = np.interp(limit, highest[step - 1 : step + 1], strokes[step - 1 : step + 1])
-        assert stair == pytest.approx(true, rel=1e-12)
+        assert absorbed_until(limit, *thin) == pytest.approx(true, rel=0.02), limit
 
 
 def test_numbers_have_few_digits_and_no_nan():

@@ -6,7 +6,7 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from sweep.report.page.trails import FRAMES, drawing, moving_shape, plan, trails
+from sweep.report.page.trails import FRAMES, at_rest, drawing, moving_shape, trails
 from tests.support.results.specimens import squeezed_cell, tube
 
 CROSS = np.array([[0, 0], [1, 0], [2, 0], [1, 1], [1, -1]]) * 1e-3
@@ -90,12 +90,10 @@ def test_path_of_a_drawing_holds_only_numbers():
 
 
 def test_plan_of_a_tube_is_a_square_of_its_thickness():
-    found = plan(tube())
-    assert found["position_m"].shape == (1, 8, 2)
-    assert sorted(map(sorted, found["edges"].tolist())) == [[0, 1], [0, 3], [1, 2], [2, 3]]
-    assert found["edge_thickness_m"] == pytest.approx(1e-4)
-    drawn = drawing(found["position_m"][0], found["edges"], found["edge_thickness_m"])
-    assert drawn["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
+    position, edges, thickness = at_rest(tube())
+    assert position.shape == (8, 2)
+    assert sorted(map(sorted, edges.tolist())) == [[0, 1], [0, 3], [1, 2], [2, 3]]
+    assert thickness == pytest.approx(1e-4)
+    assert drawing(position, edges, thickness)["box"] == pytest.approx([-0.05, -0.05, 1.1, 1.1])
     turned = [np.roll(row, k) for k, row in enumerate(tube()["quads"])]
-    same = plan(tube() | {"quads": np.array(turned)})
-    np.testing.assert_array_equal(same["edges"], found["edges"])
+    np.testing.assert_array_equal(at_rest(tube() | {"quads": np.array(turned)})[1], edges)

@@ -7,10 +7,9 @@ import pytest
 from sweep.report.tables.accuracy_tables import (
     accuracy_sheets,
     answers,
-    percents,
     scene_title,
 )
-from tests.support.results.made_up_studies import all_steps, study
+from tests.support.results.made_up_studies import all_steps, made_up, study
 
 
 def test_answer_is_the_cheapest_setting(tmp_path):
@@ -59,9 +58,8 @@ def test_failed_settings_keep_their_row(tmp_path):
     assert study(tmp_path / "none", [row | {"status": "stopped"} for row in rows]) == []
 
 
-@pytest.mark.parametrize(
-    ("share", "text"),
-    [(0.3, "30 %"), (0.0123, "1.2 %"), (1e-5, "0.001 %"), (12.34, "1234 %"), (0.0, "0 %")],
-)
-def test_shares_have_two_digits_and_no_powers_of_ten(share, text):
-    assert percents(share) == text
+def test_methods_of_one_size_have_no_limit(tmp_path):
+    (found,) = study(tmp_path, [made_up("bdf2", 1e-3), made_up("newmark", 5e-4)])
+    assert "Not resolved: peak force, whose limit is unknown." in answers(found)
+    sheet, _ = accuracy_sheets(found, "made up")
+    assert [row[sheet.heads.index("peak %")] for row in sheet.rows] == ["–"] * 2

@@ -24,6 +24,15 @@ KNOWN = IMPACTS.assign(peak_deceleration_filtered_m_per_s2=500.0)
 ROUGH = ["", "walls of 1.5 lines of 0.4 mm"]
 CROSSED = SPARSE | {"contact_model": "none", "max_crossings": 3}
 TWO = summary({}, {"mass_g": 2.0})
+HIT = {"striker_mass_g": 100.0, "absorbed_energy_J": 5.0, "indentation_m": 0.02}
+PULSE = IMPACTS.assign(**HIT, peak_deceleration_filtered_m_per_s2=[2400.0, 2600.0])
+"""5 J over 2 cm need 250 N on the mean, which a striker of 100 g takes at 2500 m/s^2."""
+RISING = PULSE.assign(
+    peak_deceleration_m_per_s2=[2700.0, 8000.0], peak_deceleration_filtered_m_per_s2=2600.0
+)
+PRESSED = KNOWN.assign(height_m=0.01, peak_strain=0.5)
+"""Of 10 mm, 5 are used."""
+RETRIED = KNOWN.assign(retry=["", "solver.time_step = 1.25 us"])
 
 
 @pytest.mark.parametrize(
@@ -36,6 +45,12 @@ TWO = summary({}, {"mass_g": 2.0})
         (TWO.assign(stretch_over_curve=[NAN, 1.0]), None, ["1*", "2 "], ""),
         (TWO.assign(does_not_print=ROUGH), None, ["1*", "2 p"], "p"),
         (TWO.assign(does_not_print=""), None, ["1*", "2 "], ""),
+        (PULSE, None, ["1*f", "2 "], "f"),
+        (RISING, None, ["1*", "2 f"], "f"),
+        (PRESSED.assign(stroke_left_m=[0.5e-3, 5e-3]), None, ["1*s", "2 "], "s"),
+        (PRESSED.assign(stroke_left_m=[-0.5e-3, 5e-3]), None, ["1*", "2 !"], "!"),
+        (RETRIED, None, ["1*", "2 "], ""),
+        (RETRIED.assign(**{"solver.time_step": 2e-4}), None, ["1*", "2 r"], "r"),
     ],
 )
 def test_what_is_doubtful_or_does_not_print_is_marked(table, by, places, meanings):
@@ -44,70 +59,35 @@ def test_what_is_doubtful_or_does_not_print_is_marked(table, by, places, meaning
     assert "".join(mark for mark, text in MEANINGS.items() if text in words) == meanings
 
 
-def test_coarse_steps_are_explained_by_the_measure_of_their_loading():
-    impacts = IMPACTS.assign(integrator_share=[0.009, 0.011])
-    crushes = TWO.assign(load_step_error=[0.004, 0.006], integrator_share=NAN)
-    moving = TWO.assign(load_step_error=NAN, integrator_share=[0.009, 0.011])
-    for table, words in (
-        (impacts, ("time steps", "1 %", "integrator_share", "time_step")),
-        (moving, ("time steps", "1 %", "integrator_share", "time_step")),
-        (crushes, ("load steps", "0.5 %", "load_step_error", "load_steps")),
-    ):
-        seen, text = marked(table)
-        assert seen == ["1*", "2 i"]
-        assert all(word in text for word in words)
-    assert "integrator_share" not in text
-
-
-def test_a_pulse_that_the_filter_cuts_is_marked():
-    """5 J over 2 cm need 250 N on the mean, which a striker of 100 g takes at 2500 m/s^2."""
-    hit = {"striker_mass_g": 100.0, "absorbed_energy_J": 5.0, "indentation_m": 0.02}
-    table = IMPACTS.assign(**hit, peak_deceleration_filtered_m_per_s2=[2400.0, 2600.0])
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        (
+            KNOWN.assign(integrator_share=[0.009, 0.011]),
+            ("time steps", "1 %", "integrator_share", "time_step"),
+        ),
+        (IMPACTS, ("i: time steps are too long for peaks of the force",)),
+        (
+            TWO.assign(load_step_error=NAN, integrator_share=[0.009, 0.153]),
+            ("above 1 % of the work, here up to 15 %", "integrator_share", "time_step"),
+        ),
+        (
+            TWO.assign(load_step_error=[0.004, 0.006], integrator_share=NAN),
+            ("load steps", "0.5 %", "load_step_error", "load_steps"),
+        ),
+        (
+            TWO.assign(peak_step_error=[0.019, 0.24]),
+            ("above 2 % of a peak force, here up to 24 %", "up to a force near the peak"),
+        ),
+        (TWO.assign(peak_force_N=[10.0, NAN]), ("too long for the greatest force (–)",)),
+    ],
+)
+def test_coarse_steps_are_explained_by_the_measure_of_their_loading(table, words):
     seen, text = marked(table)
-    assert seen == ["1*f", "2 "]
-    assert MEANINGS["f"] in text
-    peaks = {"peak_deceleration_m_per_s2": [2700.0, 8000.0]}
-    rising = table.assign(**peaks, peak_deceleration_filtered_m_per_s2=2600.0)
-    assert marked(rising)[0] == ["1*", "2 f"]
-
-
-def test_an_impact_that_uses_up_the_stroke_is_marked():
-    """Of 10 mm, 5 are used and 5 or half a millimetre are left."""
-    table = KNOWN.assign(height_m=0.01, peak_strain=0.5, stroke_left_m=[0.5e-3, 5e-3])
-    seen, text = marked(table)
-    assert seen == ["1*s", "2 "]
-    assert MEANINGS["s"] in text
-    seen, _ = marked(table.assign(stroke_left_m=[-0.5e-3, 5e-3]))
-    assert seen == ["1*", "2 !"]
-
-
-def test_a_retry_that_changes_what_varies_is_marked():
-    retries = ["", "solver.time_step = 1.25 us"]
-    table = KNOWN.assign(retry=retries)
-    assert marked(table)[0] == ["1*", "2 "]
-    seen, text = marked(table.assign(**{"solver.time_step": 2e-4}))
-    assert seen == ["1*", "2 r"]
-    assert MEANINGS["r"] in text
-
-
-def test_steps_that_are_too_long_for_the_peak_are_marked():
-    (sheet,) = ranking_sheets(ranked(table := TWO.assign(peak_force_N=[10.0, NAN])), table)
-    seen, text = [row[0] for row in sheet.rows], legend(ranked(table))
     assert seen == ["1*", "2 i"]
-    assert "too long for the greatest force (–)" in text
-    assert "load_step_error" not in text
-
-
-def test_impacts_of_rows_too_far_apart_for_their_filter_are_marked():
-    seen, text = marked(IMPACTS)
-    assert seen == ["1*", "2 i"]
-    assert "i: time steps are too long for peaks of the force" in text
-    assert marked(KNOWN)[0] == ["1*", "2 "]
-
-
-def test_the_greatest_estimate_is_told():
-    table = TWO.assign(integrator_share=[0.02, 0.153])
-    assert "above 1 % of the work, here up to 15 %" in " ".join(mark_notes(ranked(table).table))
+    assert all(word in text for word in words)
+    others = {"integrator_share", "load_step_error"} - {*words}
+    assert not any(other in text for other in others)
 
 
 def test_a_measure_of_another_loading_is_not_explained():
@@ -138,10 +118,3 @@ def test_a_lattice_that_packs_at_two_strains_is_marked():
     ranges = table.iloc[:1].assign(**ends)
     for others in (table.iloc[2:], table.iloc[1:], ranges):
         assert UNSURE not in legend(ranked(others))
-
-
-def test_a_peak_that_load_steps_miss_is_marked():
-    seen, text = marked(TWO.assign(peak_step_error=[0.019, 0.24]))
-    assert seen == ["1*", "2 i"]
-    assert "above 2 % of a peak force, here up to 24 %" in text
-    assert "up to a force near the peak" in text

@@ -13,14 +13,20 @@ OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))
 NAN = float("nan")
 
 
-def sheet(fine, thin, thick, column=ENERGY):
-    """The sheet of two designs; arguments: values of both at one corner."""
-    rows = ranked(OWN, by=column).table
-    values = {AS_GIVEN: rows[column], FINE: fine, "walls -5 %": thin, "walls +5 %": thick}
+def spread(rows, column=ENERGY, **corners):
+    """The spread of two designs; corners: values of both, by name."""
+    values = {AS_GIVEN: rows[column], **corners}
     table = DataFrame({name: list(numbers) for name, numbers in values.items()})
     failed = int(table.isna().to_numpy().sum())
     places = table.rank(ascending=column == "mass_g", method="min")
-    return finalist_sheet(Spread(rows, column, table, places, failed), OWN)
+    masses = DataFrame({AS_GIVEN: list(rows["mass_g"])})
+    return Spread(rows, column, table, places, failed, masses, ())
+
+
+def sheet(fine, thin, thick, column=ENERGY):
+    """The sheet of two designs; arguments: values of both at one corner."""
+    corners = {FINE: fine, "walls -5 %": thin, "walls +5 %": thick}
+    return finalist_sheet(spread(ranked(OWN, by=column).table, column, **corners), OWN)
 
 
 def test_row_has_the_fine_mesh_and_the_spread():
@@ -71,17 +77,13 @@ def test_front_has_both_columns():
 
 
 def test_a_sheet_of_one_scene_among_others_names_it():
-    rows = ranked(OWN, by=ENERGY).table
-    table = DataFrame({AS_GIVEN: rows[ENERGY]})
-    found = finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0), OWN, several=True)
+    found = finalist_sheet(spread(ranked(OWN, by=ENERGY).table), OWN, several=True)
     assert found.title.endswith(f"{ENERGY}; crushed to 50 %, glued platens")
 
 
 def test_masses_that_prints_change_are_a_range():
-    rows = ranked(OWN, by=ENERGY).table
-    table = DataFrame({AS_GIVEN: rows[ENERGY], "walls +5 %": rows[ENERGY]})
     masses = DataFrame({AS_GIVEN: [1.0, 2.0], "walls +5 %": [1.05, 2.0]})
-    found = finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0, masses), OWN)
+    found = finalist_sheet(spread(ranked(OWN, by=ENERGY).table)._replace(masses=masses), OWN)
     assert found.columns[found.heads.index("mass g")] == ["1.00-1.05", "2.00"]
 
 
@@ -89,11 +91,10 @@ def test_what_does_not_print_is_marked_in_every_table():
     rough = OWN.assign(does_not_print=["", "walls of 1.5 lines"])
     ranking = ranked(rough, by=ENERGY)
     rows, ids = ranking.table, list(OWN["case_id"])
-    table = DataFrame({AS_GIVEN: rows[ENERGY], FINE: rows[ENERGY]})
     nearest = nearest_sheet(ranking, dict(zip(ids, (0.1, 0.25), strict=True)), rough)
     assert [row[-1] for row in nearest.rows] == ["10.0", "25.0"]
     assert nearest.heads[-1] == "misses by %"
-    finalists = finalist_sheet(Spread(rows, ENERGY, table, table.rank(), 0), rough)
+    finalists = finalist_sheet(spread(rows), rough)
     for sheet in (finalists, front_sheet(rows, rough, "mass_g"), nearest):
         first, second = (row[0] for row in sheet.rows)
         assert (first.endswith("p"), second.endswith("p")) == (False, True)

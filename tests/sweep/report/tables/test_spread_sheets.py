@@ -12,10 +12,10 @@ OWN = summary(*designs([1.0, 2.0], [0.4, 0.3]))
 
 def sheet(first, second, failed=0):
     """The sheet of two designs of 1 and 2 g, with their masses at one corner."""
-    rows = OWN.assign(place=[1, 2], scene="crushed", budget_g=float("nan"))
+    rows = OWN.assign(place=[1, 2], scene="crushed", budget_g=5.0)
     values = {AS_GIVEN: [1.0, 2.0], "friction 0.9": [first, second]}
     table = DataFrame(values if first else {AS_GIVEN: [1.0, 2.0]})
-    spread = Spread(rows, COLUMN, table, table.rank(method="min"), failed)
+    spread = Spread(rows, COLUMN, table, table.rank(method="min"), failed, table, ())
     return next(spread_sheets([spread], OWN))
 
 
@@ -24,13 +24,4 @@ def test_row_has_the_ends_and_where_they_are():
     assert found.rows[0][0] == "1"
     assert found.rows[0][2:] == ["1.00", "1.00", AS_GIVEN, "3.00", "friction 0.9", "1 to 2"]
     assert found.notes[-1].startswith("2 values are missing")
-    assert found.title == "Spread of mass_g: crushed"
-
-
-def test_values_that_are_all_missing_are_dashes():
-    rows = OWN.assign(place=[1, 2], scene="crushed", budget_g=5.0)
-    table = DataFrame({AS_GIVEN: [float("nan"), 2.0], "soft": [float("nan"), 1.0]})
-    spread = Spread(rows, COLUMN, table, table.rank(), 1)
-    found = next(spread_sheets([spread], OWN))
-    assert found.rows[0][3:] == ["–"] * 5
-    assert found.title.endswith("crushed, up to 5 g")
+    assert found.title == "Spread of mass_g: crushed, up to 5 g"
