@@ -41,6 +41,9 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Print the error, and how to get help."""
         shown = "examples" if self.epilog else "what it takes"
+        if option := re.match(r"argument (--[\w-]+): expected", message):
+            about = self._option_string_actions[option[1]].help or ""
+            message = f"{message} ({about.replace('%%', '%')})"
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
 
     def check_verb(self, word: str) -> None:

@@ -91,7 +91,7 @@ def _add_run(verbs: Any) -> None:
     run.add_argument(
         "--dry-run",
         action="store_true",
-        help="estimate time and disk by running a few cases; write nothing",
+        help="estimate time and disk by running a few cases; write no results",
     )
     run.add_argument(
         "--error-bars", action="store_true", help="estimate the error of mesh and steps"

@@ -39,8 +39,8 @@ def print_ranking(file: str, summary: DataFrame, question: Question, brief: bool
     from sweep.report.tables.sheets import ranking_sheets
 
     ranking = answer(summary, question)
-    if ranking.failed < ranking.cases:
-        say(_heading(question, ranking))
+    if ranking.failed < ranking.cases and (heading := _heading(question, ranking)):
+        say(heading)
     print_sheets(ranking_sheets(ranking, summary))
     if not ranking.table.empty and not brief:
         say_all(_wrapped([legend(ranking)], _width()))
@@ -133,7 +133,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     if len(modes) == 1 and (least := MODES[modes.pop()].least):
         usual[least.column] = least.order
     order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
-    lines = [f"Best first: {order}."]
+    lines = [] if ranking.table.empty else [f"Best first: {order}."]
     crushed = ranking.table.empty or has(ranking.table, "driven").any()
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")

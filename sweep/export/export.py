@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from sweep.export.design import Design
 
 Kind = Literal["lattice", "settings"]
+SOLID = "print it with 100 % infill"
 SHOWN = 0.05  # mm: least difference of lengths that is reported
 
 
@@ -219,7 +220,7 @@ def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
     body, notes = _body(source, wish)
     write_stl(path, body)
-    return notes
+    return [*notes, SOLID]
 
 
 def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
@@ -229,7 +230,7 @@ def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
 
     body, notes = _body(source, wish)
     write_3mf(path, body, source.case.case_id, {})
-    return [*notes, "print it with 100 % infill"]
+    return [*notes, SOLID]
 
 
 def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:

@@ -120,7 +120,7 @@ def dry_run(
         f"  processor time  {duration(forecast.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",
         f"  disk            {text_in(forecast.disk, 'MB', 2)}",
-        "nothing was written",
+        "no result was written",
     ]
     if forecast.stopped:
         first = f"{forecast.stopped} of them stopped early; later steps may be slower"
@@ -170,7 +170,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     with interruptible(stop):
         run_on_threads(Plan(pilots, workers=1), simulate, results.extend, stop)
     if stop.flag:
-        raise Interrupted("interrupted; nothing was written")
+        raise Interrupted("interrupted; no result was written")
     return {result.case_id: result for result in results}
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from sweep.store.batch import FORMAT, GROUPS, Block, Ragged, is_as_written
 from sweep.store.checksum import CHECKSUM, attribute_checksum
-from sweep.store.damage import AGAIN, NOT_SO, changed_rows, undamaged
+from sweep.store.damage import AGAIN, FOREIGN, NOT_SO, changed_rows, undamaged
 from sweep.store.errors import StoreError
 
 CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
@@ -29,6 +29,8 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
             raise StoreError(f"{path} cannot be read: it is no regular file.")
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = stack.enter_context(h5py.File(path, "r", locking=False, rdcc_nbytes=CACHE))
+        if "format" not in file.attrs and "summary" not in file:
+            raise StoreError(f"{path} {FOREIGN}.")
         if (written := _attribute(file, "format")) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")

@@ -68,7 +68,7 @@ REFUSED = [
     (["rank", "FILE", "--drop-height", "1 m"], "into a folder"),
     (["rank", "FILE", "--out", "F", "--drop-height", "1"], "a bare number"),
     (["rank", "FILE", "--out", "F", "--drop-height", "0 m"], "above zero"),
-    (["rank", "FILE", "--panel", "100 mm"], "expected 2 arguments"),
+    (["rank", "FILE", "--panel", "100 mm"], 'with specimens: "100 mm" "50 mm")'),
     (["rank", "FILE", "--by", "peak_forse_N"], "the nearest are peak_force_N, "),
     (["rank", "FILE", "--top", "0"], "1 or more"),
     (["rank", "FILE", "--max-force", "60"], "a bare number"),
@@ -78,7 +78,9 @@ REFUSED = [
     (["rank", "FILE", "--csv", "--json"], "not allowed with"),
     (["show", "FILE", "zz"], 'no case "zz"'),
     (["export", "FILE", "zz", "--to", "a.stl"], 'no case "zz"'),
-    (["export", "FILE", "0", "--to", "a.stl"], "begins 5 ids: 0000000000000000"),
+    (["show", "FILE", ""], 'no case ""; allowed: a number in the ranking, from 1, or'),
+    (["show", "FILE", "0"], "up to 2 g; allowed: 1 to 2, or the beginning of an id"),
+    (["export", "FILE", "00", "--to", "a.stl"], "begins 5 ids: 0000000000000000"),
     (["export", "FILE", "0000000000000000"], "required: --to"),
     (["export", "FILE", "0000000000000000", "--to", "a.step"], "a.step: .step is unknown; allow"),
     (["export", "FILE", "0000000000000000", "--to", "a.stl"], "holds no usable case 00"),
@@ -272,6 +274,7 @@ def test_that_nothing_meets_what_is_asked_is_an_answer(capsys, tmp_path):
     status, out, _ = crumple(capsys, "rank", file, "--max-force", "1 N")
     assert status == 0
     assert "No design is ranked here." in out
+    assert "Best first" not in out
     status, _, err = crumple(capsys, "show", file, "1", "--budget", "0.1 g")
     assert status == 2
     assert "lightest design: case 0000" in err
@@ -665,4 +668,4 @@ def test_a_damaged_file_or_config_is_refused_in_one_line(capsys, tmp_path, words
     file.write_bytes(file.read_bytes()[:-1000])
     status, out, err = crumple(capsys, words[0], str(file), *words[1:])
     assert (status, out, err.count("\n")) == (2, "", 1)
-    assert err.startswith(f"crumple {words[0]}: {file} is not a results file")
+    assert err.startswith(f"crumple {words[0]}: {file} is damaged: move it away")

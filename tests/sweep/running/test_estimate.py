@@ -164,7 +164,7 @@ def test_pilot_can_be_interrupted_while_it_runs():
             time.sleep(0.001)
         return stand_in(Status.STOPPED)[0](case, control)
 
-    with pytest.raises(Interrupted, match="interrupted; nothing was written"):
+    with pytest.raises(Interrupted, match="interrupted; no result was written"):
         estimate(cases(GLUED), endless)
 
 
