@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.cli.refusals import writing
+from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import print_sheets, say, say_all
 from sweep.coupon.answers import Answers
 from sweep.whole_file import write_whole
@@ -21,10 +21,6 @@ PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
 UNBROKEN = 0.1  # strain to which a plastic is drawn if its file states no break
 PICTURE = "materials.png"
 OF_A_FIT = ("gauge", "area", "density", "speed", "test", "zero", "units", "columns")
-
-
-class MaterialsError(ValueError):
-    """Words that the verb does not know; the text is one sentence with the allowed words."""
 
 
 def materials(arguments: Namespace) -> None:
@@ -39,7 +35,7 @@ def materials(arguments: Namespace) -> None:
     elif first == "plot":
         _plot(names or available(), Path(arguments.out or PICTURE))
     elif arguments.out:
-        raise MaterialsError("--out belongs to plot and fit")
+        raise ArgumentError("--out belongs to plot and fit")
     elif first:
         _show([first, *names])
     else:
@@ -49,7 +45,7 @@ def materials(arguments: Namespace) -> None:
 def _refuse_options_of_a_fit(arguments: Namespace) -> None:
     options = [name for name in OF_A_FIT if getattr(arguments, name)]
     if options:
-        raise MaterialsError(f"--{options[0]} belongs to fit")
+        raise ArgumentError(f"--{options[0]} belongs to fit")
 
 
 def _record(name: str) -> Record:
@@ -103,7 +99,7 @@ def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _png(path: Path) -> Path:
     if path.suffix != ".png":
-        raise MaterialsError(f"--out {path}; allowed: a file whose name ends in .png")
+        raise ArgumentError(f"--out {path}; allowed: a file whose name ends in .png")
     return path
 
 
@@ -116,7 +112,7 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.report.figures.material_plots import coupon_fit
 
     if len(names) != 1:
-        raise MaterialsError("fit needs the file of one coupon: crumple materials fit coupon.csv")
+        raise ArgumentError("fit needs the file of one coupon: crumple materials fit coupon.csv")
     file = Path(names[0])
     out = file_beside(file, arguments.out, "--out")
     coupon = read_coupon(file, _answers(arguments))
@@ -156,7 +152,7 @@ def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
     for quantity, _, value in pairs:
         if quantity not in SI or not value:
             allowed = ", ".join(f"{name}=..." for name in SI)
-            raise MaterialsError(f"--{option} {quantity}; allowed: {allowed}")
+            raise ArgumentError(f"--{option} {quantity}; allowed: {allowed}")
     return {quantity: value for quantity, _, value in pairs}
 
 
