@@ -116,7 +116,6 @@ TESTED_ELSEWHERE = {
     "sweep.cli.question": "sweep/cli/test_verbs.py",
     "sweep.cli.refusals": "sweep/cli/test_verbs.py",
     "sweep.cli.run": "sweep/cli/test_verbs.py",
-    "sweep.cli.status": "sweep/cli/test_verbs.py",
     "sweep.coupon.hyperelastic": "sweep/coupon/test_curve.py",
     "sweep.coupon.uncertainty": "sweep/coupon/test_fit.py",
     "sweep.design.infill": "sweep/design/test_infill.py",
