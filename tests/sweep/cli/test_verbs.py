@@ -42,12 +42,6 @@ def test_every_verb_has_its_arguments_its_function_and_an_example(capsys):
     assert said == list(VERBS), "parser has other verbs than ALL, or in another order"
 
 
-def test_a_verb_without_a_function_is_told(capsys, monkeypatch, file):
-    monkeypatch.setattr("sweep.cli.verbs.VERBS", {})
-    status, _, err = crumple(capsys, "status", file)
-    assert (status, "sweep/cli/verbs.py" in err) == (2, True)
-
-
 @pytest.mark.parametrize("module", ["crumple", "sweep"])
 def test_version_is_printed_without_a_verb(module):
     words = [sys.executable, "-m", module, "--version"]
