@@ -15,7 +15,6 @@ from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, Task, TimeEl
 from rich.progress import Progress as Bar
 from rich.text import Text
 
-from sweep.config.case import Case
 from sweep.numbers import percent
 from sweep.plain_text import plain
 from sweep.result import Result, Status
@@ -78,25 +77,23 @@ class Progress:
     The time left is the time of the waiting cases, each at the processor time per weight of the
     finished cases of its kind. It runs down with the clock until more cases end, and is not shown
     once it is over. waiting: number of waiting cases. work: total weight of the waiting cases, by
-    their kind; `weight` is the weight of one case. done: number of cases of the sweep that were
+    their kind, as `cost` gives it. done: number of cases of the sweep that were
     finished before. part: these cases are a part of a search, which reports the end of each part
     itself: lines appear only if a part takes long. running: returns the share of its steps that
     each long case has done.
     """
 
-    def __init__(  # noqa: PLR0913  what there is to do, and how it is shown
+    def __init__(
         self,
         waiting: int,
         work: Mapping[Kind, float],
         done: int = 0,
         console: Console | None = None,
         part: bool = False,
-        weight: Callable[[Case], float] = cost,
         running: Callable[[], Sequence[float]] = list,
     ) -> None:
         self.console = console or Stderr()
         self.part = part
-        self.weight = weight
         self.running = running
         self.total = done + waiting
         self.done, self.failed = done, 0
@@ -134,7 +131,7 @@ class Progress:
         self.done += len(results)
         ended = 0.0
         for result in results:
-            alike, weight = kind(result.case), self.weight(result.case)
+            alike, weight = kind(result.case), cost(result.case)
             cpu = float(result.summary["cpu_s"])
             self._left[alike] = self._left.get(alike, 0.0) - weight
             ended += weight
