@@ -363,12 +363,9 @@ def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
 
 
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
-    with _union(path) as blocks:
-        for block in reversed(blocks):
-            rows = np.flatnonzero(block.summary["case_id"] == case_id)
-            if rows.size and rows[-1] not in block.damaged:
-                return _arrays(block, rows[-1], groups)
-    raise StoreError(f"{path} holds no case {case_id}.")
+    """The arrays of one case in some groups."""
+    [arrays] = [arrays(groups) for _, arrays in _arrays_of(path, [case_id])]
+    return arrays
 
 
 def _arrays_of(
