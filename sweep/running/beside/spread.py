@@ -18,7 +18,7 @@ from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.coupon.curve import with_tension
-from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.scene.material import with_compression
 from sweep.store.read import read_case
 
@@ -109,7 +109,7 @@ def corners_of(
 def run_corners(
     by_design: Mapping[str, Sequence[Corner]],
     out: str | os.PathLike[str],
-    how: How = AS_USUAL,
+    how: How,
 ) -> None:
     """Run the missing corners of designs in `out`."""
     others = {c.case_id: c.case for several in by_design.values() for c in several}
