@@ -44,21 +44,6 @@ def announce(line: str) -> None:
     Stderr().print(plain(line), markup=False, highlight=False, soft_wrap=True)
 
 
-class NotebookLine:
-    """A line in the output of a cell, which is replaced when it changes."""
-
-    def __init__(self) -> None:
-        self._shown: Any = None
-
-    def show(self, text: str) -> None:
-        """Show a text, the first time below what the cell has printed."""
-        data = {"text/plain": text}
-        if self._shown is None:
-            self._shown = import_module("IPython.display").display(data, raw=True, display_id=True)
-        else:
-            self._shown.update(data, raw=True)
-
-
 class Line(ProgressColumn):
     """A text that is made anew whenever it is drawn."""
 
@@ -104,8 +89,8 @@ class Progress:
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
         self._counts: tuple[int, int] | None = None  # cases done and failed in that line
         self._sentences: set[str] = set()
-        self._notebook = NotebookLine() if self.console.is_jupyter else None
-        self._period = NOTEBOOK_PERIOD if self._notebook else PERIOD
+        self._shown: Any = None  # the line in a notebook
+        self._period = NOTEBOOK_PERIOD if self.console.is_jupyter else PERIOD
         self._bar = Bar(
             SpinnerColumn(),
             BarColumn(),
@@ -194,10 +179,13 @@ class Progress:
 
     def _update(self, line: str) -> None:
         """Show the state of the sweep; in a notebook it replaces the previous state."""
-        if self._notebook:
-            self._notebook.show(line)
-        else:
+        data = {"text/plain": line}
+        if not self.console.is_jupyter:
             self.say(line)
+        elif self._shown is None:  # below what the cell has printed
+            self._shown = import_module("IPython.display").display(data, raw=True, display_id=True)
+        else:
+            self._shown.update(data, raw=True)
 
     def say(self, line: str) -> None:
         """Print a line, above the bar if there is one."""
