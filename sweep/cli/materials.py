@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import print_sheets, say, say_all
-from sweep.coupon.answers import Answers
 from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -105,6 +104,7 @@ def _png(path: Path) -> Path:
 
 def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.config.materials.material_file import read_record
+    from sweep.coupon.answers import UNITS, Answers
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
     from sweep.coupon.write import file_beside, fit_sentence, material_text, sentences_on_fit
@@ -115,10 +115,13 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
         raise ArgumentError("fit needs the file of one coupon: crumple materials fit coupon.csv")
     file = Path(names[0])
     out = file_beside(file, arguments.out, "--out")
-    coupon = read_coupon(file, _answers(arguments))
+    columns, units = (_by_quantity(getattr(arguments, key), key) for key in ("columns", "units"))
+    sizes = {name: getattr(arguments, name) for name in UNITS}
+    answers = Answers.of(sizes, arguments.test, arguments.zero, columns, units)
+    coupon = read_coupon(file, answers)
     law = fit(coupon)
     with writing(out.parent, out):
-        write_whole(out, material_text(law, _size(arguments.density, "kg/m^3")))
+        write_whole(out, material_text(law, answers.density))
     say_all(sentences_on_fit(law, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, law.model)
@@ -127,21 +130,6 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     acts = '; its loss and softening act with material.memory = "measured"'
     say(f"{out}: for material.name{acts if law.memory else ''}")
     say(picture)
-
-
-def _answers(arguments: Namespace) -> Answers:
-    """The options that describe a record."""
-    from sweep.coupon.answers import Answers
-
-    return Answers(
-        gauge=_size(arguments.gauge, "m"),
-        area=_size(arguments.area, "m^2"),
-        speed=_size(arguments.speed, "m/s"),
-        test=arguments.test,
-        zero=arguments.zero,
-        columns=_by_quantity(arguments.columns, "columns"),
-        units=_by_quantity(arguments.units, "units"),
-    )
 
 
 def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
@@ -154,12 +142,3 @@ def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
             allowed = ", ".join(f"{name}=..." for name in SI)
             raise ArgumentError(f"--{option} {quantity}; allowed: {allowed}")
     return {quantity: value for quantity, _, value in pairs}
-
-
-def _size(text: str | None, unit: str) -> float | None:
-    """An option with a unit in SI."""
-    if text is None:
-        return None
-    from sweep.ranking.question import in_si
-
-    return in_si(text, unit)

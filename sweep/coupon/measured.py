@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from sweep.config.faults import MisfitError
 from sweep.config.units import in_si
-from sweep.coupon.answers import Answers
+from sweep.coupon.answers import UNITS, Answers
 from sweep.coupon.columns import Columns, heads_of, shown, words_of
 from sweep.coupon.table import FEWEST, Table, number
 from sweep.coupon.unit import POWER
@@ -22,7 +22,6 @@ NEEDED = {
     "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
     "area": '"8 mm^2" (section of the specimen), to make a stress of',
 }
-UNITS = {"gauge": "m", "area": "m^2"}
 EVEN = "time and an even speed"  # the head of a travel that was not recorded
 
 
@@ -41,7 +40,7 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
     """The measured curve; None if it cannot be determined. Adds to notes and questions of
     columns.
     """
-    for name in (*SIZES, "speed"):
+    for name in UNITS:
         if (answer := getattr(answers, name)) is not None and not answer > 0.0:
             raise MisfitError(f"--{name}: {answer:g} in SI; allowed: above 0")
     _add_travel(columns, answers)
