@@ -138,8 +138,8 @@ def block_of(results: Sequence[Result], revision: str) -> Block:
     return Block(table, ragged, {})
 
 
-def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
-    """Row numbers of each block (oldest first) without rows that a later row of the same case
+def newest_rows(blocks: Sequence[Block]) -> list[tuple[Block, np.ndarray]]:
+    """Each block (oldest first) and its row numbers, without rows that a later row of the same case
     replaces, and without damaged rows.
     """
     newest = {
@@ -151,13 +151,13 @@ def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
     rows: list[list[int]] = [[] for _ in blocks]
     for number, row in newest.values():
         rows[number].append(row)
-    return [np.array(sorted(numbers), dtype=np.int64) for numbers in rows]
+    pairs = zip(blocks, rows, strict=True)
+    return [(block, np.array(sorted(numbers), dtype=np.int64)) for block, numbers in pairs]
 
 
 def newest(blocks: Sequence[Block]) -> Table:
     """The summary of the union of the blocks."""
-    pairs = zip(blocks, newest_rows(blocks), strict=True)
-    return stack([take(block.summary, rows) for block, rows in pairs])
+    return stack([take(block.summary, rows) for block, rows in newest_rows(blocks)])
 
 
 def _flat_frames(result: Result, group: str, names: Iterable[str]) -> dict[str, np.ndarray]:

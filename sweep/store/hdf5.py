@@ -56,7 +56,7 @@ def seal_blocks(target: Path, blocks: Iterable[Block], about: About, packed: boo
     """
     with closing(Growing(target, packed)) as growing:
         for block in blocks:
-            growing.add(block, *newest_rows([block]))
+            growing.add(*newest_rows([block])[0])
         growing.seal(about)
 
 
@@ -86,7 +86,7 @@ class Growing:
     def add_older(self, blocks: Sequence[Block]) -> None:
         """Add the rows of blocks, oldest first, whose cases the file does not hold yet."""
         newer, self._known = self._known, {}
-        for block, rows in zip(blocks, newest_rows(blocks), strict=True):
+        for block, rows in newest_rows(blocks):
             ids = block.summary["case_id"][rows]
             self.add(block, rows[[case_id not in newer for case_id in ids]])
         self._known |= newer

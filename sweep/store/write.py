@@ -107,7 +107,7 @@ class Writer:
             added += [self._block(last)] if last else []
             if parts or added or not self._is_labelled():
                 growing, self._growing = self._file(), None  # cannot be used again after a failure
-                for block, rows in zip(added, newest_rows(added), strict=True):
+                for block, rows in newest_rows(added):
                     growing.add(block, rows)
                 growing.add_older(self._older(stack))
                 stack.close()  # Windows replaces no file that is open
