@@ -7,7 +7,7 @@ Each name is loaded when it is first used, so that `import sweep` takes almost n
 Modules outside of the packages: `argument_types` explains wrong arguments of a call, `columns`
 lists the columns of results, `loading_modes` the modes of loading, `result` has the result of one
 case, `numbers` writes quantities as text, `plain_text` makes foreign texts safe, `constants` has
-factors between units, `version` the versions of installed packages.
+factors between units, `array_types` types of arrays, `version` the versions of installed packages.
 """
 
 from importlib import import_module

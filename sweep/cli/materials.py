@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import print_sheets, say, say_all
 from sweep.whole_file import write_whole
@@ -78,7 +78,7 @@ def _plot(names: list[str], out: Path) -> None:
     say(picture)
 
 
-def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _curve(record: Record) -> tuple[Floats, Floats]:
     """Strain and stress of the first loading, to the end of the record or to the break."""
     from sweep.config.kinds.material import Material, material
     from sweep.scene.material import monotonic_law

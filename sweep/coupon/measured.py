@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.config.units import in_si
 from sweep.coupon.answers import UNITS, Answers
@@ -13,8 +13,6 @@ from sweep.coupon.columns import Columns, heads_of, shown, words_of
 from sweep.coupon.table import FEWEST, Table, number
 from sweep.coupon.unit import POWER
 from sweep.numbers import counted, with_unit
-
-Floats = NDArray[np.float64]
 
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
 """Size of the specimen -> the quantity that follows from it, and the measured quantity."""

@@ -1,9 +1,8 @@
 """Standard errors of numbers that are fitted by least squares, from the Jacobian."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from sweep.array_types import Floats
 
 MOST_CORRELATED = 0.99
 

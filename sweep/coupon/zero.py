@@ -6,12 +6,11 @@ off, and a preload is joined to the origin.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.coupon.direction import sides_of
 from sweep.numbers import text_in, with_unit
 
-Floats = NDArray[np.float64]
 Path = tuple[Floats, Floats, Floats]
 
 CHOICES = ("first", "line")
