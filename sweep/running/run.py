@@ -22,7 +22,7 @@ from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside
-from sweep.running.beside.spread import BEST, Corner, corners_of, run_corners
+from sweep.running.beside.spread import BEST, Corners, corners_of, run_corners
 from sweep.running.cluster import Scheduler
 from sweep.running.place import chosen_place, open_place
 from sweep.running.progress import announce
@@ -107,7 +107,7 @@ def spreads_of(
 
 
 def spreads_among(
-    corners: Mapping[str, Sequence[Corner]],
+    corners: Mapping[str, Corners],
     ranking: Ranking,
     question: Question,
     out: str | os.PathLike[str],
@@ -117,7 +117,10 @@ def spreads_among(
     run_corners(corners, out, how)
     beside = file_beside(out, "spread")
     rows = with_allowed(beside, read_summary(beside), question)
-    ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
+    ids = {
+        design: [(name, case.case_id) for name, case in group.items()]
+        for design, group in corners.items()
+    }
     return spreads(ranking, rows, ids, question)
 
 
