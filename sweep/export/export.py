@@ -188,7 +188,7 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source:
 def _layout(source: Source, wish: Wish) -> Layout:
     """The layout: a specimen or a panel, of walls or of blocks."""
     design = source.design
-    shape = block(design.lattice) if wish.kind == "settings" else outline(design.network)
+    shape = block(source.case.lattice) if wish.kind == "settings" else outline(design.network)
     return panel(design, shape, wish.panel) if wish.panel else specimen(design, shape)
 
 
@@ -299,7 +299,7 @@ def _description(layout: Layout, source: Source, wish: Wish) -> list[str]:
     nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
     behind = "" if layout.behind == 1 else f"{layout.behind} specimens of "
-    deep = f"each {behind}{text_in(source.design.footprint[1], 'mm')} deep"
+    deep = f"each {behind}{text_in(source.case.footprint[1], 'mm')} deep"
     several = layout.specimens > 1
     these = f"these {layout.specimens} specimens, which are not joined, are"
     return [
