@@ -56,6 +56,10 @@ def read_coupon(path: Path, answers: Answers | None = None) -> Coupon:
 
 
 def _coupon(path: Path, answers: Answers) -> Coupon:
+    words = ("test", answers.test, direction.SIGNS), ("zero", answers.zero, zero.CHOICES)
+    for option, word, allowed in words:
+        if word not in (None, *allowed):
+            raise MisfitError(f"--{option} {word}; allowed: {', '.join(allowed)}")
     table = read_table(path)
     columns = columns_of(table, answers.columns, answers.units)
     raw = measured(table, columns, answers)
