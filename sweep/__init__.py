@@ -7,7 +7,7 @@ Each name is loaded when it is first used, so that `import sweep` takes almost n
 Modules outside of the packages: `argument_types` explains wrong arguments of a call, `columns`
 lists the columns of results, `loading_modes` the modes of loading, `result` has the result of one
 case, `numbers` writes quantities as text, `plain_text` makes foreign texts safe, `constants` has
-factors between units, `version` the versions of installed packages.
+factors between units, `array_types` types of arrays, `version` the versions of installed packages.
 """
 
 from importlib import import_module
@@ -85,46 +85,31 @@ __all__ = [
     "spread",
 ]
 
-_HOME = {
-    "Case": "config.case",
-    "ClusterError": "running.cluster",
-    "Config": "config.grid",
-    "ConfigError": "config.faults",
-    "CouponError": "coupon.record",
-    "EffectiveMaterial": "effective.material",
-    "ExportError": "export.errors",
-    "Exported": "export.export",
-    "Interrupted": "running.sweep",
-    "MisfitError": "config.faults",
-    "OptimizeError": "running.searching.optimize",
-    "Picture": "results",
-    "RankError": "ranking.question",
-    "Ranking": "ranking.ranking",
-    "Rerun": "store.read",
-    "Result": "result",
-    "Results": "results",
-    "Status": "result",
-    "StoreError": "store.read",
-    "__version__": "version",
-    "card": "effective.material",
-    "case": "config.load",
-    "expand": "config.grid",
-    "export_case": "export.export",
-    "fit_material": "coupon.materials",
-    "load_config": "config.load",
-    "materials": "coupon.materials",
-    "optimize": "running.searching.optimize",
-    "rank": "ranking.rank",
-    "ranked": "ranking.rank",
-    "read_case": "store.read",
-    "read_frames": "store.read",
-    "read_history": "store.read",
-    "read_summary": "store.read",
-    "run": "running.run",
-    "run_sweep": "running.sweep",
-    "simulate": "simulation.simulate",
-    "spread": "running.run",
+_NAMES = {
+    "config.case": "Case",
+    "config.faults": "ConfigError MisfitError",
+    "config.grid": "Config expand",
+    "config.load": "case load_config",
+    "coupon.materials": "fit_material materials",
+    "coupon.record": "CouponError",
+    "effective.material": "EffectiveMaterial card",
+    "export.errors": "ExportError",
+    "export.export": "Exported export_case",
+    "ranking.question": "RankError",
+    "ranking.rank": "rank ranked",
+    "ranking.ranking": "Ranking",
+    "result": "Result Status",
+    "results": "Picture Results",
+    "running.cluster": "ClusterError",
+    "running.run": "run spread",
+    "running.searching.optimize": "OptimizeError optimize",
+    "running.sweep": "Interrupted run_sweep",
+    "simulation.simulate": "simulate",
+    "store.read": "Rerun StoreError read_case read_frames read_history read_summary",
+    "version": "__version__",
 }
+"""The public names of each module."""
+_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

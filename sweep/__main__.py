@@ -32,10 +32,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     from sweep.cli.refusals import refusals
     from sweep.cli.terminal import flush, silence, write
 
-    if arguments.verb not in verbs.VERBS:
-        argument_parser.verbs[arguments.verb].error(
-            "ALL of sweep/cli/verbs.py has no function for it"
-        )
     warnings.formatwarning = lambda message, *_: f"crumple: {message}\n"  # has no place in our code
     sys.stdout = sys.stdout or os.fdopen(_nowhere(), "w")  # None if the caller closed it
     sys.stderr = sys.stderr or os.fdopen(_nowhere(), "w")

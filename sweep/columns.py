@@ -450,10 +450,7 @@ HISTORY_COLUMNS: dict[str, Column] = {
     ),
     "energy_residual_J": Column("J", "residual of the energy book so far"),
     "newton_iterations": Column("1", "Newton iterations since the previous row"),
-    "min_gap_m": Column(
-        "m",
-        "least distance of a centre line from a near one or a loose platen; NaN if none is near",
-    ),
+    "min_gap_m": COLUMNS["min_gap_m"],
     "base_pressure_Pa": Column(
         "Pa",
         "greatest force on a patch of the base, loading.base_patch wide, / its area; NaN along the "

@@ -41,6 +41,9 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Print the error, and how to get help."""
         shown = "examples" if self.epilog else "what it takes"
+        if option := re.match(r"argument (--[\w-]+): expected", message):
+            about = self._option_string_actions[option[1]].help or ""
+            message = f"{message} ({about.replace('%%', '%')})"
         self.exit(2, f"{self.prog}: {message}\n{self.prog} --help shows {shown}\n")
 
     def check_verb(self, word: str) -> None:
@@ -96,18 +99,21 @@ class Version(argparse.Action):
         parser.exit()
 
 
-def count(text: str) -> int:
-    """A whole number above zero."""
-    if text.isdecimal() and int(text) > 0:
+def _whole(text: str, least: int) -> int:
+    """A whole number."""
+    if text.isdecimal() and int(text) >= least:
         return int(text)
-    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 1 or more")
+    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, {least} or more")
+
+
+count, number = partial(_whole, least=1), partial(_whole, least=0)
 
 
 def part(text: str) -> tuple[int, int]:
     """A part of a sweep: "2/8" is the second of eight."""
-    number, _, count = text.partition("/")
-    if number.isdecimal() and count.isdecimal() and 0 < int(number) <= int(count):
-        return int(number), int(count)
+    place, _, parts = text.partition("/")
+    if place.isdecimal() and parts.isdecimal() and 0 < int(place) <= int(parts):
+        return int(place), int(parts)
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: K/N, such as 2/8 for the second of eight")
 
 
@@ -123,13 +129,6 @@ def duration(text: str) -> float:
     if seconds < 0.0:
         raise argparse.ArgumentTypeError(f"{text!r}; allowed: a time of 0 s or more")
     return seconds
-
-
-def number(text: str) -> int:
-    """A whole number, zero included."""
-    if text.isdecimal():
-        return int(text)
-    raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, 0 or more")
 
 
 def path(text: str) -> str:

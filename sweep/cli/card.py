@@ -3,7 +3,7 @@
 from argparse import Namespace
 from pathlib import Path
 
-from sweep.cli.refusals import writing
+from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import hint, print_sheets, say
 from sweep.config.faults import MisfitError
 from sweep.config.grid import Config, expand
@@ -11,10 +11,6 @@ from sweep.effective.cell import infill_of
 from sweep.effective.material import EffectiveMaterial
 from sweep.effective.material import card as effective
 from sweep.report.tables.card_sheet import card_sheet
-
-
-class CardError(ValueError):
-    """An infill without an effective material; the text is one sentence."""
 
 
 def card(config: Config, arguments: Namespace) -> None:
@@ -31,7 +27,7 @@ def card(config: Config, arguments: Namespace) -> None:
             refused[str(error)] = None
     cards = list(materials.values())
     if not cards:
-        raise CardError("\n".join(refused))
+        raise ArgumentError("\n".join(refused))
     print_sheets([card_sheet(cards)])
     hint(f"left out: {line}" for line in refused)
     if arguments.to:

@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sweep.cli.refusals import writing
+from sweep.array_types import Floats
+from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import print_sheets, say, say_all
-from sweep.coupon.answers import Answers
 from sweep.whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -21,10 +20,6 @@ PLOTTED = -0.6, 1.0, 401  # strains and number of points of a picture
 UNBROKEN = 0.1  # strain to which a plastic is drawn if its file states no break
 PICTURE = "materials.png"
 OF_A_FIT = ("gauge", "area", "density", "speed", "test", "zero", "units", "columns")
-
-
-class MaterialsError(ValueError):
-    """Words that the verb does not know; the text is one sentence with the allowed words."""
 
 
 def materials(arguments: Namespace) -> None:
@@ -39,7 +34,7 @@ def materials(arguments: Namespace) -> None:
     elif first == "plot":
         _plot(names or available(), Path(arguments.out or PICTURE))
     elif arguments.out:
-        raise MaterialsError("--out belongs to plot and fit")
+        raise ArgumentError("--out belongs to plot and fit")
     elif first:
         _show([first, *names])
     else:
@@ -49,7 +44,7 @@ def materials(arguments: Namespace) -> None:
 def _refuse_options_of_a_fit(arguments: Namespace) -> None:
     options = [name for name in OF_A_FIT if getattr(arguments, name)]
     if options:
-        raise MaterialsError(f"--{options[0]} belongs to fit")
+        raise ArgumentError(f"--{options[0]} belongs to fit")
 
 
 def _record(name: str) -> Record:
@@ -83,7 +78,7 @@ def _plot(names: list[str], out: Path) -> None:
     say(picture)
 
 
-def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _curve(record: Record) -> tuple[Floats, Floats]:
     """Strain and stress of the first loading, to the end of the record or to the break."""
     from sweep.config.kinds.material import Material, material
     from sweep.scene.material import monotonic_law
@@ -103,12 +98,13 @@ def _curve(record: Record) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _png(path: Path) -> Path:
     if path.suffix != ".png":
-        raise MaterialsError(f"--out {path}; allowed: a file whose name ends in .png")
+        raise ArgumentError(f"--out {path}; allowed: a file whose name ends in .png")
     return path
 
 
 def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.config.materials.material_file import read_record
+    from sweep.coupon.answers import UNITS, Answers
     from sweep.coupon.fit import fit
     from sweep.coupon.record import read_coupon
     from sweep.coupon.write import file_beside, fit_sentence, material_text, sentences_on_fit
@@ -116,13 +112,16 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     from sweep.report.figures.material_plots import coupon_fit
 
     if len(names) != 1:
-        raise MaterialsError("fit needs the file of one coupon: crumple materials fit coupon.csv")
+        raise ArgumentError("fit needs the file of one coupon: crumple materials fit coupon.csv")
     file = Path(names[0])
     out = file_beside(file, arguments.out, "--out")
-    coupon = read_coupon(file, _answers(arguments))
+    columns, units = (_by_quantity(getattr(arguments, key), key) for key in ("columns", "units"))
+    sizes = {name: getattr(arguments, name) for name in UNITS}
+    answers = Answers.of(sizes, arguments.test, arguments.zero, columns, units)
+    coupon = read_coupon(file, answers)
     law = fit(coupon)
     with writing(out.parent, out):
-        write_whole(out, material_text(law, _size(arguments.density, "kg/m^3")))
+        write_whole(out, material_text(law, answers.density))
     say_all(sentences_on_fit(law, read_record(out)))
     figure = blank(8.0, 6.0)
     record, model = (coupon.strain, coupon.stress), (coupon.strain, law.model)
@@ -133,21 +132,6 @@ def _fit(arguments: Namespace, names: list[str]) -> None:
     say(picture)
 
 
-def _answers(arguments: Namespace) -> Answers:
-    """The options that describe a record."""
-    from sweep.coupon.answers import Answers
-
-    return Answers(
-        gauge=_size(arguments.gauge, "m"),
-        area=_size(arguments.area, "m^2"),
-        speed=_size(arguments.speed, "m/s"),
-        test=arguments.test,
-        zero=arguments.zero,
-        columns=_by_quantity(arguments.columns, "columns"),
-        units=_by_quantity(arguments.units, "units"),
-    )
-
-
 def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
     """The words of an option, such as "force=kN", by their quantity."""
     from sweep.coupon.unit import SI
@@ -156,14 +140,5 @@ def _by_quantity(words: list[str] | None, option: str) -> dict[str, str]:
     for quantity, _, value in pairs:
         if quantity not in SI or not value:
             allowed = ", ".join(f"{name}=..." for name in SI)
-            raise MaterialsError(f"--{option} {quantity}; allowed: {allowed}")
+            raise ArgumentError(f"--{option} {quantity}; allowed: {allowed}")
     return {quantity: value for quantity, _, value in pairs}
-
-
-def _size(text: str | None, unit: str) -> float | None:
-    """An option with a unit in SI."""
-    if text is None:
-        return None
-    from sweep.ranking.question import in_si
-
-    return in_si(text, unit)

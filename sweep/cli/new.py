@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from textwrap import wrap
 
-from sweep.cli.refusals import writing
+from sweep.cli.refusals import ArgumentError, writing
 from sweep.cli.terminal import quoted
 from sweep.design.infill import families
 from sweep.whole_file import write_whole
@@ -78,10 +78,6 @@ TITLES = {
 SCHEMA = "crumple.schema.json"
 
 
-class NewError(ValueError):
-    """A file that cannot be written; the text is one line."""
-
-
 def new(name: str, kind: str, out: str | None) -> Path:
     """Write the config of a kind of loading; return its path. An existing file is refused.
 
@@ -91,12 +87,12 @@ def new(name: str, kind: str, out: str | None) -> Path:
 
     name = name.removesuffix(".toml")
     if not NAME.fullmatch(name):
-        raise NewError(f'"{name}" is {NO_NAME}')
+        raise ArgumentError(f'"{name}" is {NO_NAME}')
     path = Path(out or f"{name}.toml")
     if path.suffix != ".toml":
-        raise NewError(f"--out {path}; allowed: a file whose name ends in .toml")
+        raise ArgumentError(f"--out {path}; allowed: a file whose name ends in .toml")
     if path.exists():
-        raise NewError(f"{path} already exists; allowed: another name, or --out")
+        raise ArgumentError(f"{path} already exists; allowed: another name, or --out")
     with writing(path.parent, path):
         write_whole(path.with_name(SCHEMA), schema_text())
         return write_whole(path, template(name, kind, path))

@@ -13,18 +13,16 @@ from sweep.config.grid import Config
 from sweep.loading_modes import MODES
 from sweep.numbers import text_in
 from sweep.ranking.assessment import check_column, front, thinned
-from sweep.ranking.curves import with_allowed
 from sweep.ranking.question import Question, in_si
 from sweep.ranking.rank import answer
 from sweep.ranking.requirement_table import MEASURES
 from sweep.ranking.requirements import check_modes
-from sweep.ranking.spread import spreads
 from sweep.report.tables.design_text import named_case
 from sweep.report.tables.search_sheets import finalist_sheet, front_sheet, nearest_sheet
 from sweep.report.tables.sheets import ranking_sheets
 from sweep.report.tables.unfinished_notes import unfinished_notes
-from sweep.running.beside.run_beside import How, file_beside
-from sweep.running.beside.spread import run_corners
+from sweep.running.beside.run_beside import How
+from sweep.running.run import spreads_among
 from sweep.running.searching.finalists import finalists, perturbed
 from sweep.running.searching.optimize import (
     OptimizeError,
@@ -35,7 +33,6 @@ from sweep.running.searching.optimize import (
     start_of,
 )
 from sweep.running.searching.search import Search, Settings
-from sweep.store.read import read_summary
 
 SHORT = 8  # characters of an id in a command
 
@@ -56,7 +53,7 @@ def _search(config: Config, arguments: Namespace, how: Settings) -> int:
     search = search_of(config, question, out, how)
     search.run()
     failed = _show_best(search)
-    if arguments.pareto and search.assessment and search.assessment.by_id:
+    if arguments.pareto and search.assessment.by_id:
         _show_front(search, arguments.pareto)
     say_all(_to_print(search))
     say(f"results: {out}; to rank them: {_next_command(out, question)}")
@@ -105,7 +102,7 @@ def _show_best(search: Search) -> int:
     """Simulate the best designs again, and print them; return how many values are missing."""
     assessment, question = search.assessment, search.question
     check_found(search)
-    if assessment is None or not (assessment.by_id or assessment.missed):
+    if not (assessment.by_id or assessment.missed):
         say(_none_ranked(search))
         return max(1, len(search.cases))
     if assessment.doubtful:
@@ -115,12 +112,9 @@ def _show_best(search: Search) -> int:
         return 0
     best = finalists(search.cases[case_id] for case_id in assessment.by_id)
     again = {case.case_id: perturbed(case) for case in best}
-    run_corners(again, search.out, How(search.settings.workers, search.settings.scheduler))
-    summary, beside = search.rows(), file_beside(search.out, "spread")
-    ids = {design: [(c.name, c.case_id) for c in corners] for design, corners in again.items()}
+    how, summary = How(search.settings.workers, search.settings.scheduler), search.rows()
     ranking = answer(summary, question._replace(top=None))
-    corners = with_allowed(beside, read_summary(beside), question)
-    parts = spreads(ranking, corners, ids, question)
+    parts = spreads_among(again, ranking, question, search.out, how)
     print_sheets([finalist_sheet(part, summary, several=len(parts) > 1) for part in parts])
     say_all(unfinished_notes(ranking.unfinished, partial(named_case, among=summary)))
     return sum(part.failed for part in parts)
@@ -129,8 +123,7 @@ def _show_best(search: Search) -> int:
 def _none_ranked(search: Search) -> str:
     """That no design can be ranked, and why."""
     rows = search.rows()
-    failed = int((rows["loaded"] != 1).sum())
-    doubtful = search.assessment.doubtful if search.assessment else 0
+    failed, doubtful = int((rows["loaded"] != 1).sum()), search.assessment.doubtful
     reasons = []
     if failed:
         reasons.append(f"{failed} failed: crumple status {quoted(str(search.out))} says why")
@@ -142,7 +135,6 @@ def _none_ranked(search: Search) -> str:
 
 def _show_nearest(search: Search) -> None:
     """Print that no design fulfils all requirements, why, and which design comes nearest."""
-    assert search.assessment is not None
     summary, question = search.rows(), search.question._replace(top=None)
     say(f"None of {len(search.cases)} designs fulfils all requirements.")
     print_sheets(ranking_sheets(answer(summary, question), summary))
@@ -152,7 +144,6 @@ def _show_nearest(search: Search) -> None:
 
 
 def _show_front(search: Search, other: str) -> None:
-    assert search.assessment is not None
     summary = search.rows()
     rows = thinned(front(summary, search.question, other), (other, search.assessment.column))
     print_sheets([front_sheet(rows, summary, other)])
@@ -161,7 +152,7 @@ def _show_front(search: Search, other: str) -> None:
 def _to_print(search: Search) -> Iterator[str]:
     """The command that exports the first design, or the one that comes nearest."""
     assessment = search.assessment
-    first = next(iter({**assessment.by_id, **assessment.missed}), None) if assessment else None
+    first = next(iter({**assessment.by_id, **assessment.missed}), None)
     if first is None:
         return
     lattice = search.cases[first].lattice
@@ -171,7 +162,7 @@ def _to_print(search: Search) -> Iterator[str]:
     panel = search.question.panel or ()
     if panel:
         words += ["--panel", *(p if isinstance(p, str) else text_in(p, "mm", 6) for p in panel)]
-    which = "first" if assessment and assessment.by_id else "nearest"
+    which = "first" if assessment.by_id else "nearest"
     yield f"to print the {which}: {_in_shell(words)}"
 
 

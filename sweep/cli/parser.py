@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from sweep.cli import help_texts as texts
 from sweep.cli.arguments import (
     Parser,
     Version,
@@ -18,32 +19,6 @@ from sweep.cli.arguments import (
 )
 from sweep.cli.completion import SHELLS, cases, columns, configs, offer, results
 from sweep.cli.completion import materials as material_words
-from sweep.cli.help_texts import (
-    ABOUT,
-    ACCURACY,
-    CARD,
-    COMPLETION,
-    CONFIG,
-    EXAMPLES,
-    EXPORT,
-    EXPORT_EXAMPLES,
-    MATERIALS,
-    MATERIALS_EXAMPLES,
-    MERGE,
-    NEW,
-    OPTIMIZE,
-    PUBLISHED,
-    PUBLISHED_EXAMPLES,
-    RANK,
-    RANK_EXAMPLES,
-    REPORT,
-    RUN,
-    SCHEMA,
-    SHOW,
-    SHOW_EXAMPLES,
-    VERIFY,
-    WARM,
-)
 from sweep.cli.new import KINDS
 from sweep.config.reading.examples import examples
 from sweep.ranking.requirement_table import MEASURES
@@ -57,14 +32,14 @@ PROCESSES = "processes in place of threads (default, beyond 8 cores: one per cor
 
 def parser() -> Parser:
     """All verbs and their options."""
-    main = Parser(prog="crumple", description=ABOUT, epilog=EXAMPLES)
+    main = Parser(prog="crumple", description=texts.ABOUT, epilog=texts.EXAMPLES)
     main.add_argument("--version", action=Version, nargs=0, help="print the version and exit")
     verbs = main.add_subparsers(dest="verb", metavar="VERB", required=True)
     main.verbs = verbs.choices
     _add_run(verbs)
     _add_optimize(verbs)
     _add_accuracy(verbs)
-    verbs.add_parser("warm", help="compile the kernels", description=WARM)
+    verbs.add_parser("warm", help="compile the kernels", description=texts.WARM)
     _add_status(verbs)
     _add_verify(verbs)
     _add_merge(verbs)
@@ -80,10 +55,9 @@ def parser() -> Parser:
 
 
 def _add_run(verbs: Any) -> None:
-    """Add the verb that simulates."""
     epilog = f"examples that come with Crumple: {', '.join(examples())}"
-    run = verbs.add_parser("run", help="simulate a sweep", description=RUN, epilog=epilog)
-    offer(run.add_argument("config", type=path, metavar="CONFIG", help=CONFIG), configs)
+    run = verbs.add_parser("run", help="simulate a sweep", description=texts.RUN, epilog=epilog)
+    offer(run.add_argument("config", type=path, metavar="CONFIG", help=texts.CONFIG), configs)
     run.add_argument(
         "--out", type=results_path, metavar="F.h5", help="results file (default: results/NAME.h5)"
     )
@@ -91,7 +65,7 @@ def _add_run(verbs: Any) -> None:
     run.add_argument(
         "--dry-run",
         action="store_true",
-        help="estimate time and disk by running a few cases; write nothing",
+        help="estimate time and disk by running a few cases; write no results",
     )
     run.add_argument(
         "--error-bars", action="store_true", help="estimate the error of mesh and steps"
@@ -119,8 +93,9 @@ def _add_run(verbs: Any) -> None:
 
 
 def _add_optimize(verbs: Any) -> None:
-    """Add the verb that searches."""
-    optimize = verbs.add_parser("optimize", help="search for the best design", description=OPTIMIZE)
+    optimize = verbs.add_parser(
+        "optimize", help="search for the best design", description=texts.OPTIMIZE
+    )
     optimize.add_argument("config", type=path, metavar="CONFIG", help="TOML file with a [search]")
     optimize.add_argument("--budget", metavar="MASS", help='greatest mass: "25 g"')
     optimize.add_argument("--panel", nargs=2, metavar="LENGTH", help=f'{AREA}: "100 mm" "50 mm"')
@@ -159,9 +134,10 @@ def _add_place(verb: Any) -> None:
 
 
 def _add_accuracy(verbs: Any) -> None:
-    """Add the verb that compares numerical settings."""
-    accuracy = verbs.add_parser("accuracy", help="error against run time", description=ACCURACY)
-    offer(accuracy.add_argument("config", type=path, metavar="CONFIG", help=CONFIG), configs)
+    accuracy = verbs.add_parser(
+        "accuracy", help="error against run time", description=texts.ACCURACY
+    )
+    offer(accuracy.add_argument("config", type=path, metavar="CONFIG", help=texts.CONFIG), configs)
     accuracy.add_argument(
         "--out",
         type=folder,
@@ -173,16 +149,16 @@ def _add_accuracy(verbs: Any) -> None:
 
 
 def _add_status(verbs: Any) -> None:
-    """Add the verb that counts cases and failures."""
     status = verbs.add_parser("status", help="what is done, and what failed and why")
     offer(status.add_argument("file", type=stored, metavar="F.h5", help=STORED), results)
     status.add_argument("--json", action="store_true", help="as json on stdout")
 
 
 def _add_verify(verbs: Any) -> None:
-    """Add the verb that checks a results file."""
     verify = verbs.add_parser(
-        "verify", help="whether a file is whole, and its numbers come out again", description=VERIFY
+        "verify",
+        help="whether a file is whole, and its numbers come out again",
+        description=texts.VERIFY,
     )
     offer(verify.add_argument("file", type=stored, metavar="F.h5", help=STORED), results)
     verify.add_argument(
@@ -195,8 +171,7 @@ def _add_verify(verbs: Any) -> None:
 
 
 def _add_merge(verbs: Any) -> None:
-    """Add the verb that combines results files."""
-    merge = verbs.add_parser("merge", help="bring results files together", description=MERGE)
+    merge = verbs.add_parser("merge", help="bring results files together", description=texts.MERGE)
     merge.add_argument(
         "out", type=results_path, metavar="OUT.h5", help="is made, or gets more rows"
     )
@@ -204,8 +179,9 @@ def _add_merge(verbs: Any) -> None:
 
 
 def _add_rank(verbs: Any) -> None:
-    """Add the verb that lists the best designs."""
-    rank = verbs.add_parser("rank", help="the best designs", description=RANK, epilog=RANK_EXAMPLES)
+    rank = verbs.add_parser(
+        "rank", help="the best designs", description=texts.RANK, epilog=texts.RANK_EXAMPLES
+    )
     offer(rank.add_argument("file", type=stored, metavar="F.h5", help=STORED), results)
     _add_question(rank)
     rank.add_argument("--top", type=count, metavar="N", help="places shown: 10, or 3 per budget")
@@ -227,8 +203,9 @@ def _add_rank(verbs: Any) -> None:
 
 
 def _add_show(verbs: Any) -> None:
-    """Add the verb that draws a case."""
-    show = verbs.add_parser("show", help="draw a case", description=SHOW, epilog=SHOW_EXAMPLES)
+    show = verbs.add_parser(
+        "show", help="draw a case", description=texts.SHOW, epilog=texts.SHOW_EXAMPLES
+    )
     offer(show.add_argument("file", type=stored, metavar="F.h5", help=STORED), results)
     _add_case(show, nargs="?")
     show.add_argument(
@@ -237,9 +214,11 @@ def _add_show(verbs: Any) -> None:
 
 
 def _add_export(verbs: Any) -> None:
-    """Add the verb that writes files for other programs."""
     export = verbs.add_parser(
-        "export", help="a part to print, curves, shapes", description=EXPORT, epilog=EXPORT_EXAMPLES
+        "export",
+        help="a part to print, curves, shapes",
+        description=texts.EXPORT,
+        epilog=texts.EXPORT_EXAMPLES,
     )
     offer(export.add_argument("file", type=stored, metavar="F.h5", help=STORED), results)
     _add_case(export, "area to fill with specimens, ranked by and written")
@@ -256,8 +235,7 @@ def _add_export(verbs: Any) -> None:
 
 
 def _add_report(verbs: Any) -> None:
-    """Add the verb that writes a page."""
-    report = verbs.add_parser("report", help="one HTML page", description=REPORT)
+    report = verbs.add_parser("report", help="one HTML page", description=texts.REPORT)
     report.add_argument("file", type=stored, metavar="F.h5", help=STORED)
     report.add_argument(
         "--out", type=page_path, metavar="F.html", help="the page (default: beside F.h5)"
@@ -266,12 +244,11 @@ def _add_report(verbs: Any) -> None:
 
 
 def _add_materials(verbs: Any) -> None:
-    """Add the verb that lists, shows, plots and fits materials."""
     materials = verbs.add_parser(
         "materials",
         help="list, plot and fit materials",
-        description=MATERIALS,
-        epilog=MATERIALS_EXAMPLES,
+        description=texts.MATERIALS,
+        epilog=texts.MATERIALS_EXAMPLES,
     )
     words = materials.add_argument(
         "words", type=path, metavar="WORD", nargs="*", help="NAME ..., plot [NAME ...], fit F.csv"
@@ -302,22 +279,20 @@ def _add_materials(verbs: Any) -> None:
 
 
 def _add_card(verbs: Any) -> None:
-    """Add the verb that prints the effective materials of infills."""
     card = verbs.add_parser(
-        "card", help="infills as materials for finite elements", description=CARD
+        "card", help="infills as materials for finite elements", description=texts.CARD
     )
-    config = card.add_argument("config", type=path, metavar="CONFIG", help=CONFIG)
+    config = card.add_argument("config", type=path, metavar="CONFIG", help=texts.CONFIG)
     offer(config, configs)
     card.add_argument("--to", type=path, metavar="FILE", help="also write them: .inp or .csv")
 
 
 def _add_published(verbs: Any) -> None:
-    """Add the verb that compares predictions with measured values."""
     published = verbs.add_parser(
         "published",
         help="predictions beside what was measured",
-        description=PUBLISHED,
-        epilog=PUBLISHED_EXAMPLES,
+        description=texts.PUBLISHED,
+        epilog=texts.PUBLISHED_EXAMPLES,
     )
     published.add_argument("rows", metavar="ROW", nargs="*", help="words of the rows to print")
     published.add_argument("--run", action="store_true", help="simulate the predictions again")
@@ -337,13 +312,13 @@ def _add_published(verbs: Any) -> None:
 
 def _add_helpers(verbs: Any) -> None:
     """Add the verbs that write a first config and a script for completion in a shell."""
-    new = verbs.add_parser("new", help="write a first config", description=NEW)
+    new = verbs.add_parser("new", help="write a first config", description=texts.NEW)
     new.add_argument("name", metavar="NAME", help="of the sweep, such as bumper")
     new.add_argument("--kind", choices=KINDS, default="crush", help="of loading (default: crush)")
     new.add_argument("--out", type=path, metavar="FILE", help="file to write (default: NAME.toml)")
-    verbs.add_parser("schema", help="the keys of a config, for editors", description=SCHEMA)
+    verbs.add_parser("schema", help="the keys of a config, for editors", description=texts.SCHEMA)
     completion = verbs.add_parser(
-        "completion", help="complete words in a shell", description=COMPLETION
+        "completion", help="complete words in a shell", description=texts.COMPLETION
     )
     completion.add_argument("shell", choices=SHELLS)
 

@@ -1,29 +1,14 @@
 """Errors that end a command; their text is all that it prints."""
 
 import os
-import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
-HOME = __name__.removesuffix(".cli.refusals")
-REFUSALS = {
-    f"{HOME}.config.faults": "MisfitError",
-    f"{HOME}.cli.materials": "MaterialsError",
-    f"{HOME}.running.searching.optimize": "OptimizeError",
-    f"{HOME}.cli.card": "CardError",
-    f"{HOME}.cli.find_case": "CaseError",
-    f"{HOME}.cli.new": "NewError",
-    f"{HOME}.store.errors": "StoreError",
-    f"{HOME}.export.errors": "ExportError",
-    f"{HOME}.running.cluster": "ClusterError",
-    f"{HOME}.ranking.question": "RankError",
-    f"{HOME}.ranking.accuracy": "AccuracyError",
-    f"{HOME.rpartition('.')[0]}.kernels.compile.choice".lstrip("."): "CompilerError",
-}
+from sweep.config.faults import ReportedError
 
 
-class ArgumentError(ValueError):
+class ArgumentError(ReportedError, ValueError):
     """An argument that cannot be used."""
 
 
@@ -42,10 +27,10 @@ def writing(folder: Path, file: Path | None = None) -> Iterator[None]:
 
 
 def refusals() -> tuple[type[Exception], ...]:
-    """Error classes whose text says what is wrong with a config, a file or an argument.
+    """The classes of these errors; the kernels, which import nothing of ours, have their own."""
+    ours = ReportedError, ModuleNotFoundError
+    with suppress(ModuleNotFoundError):  # where results are only read
+        from kernels.compile.choice import CompilerError
 
-    Only loaded modules are searched: no other module can have raised an error.
-    """
-    loaded = [(sys.modules[name], error) for name, error in REFUSALS.items() if name in sys.modules]
-    ours = [getattr(module, error) for module, error in loaded]
-    return (ArgumentError, ModuleNotFoundError, *ours)
+        return (*ours, CompilerError)
+    return ours

@@ -1,13 +1,18 @@
-"""The verb `status`: counts, failures and their messages, run time and origin of a results file."""
+"""The verb `status`: counts, failures and their messages, run time and origin of a results file, as
+text or as JSON for other programs.
+"""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
-from sweep.cli.terminal import say, say_all, version_counts
+from sweep.cli.terminal import say_all, version_counts
+from sweep.columns import ERROR
+from sweep.numbers import counted
+from sweep.report.tables.missing_notes import missing_cases
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -15,50 +20,85 @@ if TYPE_CHECKING:
 NEEDED = ("case_id", "status", "message", "model_version", "git_revision", "cpu_s")
 IDS = 3  # cases shown for each kind of failure
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+OF_A_PACKAGE = "version_"  # begins the attribute with the version of a package
 
 
 def print_status(file: str, as_json: bool) -> bool:
     """Print the status of a results file; return whether all of its cases converged."""
-    from sweep.cli.status_json import status_record
-    from sweep.numbers import counted
-    from sweep.report.tables.missing_notes import missing_cases
     from sweep.store.read import read_attributes, read_summary
 
-    summary, about = read_summary(file, _is_needed), read_attributes(file)
-    if as_json:
-        say(json.dumps(status_record(file, summary, about), indent=2))
-        return failed_cases(summary).empty
-    counts = summary["status"].value_counts()
-    missing = missing_cases(len(summary), about)
-    more = f"; {missing} of the last run are missing" if missing else ""
-    say(f"{file}: {counted(len(summary), 'case')}{more}")
-    say_all(f"{count:7d} {name}" for name, count in counts.items())
-    say_all(_failures(file, summary))
-    say_all(_bars(summary))
-    say_all(_versions(summary))
-    if others := about["other_cases"]:
-        say(f"{others} cases belong to other configs than the last run")
-    say(f"{summary['cpu_s'].sum():.4g} s of processor time in all")
-    versions = {name.removeprefix("version_"): about[name] for name in about if "version_" in name}
-    say(f"last run {about.get('created', '?')}, revision {about.get('git_revision', '?')}")
-    say(", ".join(f"{name} {version}" for name, version in versions.items()))
-    if "compiler" in about:
-        say(f"kernels: {about['compiler']} compiler")
-    return failed_cases(summary).empty
+    summary = read_summary(file, _is_needed)
+    record = status_record(file, summary, read_attributes(file))
+    say_all([json.dumps(record, indent=2)] if as_json else _lines(record, summary))
+    return not record["failed"]
 
 
 def _is_needed(column: str) -> bool:
     """Whether the status of a file needs a column."""
-    from sweep.columns import ERROR
-
     return column in NEEDED or bool(ERROR.fullmatch(column))
 
 
-def _failures(file: str, summary: DataFrame) -> Iterator[str]:
+def status_record(file: str, summary: DataFrame, about: Mapping[str, Any]) -> dict[str, Any]:
+    """The status as a dict of plain values.
+
+    about: the attributes of the file. `failures` has each message with its status and its cases.
+    """
+    from sweep.ranking.rank import model_versions
+
+    failed = failed_cases(summary)
+    done = summary.drop(index=failed.index)
+    kinds = failed.groupby([failed["status"], failed["message"]], sort=False)["case_id"]
+    counts = summary["status"].value_counts()
+    return {
+        "file": file,
+        "cases": len(summary),
+        "converged": len(done),
+        "failed": len(failed),
+        "by_status": {str(name): int(count) for name, count in counts.items()},
+        "failures": [
+            {"status": str(status), "message": str(message), "cases": list(map(str, ids))}
+            for (status, message), ids in kinds
+        ],
+        "with_error_bars": int(done.filter(regex=ERROR).notna().any(axis=1).sum()),
+        "model_versions": {str(key): n for key, n in model_versions(summary).items()},
+        "other_cases": int(about["other_cases"]),
+        "missing_cases": missing_cases(len(summary), about),
+        "processor_time_s": float(summary["cpu_s"].sum()),
+        "last_run": about.get("created"),
+        "git_revision": about.get("git_revision"),
+        "compiler": about.get("compiler"),
+        "versions": {
+            name.removeprefix(OF_A_PACKAGE): str(about[name])
+            for name in about
+            if name.startswith(OF_A_PACKAGE)
+        },
+    }
+
+
+def _lines(record: Mapping[str, Any], summary: DataFrame) -> Iterator[str]:
+    """The status as text."""
+    missing = record["missing_cases"]
+    more = f"; {missing} of the last run are missing" if missing else ""
+    yield f"{record['file']}: {counted(record['cases'], 'case')}{more}"
+    yield from (f"{count:7d} {name}" for name, count in record["by_status"].items())
+    yield from _failures(record["file"], failed_cases(summary))
+    if any(map(ERROR.fullmatch, summary)):
+        finished = f"{record['converged']} finished cases"
+        yield f"{record['with_error_bars']} of {finished} have error bars"
+    yield from _versions(summary)
+    if others := record["other_cases"]:
+        yield f"{others} cases belong to other configs than the last run"
+    yield f"{record['processor_time_s']:.4g} s of processor time in all"
+    yield f"last run {record['last_run'] or '?'}, revision {record['git_revision'] or '?'}"
+    yield ", ".join(f"{name} {version}" for name, version in record["versions"].items())
+    if compiler := record["compiler"]:
+        yield f"kernels: {compiler} compiler"
+
+
+def _failures(file: str, failed: DataFrame) -> Iterator[str]:
     """A line for each kind of failure with its first cases, and the command that lists the
     others.
     """
-    failed = failed_cases(summary)
     kind = failed["message"].str.replace(NUMBER, "#", regex=True)
     for _, rows in failed.groupby([failed["status"], kind], sort=False):
         cases = ", ".join(rows["case_id"].head(IDS))
@@ -76,15 +116,6 @@ def _in_common(messages: list[str]) -> str:
         f"{figures[0]} to {figures[-1]}" if len(figures) > 1 else figures[0] for figures in ranges
     )
     return NUMBER.sub(lambda _: next(texts), messages[0])
-
-
-def _bars(summary: DataFrame) -> list[str]:
-    """A line with the number of cases that have error bars, if there are such columns."""
-    from sweep.columns import ERROR
-
-    bars = summary.drop(index=failed_cases(summary).index).filter(regex=ERROR)
-    count = bars.notna().any(axis=1).sum()
-    return [f"{count} of {len(bars)} finished cases have error bars"] if bars.columns.size else []
 
 
 def _versions(summary: DataFrame) -> Iterator[str]:

@@ -39,8 +39,8 @@ def print_ranking(file: str, summary: DataFrame, question: Question, brief: bool
     from sweep.report.tables.sheets import ranking_sheets
 
     ranking = answer(summary, question)
-    if ranking.failed < ranking.cases:
-        say(_heading(question, ranking))
+    if ranking.failed < ranking.cases and (heading := _heading(question, ranking)):
+        say(heading)
     print_sheets(ranking_sheets(ranking, summary))
     if not ranking.table.empty and not brief:
         say_all(_wrapped([legend(ranking)], _width()))
@@ -133,7 +133,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     if len(modes) == 1 and (least := MODES[modes.pop()].least):
         usual[least.column] = least.order
     order = usual.get(by, f"{'least' if less_is_better(by) else 'most'} {in_words(by)}")
-    lines = [f"Best first: {order}."]
+    lines = [] if ranking.table.empty else [f"Best first: {order}."]
     crushed = ranking.table.empty or has(ranking.table, "driven").any()
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
@@ -170,7 +170,7 @@ def print_sheets(sheets: Iterable[Sheet]) -> None:
     console.width = limit or WIDE
     for sheet in sheets:
         say("")
-        shown = fitted(_plain(sheet), limit or WIDE, limit or USUAL)
+        shown = fitted(_plain(sheet), limit)
         flush()  # where the reader has closed the pipe, a capture would exit
         with console.capture() as title:
             if sheet.title:
@@ -225,13 +225,14 @@ class Fitted(NamedTuple):
         return sum(self.widths) + self.gap * (len(self.widths) - 1)
 
 
-def fitted(sheet: Sheet, limit: int, usual: int) -> Fitted:
-    """A table in at most ``limit`` characters; numbers are never truncated.
+def fitted(sheet: Sheet, limit: int | None) -> Fitted:
+    """A table in at most ``limit`` characters, None for any number; numbers are never truncated.
 
-    In a table wider than ``usual``, columns are closer. In a table wider than the limit, heads have
-    one word per line, then texts continue on a second line, then columns that are `spare` are left
-    out. If that is not enough, the terminal wraps its lines.
+    In a table wider than the limit, or `USUAL` without one, columns are closer. If it is still
+    wider, heads have one word per line, then texts continue on a second line, then columns that are
+    `spare` are left out. If that is not enough, the terminal wraps its lines.
     """
+    usual, limit = limit or USUAL, limit or WIDE
     table = _laid_out(sheet, by_words=False, gap=2)
     if table.width > usual:
         table = table._replace(gap=1)

@@ -18,7 +18,11 @@ class Fault(NamedTuple):
     understood: bool = False
 
 
-class MisfitError(ValueError):
+class ReportedError(Exception):
+    """An error whose text is all that a user needs: the command line prints nothing else."""
+
+
+class MisfitError(ReportedError, ValueError):
     """An input that cannot be used; the text says why, in our own words.
 
     Only this class is caught to be shown, as the text of a library's `ValueError` tells users

@@ -3,15 +3,13 @@ unit.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.config.materials.material_file import SECANT
 from sweep.config.materials.plausibility import in_percent, suspicion, unit_meant
 from sweep.config.units import in_si
 from sweep.numbers import text_in, to_si, with_unit
-
-Floats = NDArray[np.float64]
 
 FORCE = "kN"  # a unit of mass that is sometimes recorded as N
 

@@ -11,14 +11,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.coupon.table import Table
 from sweep.coupon.unit import SI, size_in_si
 from sweep.plain_text import plain
-
-Floats = NDArray[np.float64]
 
 WORDS = {
     "time": "time zeit temps tiempo tempo t 时间 時間",

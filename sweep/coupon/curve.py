@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kernels.laws.one_point import stresses
+from sweep.array_types import Floats
 from sweep.config.kinds.material import Material, material
 from sweep.config.materials.material_file import SECANT
 from sweep.coupon import legs
 from sweep.coupon.hyperelastic import rubber
-from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.coupon.record import Coupon, CouponError
 from sweep.coupon.uncertainty import standard_errors
 from sweep.scene.material import UPPER_WEIGHT, law_in_stretch
 

@@ -8,11 +8,9 @@ import re
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.numbers import text_in
-
-Floats = NDArray[np.float64]
 
 SIGNS = {"pulled": (1.0, 1.0), "pressed": (-1.0, -1.0)}
 """Signs of strain and stress in a test."""

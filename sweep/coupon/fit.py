@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.coupon import legs
 from sweep.coupon.curve import Loading
-from sweep.coupon.record import Coupon, CouponError, Floats
+from sweep.coupon.record import Coupon, CouponError
 from sweep.coupon.uncertainty import standard_errors
 from sweep.numbers import text_in
 

@@ -13,9 +13,8 @@ rubber; a printed TPU that yields softens more than any such law, and cannot be 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from sweep.array_types import Floats
 
 FOLLOWED = 0.02  # rms misfit over the greatest stress: a law with a larger one is not used
 LEAST = 0.1  # strain: a shorter record does not distinguish the two constants

@@ -4,7 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from sweep.coupon.record import Coupon, Floats
+from sweep.array_types import Floats
+from sweep.coupon.record import Coupon
 
 TURN = 0.05  # share of the greatest strain: smaller turns are noise
 POINTS = 80  # most points of the path of a leg

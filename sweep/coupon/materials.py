@@ -10,7 +10,6 @@ from pandas import DataFrame
 
 from sweep.config.materials.material_file import available, locate, read_record
 from sweep.config.materials.material_header import source
-from sweep.config.units import quantity
 from sweep.coupon.answers import Answers
 from sweep.coupon.fit import fit
 from sweep.coupon.record import read_coupon
@@ -68,18 +67,7 @@ def fit_material(  # noqa: PLR0913  each answers one question that a record may 
     """
     path = Path(file)
     target = file_beside(path, out, "out =")
-    answers = Answers(
-        gauge=_in_si(gauge, "m"),
-        area=_in_si(area, "m^2"),
-        speed=_in_si(speed, "m/s"),
-        test=test,
-        zero=zero,
-        columns=dict(columns or {}),
-        units=dict(units or {}),
-    )
+    sizes = {"gauge": gauge, "area": area, "speed": speed, "density": density}
+    answers = Answers.of(sizes, test, zero, columns, units)
     law = fit(read_coupon(path, answers))
-    return write_whole(target, material_text(law, _in_si(density, "kg/m^3")))
-
-
-def _in_si(text: str | None, unit: str) -> float | None:
-    return None if text is None else quantity(text, unit)
+    return write_whole(target, material_text(law, answers.density))

@@ -4,17 +4,15 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.config.units import in_si
-from sweep.coupon.answers import Answers
+from sweep.coupon.answers import UNITS, Answers
 from sweep.coupon.columns import Columns, heads_of, shown, words_of
 from sweep.coupon.table import FEWEST, Table, number
 from sweep.coupon.unit import POWER
 from sweep.numbers import counted, with_unit
-
-Floats = NDArray[np.float64]
 
 SIZES = {"gauge": ("strain", "displacement"), "area": ("stress", "force")}
 """Size of the specimen -> the quantity that follows from it, and the measured quantity."""
@@ -22,7 +20,6 @@ NEEDED = {
     "gauge": '"50 mm" (free length of a strip, height of a puck), to make a strain of',
     "area": '"8 mm^2" (section of the specimen), to make a stress of',
 }
-UNITS = {"gauge": "m", "area": "m^2"}
 EVEN = "time and an even speed"  # the head of a travel that was not recorded
 
 
@@ -41,7 +38,7 @@ def measured(table: Table, columns: Columns, answers: Answers) -> Measured | Non
     """The measured curve; None if it cannot be determined. Adds to notes and questions of
     columns.
     """
-    for name in (*SIZES, "speed"):
+    for name in UNITS:
         if (answer := getattr(answers, name)) is not None and not answer > 0.0:
             raise MisfitError(f"--{name}: {answer:g} in SI; allowed: above 0")
     _add_travel(columns, answers)
@@ -139,31 +136,31 @@ def _complete_rows(columns: Columns, raw: Measured) -> Measured:
 
 
 LABELS = {
-    "gauge": ({"gauge", "gage", "anvil", "messlange"}, "m"),
-    "area": ({"section", "area", "querschnitt", "flache", "crosssection"}, "m^2"),
+    "gauge": {"gauge", "gage", "anvil", "messlange"},
+    "area": {"section", "area", "querschnitt", "flache", "crosssection"},
 }
-"""Words of a label, of which one is enough, and the unit in SI."""
+"""Words of a label, of which one is enough."""
 AFTER_THE_TEST = {"final", "end"}
 L0 = "l0"  # a gauge length
 
 
 def stated_size(table: Table, name: str) -> tuple[float, str] | None:
     """A size of the specimen in SI and its label, if the lines beside a table state one alone."""
-    sizes = list(_sizes(table, *LABELS[name]))
+    sizes = list(_sizes(table, name))
     values = {value for value, _ in sizes}
     return sizes[0] if len(values) == 1 else None
 
 
-def _sizes(table: Table, labels: set[str], unit: str) -> Iterator[tuple[float, str]]:
+def _sizes(table: Table, name: str) -> Iterator[tuple[float, str]]:
     for label, *cells in table.lines:
         words = set(words_of(label))
-        named = words & labels or (L0 in label.lower() and unit == "m")
+        named = words & LABELS[name] or (L0 in label.lower() and name == "gauge")
         if not named or words & AFTER_THE_TEST or len(cells) < 2:
             continue
         value = number(cells[0], table.decimal)
         try:
             written = POWER.sub(r"^\1", cells[1].strip("()[] "))
-            size = in_si(f"{value} {written}", unit) if value else 0.0
+            size = in_si(f"{value} {written}", UNITS[name]) if value else 0.0
         except MisfitError:
             continue
         if size > 0.0:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.coupon import direction, zero
 from sweep.coupon.answers import Answers
@@ -21,8 +21,6 @@ from sweep.coupon.check import doubts
 from sweep.coupon.columns import Columns, columns_of
 from sweep.coupon.measured import Measured, measured
 from sweep.coupon.table import read_table
-
-Floats = NDArray[np.float64]
 
 
 class CouponError(MisfitError):
@@ -58,6 +56,10 @@ def read_coupon(path: Path, answers: Answers | None = None) -> Coupon:
 
 
 def _coupon(path: Path, answers: Answers) -> Coupon:
+    words = ("test", answers.test, direction.SIGNS), ("zero", answers.zero, zero.CHOICES)
+    for option, word, allowed in words:
+        if word not in (None, *allowed):
+            raise MisfitError(f"--{option} {word}; allowed: {', '.join(allowed)}")
     table = read_table(path)
     columns = columns_of(table, answers.columns, answers.units)
     raw = measured(table, columns, answers)

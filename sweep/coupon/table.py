@@ -14,8 +14,8 @@ from math import isnan, nan
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.config.reading.text import foreign_text, rows_of
 from sweep.coupon.unit import is_unit, unit_in_head
@@ -51,7 +51,7 @@ class Table:
 
     heads: tuple[str, ...]
     units: tuple[str, ...]
-    values: NDArray[np.float64]
+    values: Floats
     lines: list[Row]
     decimal: str
     notes: tuple[str, ...]

@@ -1,15 +1,16 @@
 """Standard errors of numbers that are fitted by least squares, from the Jacobian."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from sweep.array_types import Floats
 
 MOST_CORRELATED = 0.99
 
 
-def covariance(jacobian: Floats, residuals: Floats) -> Floats:
-    """Covariance (p, p) of p numbers: s^2 (J^T J)^-1 (1 + c) / (1 - c).
+def standard_errors(jacobian: Floats, residuals: Floats) -> Floats:
+    """Standard errors (p,) of p numbers, the roots of the diagonal of their covariance
+
+        s^2 (J^T J)^-1 (1 + c) / (1 - c).
 
     jacobian (n, p), residuals (n,). s^2: sum of squares of the residuals over n - p. c: correlation
     of neighbouring residuals, if it is positive: n rows in which the misfit changes slowly contain
@@ -18,13 +19,8 @@ def covariance(jacobian: Floats, residuals: Floats) -> Floats:
     rows, numbers = jacobian.shape
     squares = float(residuals @ residuals)
     if squares == 0.0:
-        return np.zeros((numbers, numbers))
+        return np.zeros(numbers)
     correlated = float(residuals[1:] @ residuals[:-1]) / squares
     c = min(max(correlated, 0.0), MOST_CORRELATED)
     variance = squares / max(rows - numbers, 1) * (1.0 + c) / (1.0 - c)
-    return variance * np.linalg.pinv(jacobian.T @ jacobian)
-
-
-def standard_errors(jacobian: Floats, residuals: Floats) -> Floats:
-    """Standard errors (p,), the roots of the diagonal of `covariance`."""
-    return np.sqrt(np.diag(covariance(jacobian, residuals)))
+    return np.sqrt(variance * np.diag(np.linalg.pinv(jacobian.T @ jacobian)))

@@ -10,12 +10,13 @@ from textwrap import wrap
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.materials.material_file import LIMITS, Record, secant_modulus
 from sweep.coupon.curve import cauchy_odd
 from sweep.coupon.fit import Fit
 from sweep.coupon.hyperelastic import rubber
 from sweep.coupon.legs import leg_name
-from sweep.coupon.record import CouponError, Floats
+from sweep.coupon.record import CouponError
 from sweep.numbers import in_unit, significant, text_in
 
 DENSITY = 1200.0, "1190 .. 1220", "of printed TPU"  # kg/m^3

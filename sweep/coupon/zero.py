@@ -6,11 +6,11 @@ off, and a preload is joined to the origin.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
+from sweep.coupon.direction import sides_of
 from sweep.numbers import text_in, with_unit
 
-Floats = NDArray[np.float64]
 Path = tuple[Floats, Floats, Floats]
 
 CHOICES = ("first", "line")
@@ -34,7 +34,7 @@ def doubt(strain: Floats, stress: Floats, to_scale: bool) -> str | None:
             f"the record begins with {text_in(share, '%', 2)} of its greatest force: a sensor that "
             "was not set to zero (first), or a preload (line)?"
         )
-    sign = _sign(strain)
+    sign, _ = sides_of(strain, stress)
     moved = sign * (strain - strain[0])
     slack = _line(moved, sign * (stress - stress[0]))
     if slack > (SLACK if to_scale else SLACK_SHARE * moved.max()):
@@ -64,7 +64,7 @@ def from_first(time: Floats, strain: Floats, stress: Floats) -> tuple[Path, str]
 
 def from_line(time: Floats, strain: Floats, stress: Floats) -> tuple[Path, str]:
     """Time, strain and stress (m,) from the point at which the line meets zero, and a sentence."""
-    sign = _sign(strain)
+    sign, _ = sides_of(strain, stress)
     start = _line(sign * (strain - strain[0]), sign * stress)
     moved = strain - strain[0] - sign * start
     first = int(np.argmax(sign * moved > 0.0))
@@ -77,12 +77,6 @@ def from_line(time: Floats, strain: Floats, stress: Floats) -> tuple[Path, str]:
     )
     note = f"zero strain is {start:.2g} after the first row, where the first line meets zero stress"
     return path, note
-
-
-def _sign(strain: Floats) -> float:
-    """The sign of the strains, from the first row to the greatest."""
-    far = int(np.argmax(np.abs(strain - strain[0])))
-    return 1.0 if strain[far] > strain[0] else -1.0
 
 
 def _line(strain: Floats, stress: Floats) -> float:

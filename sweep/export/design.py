@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 from sweep.config.case import Case
-from sweep.config.kinds.lattice import Lattice
 from sweep.config.kinds.sliced import Sliced
 from sweep.design.lattice import counted_area
 from sweep.design.network import Network, mass
@@ -13,35 +12,26 @@ from sweep.numbers import in_unit
 
 @dataclass(frozen=True)
 class Design:
-    """The printed part. network: the drawing; grams: mass of one specimen; footprint: sides of the
-    pressed area, m; along: whether it is pressed along its cells.
-    """
+    """The printed part of a case. network: the drawing; grams: mass of one specimen."""
 
-    name: str
-    lattice: Lattice
+    case: Case
     network: Network
     grams: float
-    footprint: tuple[float, float]
-    along: bool
-
-    @property
-    def depth(self) -> float:
-        """Depth of the walls, m."""
-        return self.lattice.depth
 
     @property
     def extruded_grams(self) -> float | None:
         """Mass of one specimen as its slicer extrudes it, which budgets count; None without a
         slicer.
         """
-        if not isinstance(self.lattice, Sliced):
+        lattice = self.case.lattice
+        if not isinstance(lattice, Sliced):
             return None
-        return self.grams * counted_area(self.lattice.geometry) / self.network.printed_area
+        return self.grams * counted_area(lattice.geometry) / self.network.printed_area
 
     @property
     def volume(self) -> float:
         """Mass / density, m^3: the printed area x the depth."""
-        return self.network.printed_area * self.depth
+        return self.network.printed_area * self.case.lattice.depth
 
 
 def design_of(case: Case) -> Design:
@@ -63,5 +53,4 @@ def design_of(case: Case) -> Design:
         )
     network = case.lattice.network
     kilograms = mass(network, case.lattice.depth, case.material.density)
-    grams = in_unit(kilograms, "g")
-    return Design(case.case_id, case.lattice, network, grams, case.footprint, case.along)
+    return Design(case, network, in_unit(kilograms, "g"))

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 from sweep.constants import TO_MM, TO_MM3
+from sweep.export.curves import write_curves
+from sweep.export.dxf import write_dxf
 from sweep.export.errors import ExportError
-from sweep.export.outline import Layout
-from sweep.export.solid import Body
+from sweep.export.outline import Layout, block, filled_panel, outline, panel, specimen
+from sweep.export.shapes import write_shapes
+from sweep.export.solid import Body, extruded, solid
+from sweep.export.stl import write_stl
+from sweep.export.svg import write_svg
+from sweep.export.three_mf import write_3mf
 from sweep.numbers import in_unit, text_in
 from sweep.store.read import read_case, read_cases, read_frames, read_history, read_summary
 from sweep.whole_file import whole
@@ -26,6 +32,8 @@ if TYPE_CHECKING:
     from sweep.export.design import Design
 
 Kind = Literal["lattice", "settings"]
+Result = TypeVar("Result", bound=Sized)
+SOLID = "print it with 100 % infill"
 SHOWN = 0.05  # mm: least difference of lengths that is reported
 
 
@@ -38,15 +46,19 @@ class Exported(NamedTuple):
 
 @dataclass(frozen=True)
 class Source:
-    """A case of a results file; each part is read when it is needed."""
+    """A case in a results file, of which each part is read when it is needed.
 
-    file: str | os.PathLike[str]
-    row: Mapping[str, Any]
+    row: of the case in the summary; empty if the case, `planned`, need not have run.
+    """
+
+    file: str | os.PathLike[str] = ""
+    row: Mapping[str, Any] = field(default_factory=dict)
+    planned: Case | None = None
 
     @cached_property
     def case(self) -> Case:
         """The case."""
-        return read_case(self.file, self.row["case_id"])
+        return self.planned or read_case(self.file, self.row["case_id"])
 
     @cached_property
     def design(self) -> Design:
@@ -58,57 +70,25 @@ class Source:
     @property
     def history(self) -> DataFrame:
         """The curves."""
-        history = read_history(self.file, self.row["case_id"])
-        if history.empty:
-            raise ExportError(f"case {self.row['case_id']} has no curves: {self._why}")
-        return history
+        return self._read(read_history, "curves")
 
     @property
     def frames(self) -> dict[str, NDArray[Any]]:
         """The shapes."""
-        frames = read_frames(self.file, self.row["case_id"])
-        if not frames:
-            raise ExportError(f"case {self.row['case_id']} has no shapes: {self._why}")
-        return frames
+        return self._read(read_frames, "shapes")
 
-    @property
-    def _why(self) -> str:
-        return self.row["message"] or f"it is {self.row['status']}"
-
-
-@dataclass(frozen=True)
-class Planned:
-    """A case that need not have run: it has a design, but no curves and no shapes."""
-
-    case: Case
-
-    @cached_property
-    def design(self) -> Design:
-        """The printed design."""
-        from sweep.export.design import design_of
-
-        return design_of(self.case)
-
-    @property
-    def history(self) -> DataFrame:
-        """No curves."""
-        raise self._refusal("curves")
-
-    @property
-    def frames(self) -> dict[str, NDArray[Any]]:
-        """No shapes."""
-        raise self._refusal("shapes")
-
-    @property
-    def row(self) -> Mapping[str, Any]:
-        """No row of results."""
-        raise self._refusal("results")
-
-    def _refusal(self, what: str) -> ExportError:
-        return ExportError(
-            f"a case alone has no {what}; allowed: a results file and the id of a case in it, or "
-            f"{PRINTED}"
-        )
+    def _read(self, read: Callable[[str | os.PathLike[str], str], Result], what: str) -> Result:
+        """Results of the case, which are refused if there are none."""
+        if not self.row:
+            raise ExportError(
+                f"a case alone has no {what}; allowed: a results file and the id of a case in it, "
+                f"or {PRINTED}"
+            )
+        results = read(self.file, self.row["case_id"])
+        if not len(results):
+            why = self.row["message"] or f"it is {self.row['status']}"
+            raise ExportError(f"case {self.row['case_id']} has no {what}: {why}")
+        return results
 
 
 class Wish(NamedTuple):
@@ -151,7 +131,7 @@ def printed(file: str | os.PathLike[str], case_ids: Iterable[str]) -> Iterator[b
         path = Path(folder) / "print.3mf"
         for case in read_cases(file, case_ids):
             try:
-                _three_mf(path, Planned(case), Wish(None, "lattice"))
+                _three_mf(path, Source(planned=case), Wish(None, "lattice"))
             except ExportError:
                 yield None
             else:
@@ -190,9 +170,9 @@ def _sides(panel: Sequence[float | str] | None) -> list[float] | None:
     raise ExportError(f"panel {', '.join(map(str, panel))}; allowed: two lengths above zero")
 
 
-def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Planned:
+def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source:
     if not isinstance(source, str | os.PathLike):
-        return Planned(source)
+        return Source(planned=source)
     summary = read_summary(source)
     if not case_id:
         ids = ", ".join(summary["case_id"].head(3))
@@ -205,37 +185,29 @@ def _source(source: Case | str | os.PathLike[str], case_id: str) -> Source | Pla
     return Source(source, rows.iloc[0].to_dict())
 
 
-def _layout(source: Source | Planned, wish: Wish) -> Layout:
+def _layout(source: Source, wish: Wish) -> Layout:
     """The layout: a specimen or a panel, of walls or of blocks."""
-    from sweep.export.outline import block, outline, panel, specimen
-
     design = source.design
-    shape = block(design.lattice) if wish.kind == "settings" else outline(design.network)
+    shape = block(source.case.lattice) if wish.kind == "settings" else outline(design.network)
     return panel(design, shape, wish.panel) if wish.panel else specimen(design, shape)
 
 
-def _stl(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.stl import write_stl
-
+def _stl(path: Path, source: Source, wish: Wish) -> list[str]:
     body, notes = _body(source, wish)
     write_stl(path, body)
-    return notes
+    return [*notes, SOLID]
 
 
-def _three_mf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+def _three_mf(path: Path, source: Source, wish: Wish) -> list[str]:
     if wish.kind == "settings":
         return _filled_block(path, source, wish)
-    from sweep.export.three_mf import write_3mf
-
     body, notes = _body(source, wish)
     write_3mf(path, body, source.case.case_id, {})
-    return [*notes, "print it with 100 % infill"]
+    return [*notes, SOLID]
 
 
-def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:
+def _body(source: Source, wish: Wish) -> tuple[Body, list[str]]:
     """The walls, and a description in sentences."""
-    from sweep.export.solid import solid
-
     if source.case.lattice.sheet:
         from sweep.export.sheet import sheet_panel
 
@@ -245,7 +217,7 @@ def _body(source: Source | Planned, wish: Wish) -> tuple[Body, list[str]]:
     return _as_printed(body, source), _description(layout, source, wish)
 
 
-def _as_printed(body: Body, source: Source | Planned) -> Body:
+def _as_printed(body: Body, source: Source) -> Body:
     """The body with the axis of its layers upwards."""
     from sweep.config.kinds.sliced import Sliced
 
@@ -253,11 +225,9 @@ def _as_printed(body: Body, source: Source | Planned) -> Body:
     return body.stood_up if isinstance(lattice, Sliced) and lattice.lateral else body
 
 
-def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+def _filled_block(path: Path, source: Source, wish: Wish) -> list[str]:
     """A block, and the settings with which the slicer fills it."""
     from sweep.export.slicer import by_hand, prusa_reads, settings_of, slicer_files
-    from sweep.export.solid import extruded
-    from sweep.export.three_mf import write_3mf
 
     settings = settings_of(source.case.lattice)
     layout, notes = _block(source, wish)
@@ -277,7 +247,7 @@ def _filled_block(path: Path, source: Source | Planned, wish: Wish) -> list[str]
     ]
 
 
-def _block(source: Source | Planned, wish: Wish) -> tuple[Layout, list[str]]:
+def _block(source: Source, wish: Wish) -> tuple[Layout, list[str]]:
     """The block, and a description in sentences."""
     if source.case.lattice.sheet:
         from sweep.export.sheet import sheet_block
@@ -287,47 +257,36 @@ def _block(source: Source | Planned, wish: Wish) -> tuple[Layout, list[str]]:
     return layout, _description(layout, source, wish)
 
 
-def _svg(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.svg import write_svg
+def _drawn(write: Callable[[Path, Layout], None]) -> Writer:
+    """The writer of a format that shows the outline."""
 
-    layout = _layout(source, wish)
-    write_svg(path, layout)
-    return _description(layout, source, wish)
+    def writer(path: Path, source: Source, wish: Wish) -> list[str]:
+        layout = _layout(source, wish)
+        write(path, layout)
+        return _description(layout, source, wish)
 
-
-def _dxf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.dxf import write_dxf
-
-    layout = _layout(source, wish)
-    write_dxf(path, layout)
-    return _description(layout, source, wish)
+    return writer
 
 
-def _csv(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.curves import write_curves
-
+def _csv(path: Path, source: Source, wish: Wish) -> list[str]:
     write_curves(path, source.history, source.row)
     return []
 
 
-def _vtkhdf(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
-    from sweep.export.shapes import write_shapes
-
+def _vtkhdf(path: Path, source: Source, wish: Wish) -> list[str]:
     write_shapes(path, source.frames)
     return []
 
 
-def _gif(path: Path, source: Source | Planned, wish: Wish) -> list[str]:
+def _gif(path: Path, source: Source, wish: Wish) -> list[str]:
     from sweep.report.figures.animation import write_gif
 
     write_gif(path, source.row, source.frames, source.history)
     return []
 
 
-def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[str]:
+def _description(layout: Layout, source: Source, wish: Wish) -> list[str]:
     """A description of a layout in a sentence; for a panel, in two."""
-    from sweep.export.outline import filled_panel
-
     _, _, width, height = layout.shape.bounds
     size = f"{width:.4g} x {height:.4g} mm, {layout.depth:.4g} mm deep: {layout.grams:.4g} g"
     if extruded := source.design.extruded_grams:
@@ -340,7 +299,7 @@ def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[s
     nominal = TO_MM * filled_panel(source.design, wish.panel).width
     wider = f"; corners that stick out make them {width - nominal:.2g} mm wider"
     behind = "" if layout.behind == 1 else f"{layout.behind} specimens of "
-    deep = f"each {behind}{text_in(source.design.footprint[1], 'mm')} deep"
+    deep = f"each {behind}{text_in(source.case.footprint[1], 'mm')} deep"
     several = layout.specimens > 1
     these = f"these {layout.specimens} specimens, which are not joined, are"
     return [
@@ -350,7 +309,12 @@ def _description(layout: Layout, source: Source | Planned, wish: Wish) -> list[s
     ]
 
 
-Writer = Callable[[Path, Source | Planned, Wish], list[str]]
-PRINTS: dict[str, Writer] = {".stl": _stl, ".3mf": _three_mf, ".svg": _svg, ".dxf": _dxf}
+Writer = Callable[[Path, Source, Wish], list[str]]
+PRINTS: dict[str, Writer] = {
+    ".stl": _stl,
+    ".3mf": _three_mf,
+    ".svg": _drawn(write_svg),
+    ".dxf": _drawn(write_dxf),
+}
 WRITERS: dict[str, Writer] = {**PRINTS, ".csv": _csv, ".vtkhdf": _vtkhdf, ".gif": _gif}
 PRINTED = ", ".join(PRINTS)

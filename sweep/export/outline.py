@@ -66,7 +66,8 @@ def block(lattice: Specimen) -> Any:
 
 def specimen(design: Design, shape: Any) -> Layout:
     """One specimen of this shape (mm)."""
-    return Layout(design.name, shape, TO_MM * design.depth, 1, 1, design.grams)
+    case = design.case
+    return Layout(case.case_id, shape, TO_MM * case.lattice.depth, 1, 1, design.grams)
 
 
 def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
@@ -80,13 +81,14 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
     import shapely
     import shapely.affinity
 
-    filled, (width, depth) = filled_panel(design, sides), design.footprint
+    case = design.case
+    filled, (width, depth) = filled_panel(design, sides), case.footprint
     for side, count, one in zip(sides, filled[:2], (width, depth), strict=True):
         if count < 1:
             raise ExportError(too_small(side, one))
     across, behind = int(filled.across), int(filled.behind)
     right, up = max(shape.bounds[2], TO_MM * width), max(shape.bounds[3], TO_MM * depth)
-    gap, rows = TO_MM * BESIDE, behind if design.along else 1
+    gap, rows = TO_MM * BESIDE, behind if case.along else 1
     if rows * across > MOST_SPECIMENS:
         raise ExportError(
             f"a panel of {rows * across:,} specimens; allowed: at most {MOST_SPECIMENS:,}"
@@ -97,14 +99,15 @@ def panel(design: Design, shape: Any, sides: Sequence[float]) -> Layout:
         for k in range(across)
     ]
     whole = shapely.set_precision(shapely.multipolygons(shapely.get_parts(placed)), GRID)
-    height, grams = design.depth if design.along else filled.depth, across * behind * design.grams
-    return Layout(design.name, whole, TO_MM * height, across, behind, grams)
+    height = case.lattice.depth if case.along else filled.depth
+    grams = across * behind * design.grams
+    return Layout(case.case_id, whole, TO_MM * height, across, behind, grams)
 
 
 def filled_panel(design: Design, sides: Sequence[float]) -> Panel:
     """The panel of a design that a ranking counts for two sides (m)."""
-    gap = BEHIND["out_of_plane" if design.along else "in_plane"]
-    return panel_of((sides[0], sides[1]), *design.footprint, gap)
+    gap = BEHIND[design.case.loading.direction]
+    return panel_of((sides[0], sides[1]), *design.case.footprint, gap)
 
 
 def rings(layout: Layout) -> list[Any]:

@@ -12,8 +12,8 @@ from typing import Any
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.constants import TO_MM
 
 LINE, QUAD = 3, 9  # VTK_LINE, VTK_QUAD
@@ -65,20 +65,20 @@ def _write(group: h5py.Group, arrays: Mapping[str, Any]) -> None:
         group.create_dataset(name, data=values)
 
 
-def _deep(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _deep(points: Floats) -> Floats:
     """Points (n, 2) with z = 0, or (n, 3) unchanged: (n, 3)."""
     return np.pad(np.asarray(points, np.float64), ((0, 0), (0, 3 - points.shape[1])))
 
 
-def _lengths(points: NDArray[np.float64], edges: NDArray[np.int64]) -> NDArray[np.float64]:
+def _lengths(points: Floats, edges: Ints) -> Floats:
     """Length of every element."""
     ends = points[edges]
-    length: NDArray[np.float64] = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    length: Floats = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     return length
 
 
-def _areas(points: NDArray[np.float64], quads: NDArray[np.int64]) -> NDArray[np.float64]:
+def _areas(points: Floats, quads: Ints) -> Floats:
     """Area of every quad: half the product of its diagonals."""
     a, b, c, d = np.moveaxis(points[quads], 1, 0)
-    area: NDArray[np.float64] = 0.5 * np.linalg.norm(np.cross(c - a, d - b), axis=1)
+    area: Floats = 0.5 * np.linalg.norm(np.cross(c - a, d - b), axis=1)
     return area

@@ -8,8 +8,8 @@ and is moved along them there.
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
@@ -21,9 +21,6 @@ from sweep.export.errors import ExportError
 from sweep.export.outline import Layout, block
 from sweep.export.solid import Body, within_box
 from sweep.numbers import in_unit
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 QUADS = 16  # cells of the net in a period
 MOST_PERIODS = 2_000  # a file of 150 MB

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.export.errors import ExportError
 from sweep.export.outline import Layout, rings
 from sweep.numbers import text_in
@@ -17,8 +17,8 @@ CLOSE = 0.005  # greatest relative difference of the volume from the mass / dens
 class Body(NamedTuple):
     """A triangle mesh: points (n, 3) in mm, triangles (m, 3), anticlockwise seen from outside."""
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    points: Floats
+    triangles: Ints
 
     @property
     def volume(self) -> float:

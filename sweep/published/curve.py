@@ -3,17 +3,15 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import Series
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.config.reading.text import rows_of, text_of
 from sweep.constants import MM
 from sweep.numbers import text_in
 from sweep.published.table import PublishedError
 from sweep.simulation.iso_13314 import figures
-
-Floats = NDArray[np.float64]
 
 HEADS = ("displacement_mm", "force_N")
 NEEDED = f"a csv file with the heads {','.join(HEADS)}, both positive in compression"

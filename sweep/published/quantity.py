@@ -1,7 +1,6 @@
 """A measured value as people write it: "0.12 +- 0.018 J", "0.078 .. 0.081 MPa", "38 %"."""
 
 import re
-from typing import NamedTuple
 
 from sweep.config.faults import MisfitError
 from sweep.config.materials.material_header import ALLOWED, number_with_range
@@ -11,16 +10,10 @@ from sweep.published.table import PublishedError
 _PARTS = re.compile(r"((?:[\d.+() -]|[eE](?=[+-]?\d))*)(.*)")
 
 
-class Quantity(NamedTuple):
-    """A number with its scatter as text, its unit, and the size of the unit in another one."""
-
-    number: str
-    unit: str
-    per: float
-
-
-def split_quantity(text: str, units: str) -> Quantity:
-    """A measured value; units: of its column, "1" for a pure number."""
+def split_quantity(text: str, units: str) -> tuple[str, str, float]:
+    """A measured value: its number with its scatter as text, its unit, and the size of the unit in
+    ``units``, of its column; "1" for a pure number.
+    """
     match = _PARTS.fullmatch(text.strip())
     number, unit = (match[1].strip(), match[2].strip()) if match else ("", text)
     try:
@@ -32,4 +25,4 @@ def split_quantity(text: str, units: str) -> Quantity:
         why = str(error).removeprefix("# measured: ")
         allowed = f"{ALLOWED} with a unit, or a csv file of a curve"
         raise PublishedError(f"--measured {text}: {why}; allowed: {allowed}") from None
-    return Quantity(number, unit, per)
+    return number, unit, per

@@ -14,6 +14,7 @@ import pandas as pd
 from pandas import DataFrame, Series
 
 from sweep.columns import is_grid_key
+from sweep.config.faults import ReportedError
 from sweep.loading_modes import MODES, Mode
 from sweep.ranking.richardson import Floats, limit, rms
 from sweep.result import Status
@@ -66,7 +67,7 @@ class Study(NamedTuple):
     resolved: tuple[str, ...]
 
 
-class AccuracyError(ValueError):
+class AccuracyError(ReportedError, ValueError):
     """A sweep that is not an accuracy study."""
 
 

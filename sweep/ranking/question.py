@@ -3,13 +3,14 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from sweep.config.faults import ReportedError
 from sweep.ranking.requirement_table import MEASURES
 
 Quantity = float | str
 """A number in SI, or text with a unit such as "25 g"."""
 
 
-class RankError(ValueError):
+class RankError(ReportedError, ValueError):
     """A ranking that is not possible; the text is one sentence with the allowed values."""
 
 

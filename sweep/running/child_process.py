@@ -44,10 +44,6 @@ KILLED = (
 Simulate = Callable[[Case, np.ndarray], Result]
 
 
-class _StoppedError(Exception):
-    """The run has been stopped."""
-
-
 def attempt(simulate: Simulate, case: Case, control: np.ndarray) -> Result:
     """Result of a case; an exception becomes a result too."""
     try:
@@ -93,11 +89,8 @@ class Child(AbstractContextManager["Child"]):
             self._begin()
         try:
             self._channel.send((simulate, case))
-            self._receive(inf, is_stopped)
-            result: Result = self._receive(limit + GRACE, is_stopped)
-        except _StoppedError:
-            self.end()
-            return None
+            begun = self._receive(inf, is_stopped)
+            result: Result | None = begun and self._receive(limit + GRACE, is_stopped)
         except TimeoutError:
             self.end()
             return failed_result(case, Status.TIMED_OUT, KILLED.format(limit))
@@ -106,6 +99,8 @@ class Child(AbstractContextManager["Child"]):
             if is_first:
                 return failed_result(case, Status.WORKER_DIED, DIED)
             return self.run(simulate, case, is_stopped)
+        if result is None:
+            self.end()
         return result
 
     def end(self) -> None:
@@ -125,11 +120,13 @@ class Child(AbstractContextManager["Child"]):
             self._process = _started([sys.executable, "-P", "-c", program], there.fileno())
 
     def _receive(self, seconds: float, is_stopped: Callable[[], bool]) -> Any:
-        """The next message from the process; raises `TimeoutError` after some seconds."""
+        """The next message from the process; None after a stop. Raises `TimeoutError` after some
+        seconds.
+        """
         due = time.monotonic() + seconds
         while not self._channel.poll(max(min(MOMENT, due - time.monotonic()), 0.0)):
             if is_stopped():
-                raise _StoppedError
+                return None
             if time.monotonic() > due:
                 raise TimeoutError
         return self._channel.recv()

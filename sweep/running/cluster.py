@@ -9,6 +9,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from sweep.config.faults import ReportedError
 from sweep.running.child_process import one_line
 from sweep.running.progress import announce
 
@@ -33,7 +34,7 @@ Scheduler: TypeAlias = Any
 a `Cluster`; "processes" or open `Processes` of this machine; None for threads of this process."""
 
 
-class ClusterError(Exception):
+class ClusterError(ReportedError):
     """A cluster that fails during a run, which keeps its finished cases; the text is one line."""
 
     exit_status = 1

@@ -26,10 +26,9 @@ from sweep.result import Result, Status, failed_result
 from sweep.running.batches import Plan
 from sweep.running.child_process import Simulate, one_line, run_alone
 from sweep.running.cluster import Cluster, ClusterError
-from sweep.running.fingerprint import fingerprint
-from sweep.running.on_worker import Kernels, OtherSourceError, checked, inspect_kernels
+from sweep.running.fingerprint import OtherSourceError, checked, fingerprint
 from sweep.running.threads import Sink, Stop, run_batch
-from sweep.running.warming import load, time_to_compile
+from sweep.running.warming import Kernels, inspect_kernels, load, time_to_compile
 
 if TYPE_CHECKING:
     from distributed import Future

@@ -11,14 +11,11 @@ cores as they do while the pilots run. The estimate may still be wrong by a fact
 
 import time
 from bisect import bisect
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from math import isnan, nan
-from pathlib import Path
-from statistics import fmean
-from threading import Event, Thread, Timer
+from threading import Timer
 
 import numpy as np
 
@@ -29,7 +26,7 @@ from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.steps import count_of
-from sweep.numbers import counted, text_in
+from sweep.numbers import counted, text_in, to_si
 from sweep.result import Result, Status
 from sweep.running.batches import Kind, Plan, cost, kind
 from sweep.running.beside.error_bars import companions_beside
@@ -57,9 +54,6 @@ The mean of square, brick and hex in `configs/which_way.toml`; beyond 50 % as be
 """
 UNFOLDING = 0.25  # share of the time that loading takes
 ROW = 1000  # bytes of the summary of a case
-LOAD = Path("/proc/loadavg")  # in Linux
-HALF = 50.0  # % of the time of a core that is busy
-MOMENT = 0.1  # seconds between two looks at it
 
 
 @dataclass(frozen=True)
@@ -68,8 +62,8 @@ class Estimate:
 
     The `pilots` are the cases that were run for it, in `seconds`; `failures`: messages of pilots
     that did not converge. The time is NaN if a pilot has no measured time. `stopped`: pilots whose
-    time is extrapolated from their first steps. `others`: mean number of threads of other programs
-    that ran at the same time.
+    time is extrapolated from their first steps. `others`: mean number of cores that other
+    programs used at the same time.
     """
 
     cpu: float
@@ -120,7 +114,7 @@ def dry_run(
         f"  processor time  {duration(forecast.cpu)}",
         f"  wall time       {duration(wall)} on {workers} workers",
         f"  disk            {text_in(forecast.disk, 'MB', 2)}",
-        "nothing was written",
+        "no result was written",
     ]
     if forecast.stopped:
         first = f"{forecast.stopped} of them stopped early; later steps may be slower"
@@ -135,22 +129,26 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
     """Run one case of each kind of loading and mesh and, if these are short, one of each of its
     groups; scale their costs to their groups.
     """
+    from psutil import cpu_count, cpu_percent
+
     kinds: dict[Kind, list[Case]] = {}
     for case in cases:
         kinds.setdefault(kind(case), []).append(case)
     first = [(_middle(sorted(alike, key=cost)), alike) for alike in kinds.values()]
     started, seconds = time.perf_counter(), dict[str, float]()
     timed = _timed(simulate, seconds)
-    with _other_threads() as counts:
-        results = _run_all([pilot for pilot, _ in first], timed)
-        spent = SPENT / len(first)
-        pilots = [
-            group
-            for pilot, alike in first
-            for group in _groups(pilot, alike, spent, seconds.get(pilot.case_id, nan))
-        ]
-        others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
-        results |= _run_all(others, timed) if others else {}
+    cpu_percent()  # begins to measure
+    own = time.process_time()
+    results = _run_all([pilot for pilot, _ in first], timed)
+    pilots = [
+        group
+        for pilot, alike in first
+        for group in _groups(pilot, alike, SPENT / len(first), seconds.get(pilot.case_id, nan))
+    ]
+    others = [pilot for pilot, _ in pilots if pilot.case_id not in results]
+    results |= _run_all(others, timed) if others else {}
+    spent = time.perf_counter() - started
+    busy = to_si(cpu_percent(), "%") * (cpu_count() or 1) - (time.process_time() - own) / spent
     cpu = disk = 0.0
     for pilot, alike in pilots:
         case_id = pilot.case_id
@@ -160,8 +158,7 @@ def estimate(cases: Sequence[Case], simulate: Simulate) -> Estimate:
         r.message for r in results.values() if r.status not in (Status.CONVERGED, Status.TIMED_OUT)
     ]
     stopped = sum(r.status is Status.TIMED_OUT for r in results.values())
-    spent = time.perf_counter() - started
-    return Estimate(cpu, disk, len(results), failures, spent, stopped, fmean(counts))
+    return Estimate(cpu, disk, len(results), failures, spent, stopped, max(busy, 0.0))
 
 
 def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
@@ -170,7 +167,7 @@ def _run_all(pilots: Sequence[Case], simulate: Simulate) -> dict[str, Result]:
     with interruptible(stop):
         run_on_threads(Plan(pilots, workers=1), simulate, results.extend, stop)
     if stop.flag:
-        raise Interrupted("interrupted; nothing was written")
+        raise Interrupted("interrupted; no result was written")
     return {result.case_id: result for result in results}
 
 
@@ -222,35 +219,6 @@ def _limited(pilot: Case, limit: float) -> Case:
     """The case with another time limit (s), which does not enter its id."""
     solver = pilot.solver.model_copy(update={"time_limit": limit})
     return pilot.model_copy(update={"solver": solver})
-
-
-@contextmanager
-def _other_threads() -> Iterator[list[int]]:
-    """Numbers of threads of other programs that run on this machine, sampled now and then."""
-    counts, ended = [_running() - 1], Event()
-
-    def count() -> None:
-        while not ended.wait(MOMENT):
-            counts.append(max(_running() - 2, 0))  # without this thread and the thread of the pilot
-
-    thread = Thread(target=count, daemon=True)
-    thread.start()
-    try:
-        yield counts
-    finally:
-        ended.set()
-        thread.join()
-
-
-def _running() -> int:
-    """Threads of the machine that run or could run, including this one; on other systems than
-    Linux, at most as many as it has cores.
-    """
-    if LOAD.exists():
-        return int(LOAD.read_text("ascii").split()[3].partition("/")[0])
-    from psutil import cpu_percent
-
-    return max(sum(percent > HALF for percent in cpu_percent(percpu=True)), 1)
 
 
 def duration(seconds: float) -> str:

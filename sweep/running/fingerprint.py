@@ -4,9 +4,10 @@ compiler.
 
 import hashlib
 import platform
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from kernels.compile import choice
 from sweep.result import MODEL_VERSION
@@ -17,6 +18,10 @@ PACKAGES = ("numba", "llvmlite", "numpy", "scipy")
 NONE = "unknown"
 
 Fingerprint = Mapping[str, str]
+
+
+class OtherSourceError(Exception):
+    """A worker with other source or other versions; the text says what differs."""
 
 
 @cache
@@ -42,3 +47,10 @@ def differences(theirs: Fingerprint, ours: Fingerprint) -> str:
     """The differences in words; "" if there are none."""
     names = [name for name in ours if theirs.get(name) != ours[name]]
     return ", ".join(f"{name} {theirs.get(name, NONE)} (this run: {ours[name]})" for name in names)
+
+
+def checked(expected: Fingerprint, task: Callable[..., Any], *arguments: Any) -> Any:
+    """The result of a task on a worker, if this process has the fingerprint of the run."""
+    if wrong := differences(fingerprint(), expected):
+        raise OtherSourceError(wrong)
+    return task(*arguments)

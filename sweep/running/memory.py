@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-PROC, GROUPS = Path("/proc"), Path("/sys/fs/cgroup")
+OWN_GROUPS, GROUPS = Path("/proc/self/cgroup"), Path("/sys/fs/cgroup")
 GROUP_FILES = ("memory.max", "memory.limit_in_bytes")  # of versions 2 and 1 of control groups
-USED, KB = 0.95, 1024  # the share of a control group that is data; the unit of /proc
+USED = 0.95  # the share of a control group that is data
 
 
 @contextmanager
@@ -36,19 +36,15 @@ def most_data() -> int:
     """Bytes of data that this process may have: in the machine, and in its control groups, which
     are limits of containers and of jobs.
     """
-    free = _kilobytes("meminfo", "MemAvailable") + _kilobytes("self/status", "VmData")
-    return min([free * KB, *(int(USED * limit) for limit in _group_limits())])
+    from psutil import Process, virtual_memory
 
-
-def _kilobytes(file: str, name: str) -> int:
-    """A number from a file of /proc, in kB."""
-    lines = (PROC / file).read_text("utf-8").splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
+    free = virtual_memory().available + Process().memory_info().data
+    return min([free, *(int(USED * limit) for limit in _group_limits())])
 
 
 def _group_limits() -> Iterator[int]:
     """Memory limits (bytes) of the control groups of this process, and of the groups above them."""
-    for line in (PROC / "self/cgroup").read_text("utf-8").splitlines():
+    for line in OWN_GROUPS.read_text("utf-8").splitlines():
         _, controllers, path = line.split(":", 2)
         root = GROUPS / controllers
         group = root / path.lstrip("/")

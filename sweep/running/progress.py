@@ -15,7 +15,6 @@ from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, Task, TimeEl
 from rich.progress import Progress as Bar
 from rich.text import Text
 
-from sweep.config.case import Case
 from sweep.numbers import percent
 from sweep.plain_text import plain
 from sweep.result import Result, Status
@@ -45,21 +44,6 @@ def announce(line: str) -> None:
     Stderr().print(plain(line), markup=False, highlight=False, soft_wrap=True)
 
 
-class NotebookLine:
-    """A line in the output of a cell, which is replaced when it changes."""
-
-    def __init__(self) -> None:
-        self._shown: Any = None
-
-    def show(self, text: str) -> None:
-        """Show a text, the first time below what the cell has printed."""
-        data = {"text/plain": text}
-        if self._shown is None:
-            self._shown = import_module("IPython.display").display(data, raw=True, display_id=True)
-        else:
-            self._shown.update(data, raw=True)
-
-
 class Line(ProgressColumn):
     """A text that is made anew whenever it is drawn."""
 
@@ -78,25 +62,23 @@ class Progress:
     The time left is the time of the waiting cases, each at the processor time per weight of the
     finished cases of its kind. It runs down with the clock until more cases end, and is not shown
     once it is over. waiting: number of waiting cases. work: total weight of the waiting cases, by
-    their kind; `weight` is the weight of one case. done: number of cases of the sweep that were
+    their kind, as `cost` gives it. done: number of cases of the sweep that were
     finished before. part: these cases are a part of a search, which reports the end of each part
     itself: lines appear only if a part takes long. running: returns the share of its steps that
     each long case has done.
     """
 
-    def __init__(  # noqa: PLR0913  what there is to do, and how it is shown
+    def __init__(
         self,
         waiting: int,
         work: Mapping[Kind, float],
         done: int = 0,
         console: Console | None = None,
         part: bool = False,
-        weight: Callable[[Case], float] = cost,
         running: Callable[[], Sequence[float]] = list,
     ) -> None:
         self.console = console or Stderr()
         self.part = part
-        self.weight = weight
         self.running = running
         self.total = done + waiting
         self.done, self.failed = done, 0
@@ -107,8 +89,8 @@ class Progress:
         self._printed = time.monotonic() if part else 0.0  # time of the last plain line
         self._counts: tuple[int, int] | None = None  # cases done and failed in that line
         self._sentences: set[str] = set()
-        self._notebook = NotebookLine() if self.console.is_jupyter else None
-        self._period = NOTEBOOK_PERIOD if self._notebook else PERIOD
+        self._shown: Any = None  # the line in a notebook
+        self._period = NOTEBOOK_PERIOD if self.console.is_jupyter else PERIOD
         self._bar = Bar(
             SpinnerColumn(),
             BarColumn(),
@@ -134,7 +116,7 @@ class Progress:
         self.done += len(results)
         ended = 0.0
         for result in results:
-            alike, weight = kind(result.case), self.weight(result.case)
+            alike, weight = kind(result.case), cost(result.case)
             cpu = float(result.summary["cpu_s"])
             self._left[alike] = self._left.get(alike, 0.0) - weight
             ended += weight
@@ -197,10 +179,13 @@ class Progress:
 
     def _update(self, line: str) -> None:
         """Show the state of the sweep; in a notebook it replaces the previous state."""
-        if self._notebook:
-            self._notebook.show(line)
-        else:
+        data = {"text/plain": line}
+        if not self.console.is_jupyter:
             self.say(line)
+        elif self._shown is None:  # below what the cell has printed
+            self._shown = import_module("IPython.display").display(data, raw=True, display_id=True)
+        else:
+            self._shown.update(data, raw=True)
 
     def say(self, line: str) -> None:
         """Print a line, above the bar if there is one."""

@@ -3,7 +3,7 @@ ranges of uncertain numbers.
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from pandas import DataFrame
@@ -16,12 +16,13 @@ from sweep.ranking.curves import with_allowed
 from sweep.ranking.merit import check_panel
 from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
+from sweep.ranking.ranking import Ranking
 from sweep.ranking.spread import Spread, spread_table, spreads
 from sweep.results import Results
 from sweep.running.applicable import check_required
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.run_beside import How, file_beside
-from sweep.running.beside.spread import BEST, corners_of, run_corners
+from sweep.running.beside.spread import BEST, Corners, corners_of, run_corners
 from sweep.running.cluster import Scheduler
 from sweep.running.place import chosen_place, open_place
 from sweep.running.progress import announce
@@ -96,17 +97,30 @@ def spreads_of(
     out: str | os.PathLike[str],
     how: How,
 ) -> list[Spread]:
-    """Run the corners of the best designs of a question, and return their spreads: none if no
-    number is uncertain. cases: see `corners_of`. summary: of the results in `out`.
+    """The spreads of the best designs of a question: none if no number is uncertain.
+
+    cases: see `corners_of`. summary: of the results in `out`.
     """
     ranking = answer(with_allowed(out, summary, question), question)
     corners = corners_of(cases, ranking.table["case_id"], out)
-    if not any(corners.values()):
-        return []
+    return spreads_among(corners, ranking, question, out, how) if any(corners.values()) else []
+
+
+def spreads_among(
+    corners: Mapping[str, Corners],
+    ranking: Ranking,
+    question: Question,
+    out: str | os.PathLike[str],
+    how: How,
+) -> list[Spread]:
+    """Run the corners of designs that are ranked, by the ids of these, and return the spreads."""
     run_corners(corners, out, how)
     beside = file_beside(out, "spread")
     rows = with_allowed(beside, read_summary(beside), question)
-    ids = {design: [(c.name, c.case_id) for c in group] for design, group in corners.items()}
+    ids = {
+        design: [(name, case.case_id) for name, case in group.items()]
+        for design, group in corners.items()
+    }
     return spreads(ranking, rows, ids, question)
 
 

@@ -1,6 +1,7 @@
 """Loads or compiles the kernels that cases need, here or on a worker of a cluster."""
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from sweep.config.case import Case
 from sweep.running.child_process import Simulate
@@ -13,6 +14,15 @@ OF = {
 }
 """The walls or the method for which kernels are compiled, in words."""
 UNWRITABLE = "CRUMPLE_CACHE_DIR, else the user's cache folder, is not a writable folder"
+
+
+class Kernels(NamedTuple):
+    """The kernels of a worker: those that it would have to compile, and whether other processes of
+    its host can then use them.
+    """
+
+    cold: list[str]
+    lasting: bool
 
 
 def real_simulate(cases: Iterable[Case]) -> Simulate:
@@ -52,6 +62,13 @@ def cold_kernels(kernels: Iterable[str]) -> list[str]:
     from kernels.compile.cache import is_cold
 
     return [name for name in kernels if is_cold(name)]
+
+
+def inspect_kernels(kernels: Iterable[str]) -> Kernels:
+    """The state of the named kernels in this process, a worker."""
+    from kernels.compile.cache import is_lasting
+
+    return Kernels(cold_kernels(kernels), is_lasting())
 
 
 def load(kernels: Iterable[str]) -> None:

@@ -4,7 +4,7 @@ The curves and shapes of cases have different lengths: the arrays of all cases a
 another, and `start` and `rows` give the range of each case.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,16 +13,17 @@ import numpy as np
 from sweep.result import Result
 from sweep.store.tables import Table, stack, tabulate, take
 
-FRAME_GROUPS = {
-    "frames": ("strain", "time_s", "plate_y_m"),
-    "points": ("position_m",),
-    "edges": ("edges", "edge_thickness_m"),
-    "strikers": ("striker_m",),
-    "bases": ("base_m",),
-    "plate_points": ("position_m",),
-    "quads": ("quads", "quad_thickness_m"),
+FRAME_GROUPS: dict[str, dict[str, tuple[int, ...]]] = {
+    "frames": {"strain": (), "time_s": (), "plate_y_m": (2,)},
+    "points": {"position_m": (2,)},
+    "edges": {"edges": (2,), "edge_thickness_m": ()},
+    "strikers": {"striker_m": (2,)},
+    "bases": {"base_m": (2,)},
+    "plate_points": {"position_m": (3,)},
+    "quads": {"quads": (4,), "quad_thickness_m": ()},
 }
-"""Arrays of `Result.frames`, grouped by the meaning of a row: frame, node of a frame, element.
+"""Arrays of `Result.frames` with the shapes of their rows, grouped by the meaning of a row: frame,
+node of a frame, element.
 
 Nodes and elements of plates have groups of their own, as their rows are longer.
 """
@@ -30,11 +31,6 @@ Nodes and elements of plates have groups of their own, as their rows are longer.
 TEXT = "json"
 """The array of the group of cases: `Case.to_json` of all of them, a row per byte."""
 
-DIMENSIONS = {"points": 2, "plate_points": 3}
-"""Length of a row of positions."""
-
-LENGTHS = {"plate_y_m": 2, "striker_m": 2, "base_m": 2, "edges": 2, "quads": 4}
-"""Numbers in a row of other arrays; those that are not named have one number."""
 WHOLE = ("edges", "quads", TEXT)
 """Arrays of whole numbers; the others are of fractions."""
 
@@ -48,9 +44,8 @@ CHUNK = 1 << 18  # rows copied at a time
 
 def is_as_written(group: str, name: str, dtype: np.dtype, shape: tuple[int, ...]) -> bool:
     """Whether an array of a group has the type and row shape that a writer gives it."""
-    length = DIMENSIONS.get(group, 0) if name == "position_m" else LENGTHS.get(name, 0)
-    kinds = "iu" if name in WHOLE else "f"
-    return dtype.kind in kinds and shape[1:] == ((length,) if length else ())
+    row = FRAME_GROUPS.get(group, {}).get(name, ())
+    return dtype.kind in ("iu" if name in WHOLE else "f") and shape[1:] == row
 
 
 @dataclass(frozen=True)
@@ -133,13 +128,13 @@ def block_of(results: Sequence[Result], revision: str) -> Block:
         "cases": _ragged([{TEXT: np.frombuffer(text, np.uint8)} for text in texts]),
         "histories": _ragged([result.history for result in results]),
     }
-    for group, names in FRAME_GROUPS.items():
-        ragged[group] = _ragged([_flat_frames(result, group, names) for result in results])
+    for group, rows in FRAME_GROUPS.items():
+        ragged[group] = _ragged([_flat_frames(result, rows) for result in results])
     return Block(table, ragged, {})
 
 
-def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
-    """Row numbers of each block (oldest first) without rows that a later row of the same case
+def newest_rows(blocks: Sequence[Block]) -> list[tuple[Block, np.ndarray]]:
+    """Each block (oldest first) and its row numbers, without rows that a later row of the same case
     replaces, and without damaged rows.
     """
     newest = {
@@ -151,21 +146,22 @@ def newest_rows(blocks: Sequence[Block]) -> list[np.ndarray]:
     rows: list[list[int]] = [[] for _ in blocks]
     for number, row in newest.values():
         rows[number].append(row)
-    return [np.array(sorted(numbers), dtype=np.int64) for numbers in rows]
+    pairs = zip(blocks, rows, strict=True)
+    return [(block, np.array(sorted(numbers), dtype=np.int64)) for block, numbers in pairs]
 
 
 def newest(blocks: Sequence[Block]) -> Table:
     """The summary of the union of the blocks."""
-    pairs = zip(blocks, newest_rows(blocks), strict=True)
-    return stack([take(block.summary, rows) for block, rows in pairs])
+    return stack([take(block.summary, rows) for block, rows in newest_rows(blocks)])
 
 
-def _flat_frames(result: Result, group: str, names: Iterable[str]) -> dict[str, np.ndarray]:
-    arrays = {name: np.asarray(result.frames[name]) for name in names if name in result.frames}
-    if group in DIMENSIONS and "position_m" in arrays:
+def _flat_frames(result: Result, rows: Mapping[str, tuple[int, ...]]) -> dict[str, np.ndarray]:
+    """The arrays with rows of these shapes, nodes of all frames one after another."""
+    arrays = {name: np.asarray(result.frames[name]) for name in rows if name in result.frames}
+    if "position_m" in arrays:
         position = arrays.pop("position_m")
-        if position.shape[-1] == DIMENSIONS[group]:
-            arrays["position_m"] = position.reshape(-1, DIMENSIONS[group])
+        if position.shape[2:] == rows["position_m"]:
+            arrays["position_m"] = position.reshape(-1, position.shape[2])
     return arrays
 
 

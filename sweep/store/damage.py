@@ -19,6 +19,7 @@ from sweep.store.errors import StoreError
 from sweep.store.tables import Table
 
 SHOWN = 3  # most damaged cases that are named
+FOREIGN = "is not a results file of Crumple; allowed: a file that `crumple run` has written"
 RUN_AGAIN = "`crumple run` computes them again"
 AGAIN = "move it away, and `crumple run` computes its cases again"
 RENEWED = "`crumple verify` names its cases, and `crumple run CONFIG --renew` computes these again"
@@ -88,7 +89,8 @@ def undamaged(path: Path, damaged: str = "") -> Iterator[None]:
             raise StoreError(f"{path} {ELSEWHERE}.") from error
         if "locking flag" in str(error):
             raise StoreError(f"{path} {HERE}.") from error
+        if "signature not found" in str(error):
+            raise StoreError(f"{path} {FOREIGN}.") from error
         if damaged:
             raise StoreError(f"{path}: {damaged} is damaged: {RENEWED}.") from error
-        line = f"{path} is not a results file of Crumple, or is damaged: {AGAIN}."
-        raise StoreError(line) from error
+        raise StoreError(f"{path} is damaged: {AGAIN}.") from error

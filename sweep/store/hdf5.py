@@ -13,7 +13,7 @@ from typing import Any
 
 import h5py
 import numpy as np
-from h5py import h5d, h5ds, h5s, h5t
+from h5py import h5ds
 
 from sweep.columns import Column, describe_array, describe_column
 from sweep.store.batch import FORMAT, GROUPS, TEXT, Block, Ragged, digits, newest_rows
@@ -56,7 +56,7 @@ def seal_blocks(target: Path, blocks: Iterable[Block], about: About, packed: boo
     """
     with closing(Growing(target, packed)) as growing:
         for block in blocks:
-            growing.add(block, *newest_rows([block]))
+            growing.add(*newest_rows([block])[0])
         growing.seal(about)
 
 
@@ -86,7 +86,7 @@ class Growing:
     def add_older(self, blocks: Sequence[Block]) -> None:
         """Add the rows of blocks, oldest first, whose cases the file does not hold yet."""
         newer, self._known = self._known, {}
-        for block, rows in zip(blocks, newest_rows(blocks), strict=True):
+        for block, rows in newest_rows(blocks):
             ids = block.summary["case_id"][rows]
             self.add(block, rows[[case_id not in newer for case_id in ids]])
         self._known |= newer
@@ -189,11 +189,7 @@ def _write_column(group: h5py.Group, name: str, column: np.ndarray, packed: bool
         small = len(column) <= 1 or not packed
         how = {} if small else {"chunks": (min(len(column), CHUNK),), **_filters(packed)}
         return group.create_dataset(name, data=_fixed([*column]), **how)
-    # `create_dataset` does the same but checks many options, and takes four times as long.
-    kind, space = h5t.py_create(column.dtype, logical=True), h5s.create_simple(column.shape)
-    data = h5d.create(group.id, name.encode(), kind, space)
-    data.write(h5s.ALL, h5s.ALL, np.ascontiguousarray(column))
-    return h5py.Dataset(data)
+    return group.create_dataset(name, data=np.ascontiguousarray(column))
 
 
 def _fixed(texts: list[str]) -> np.ndarray:

@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from sweep.store.errors import StoreError
+
 if sys.platform == "win32":
     import msvcrt
 else:
@@ -26,50 +28,49 @@ LONGEST = 300  # bytes of the name of a holder
 LOCKED_BYTE = 1 << 30  # of the file, on Windows: others cannot read a locked byte
 
 
-class LockedError(Exception):
-    """Another process holds the lock; `holder`: its process id, or "" if unknown.
-
-    left: the file to delete if that process no longer runs; None where the system knows.
-    """
-
-    def __init__(self, holder: str, left: Path | None = None) -> None:
-        super().__init__(holder)
-        self.holder, self.left = holder, left
-
-
 @contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """Hold the lock file `path`, or raise LockedError at once; the file is deleted at the end."""
+    """Hold the lock of a results file, or refuse at once; the lock is deleted at the end."""
+    lock = path.with_name(f".{path.name}.lock")
     try:
-        descriptor = _acquire(path)
+        descriptor = _acquire(path, lock)
     except OSError as error:
         if error.errno not in NO_LOCKS:
             raise
-        path = path.with_name(path.name + OWNED)
-        descriptor = _own(path)
+        lock = lock.with_name(lock.name + OWNED)
+        descriptor = _own(path, lock)
     try:
         os.ftruncate(descriptor, 0)
         os.lseek(descriptor, 0, os.SEEK_SET)
         os.write(descriptor, f"{os.getpid()} on {socket.gethostname()}".encode())
         yield
     finally:
-        _release(path, descriptor)
+        _release(lock, descriptor)
 
 
-def _acquire(path: Path) -> int:
+def _refusal(path: Path, holder: str, left: Path | None = None) -> StoreError:
+    """Another process writes; left: the file to delete if it no longer runs; None where the system
+    knows.
+    """
+    process = f" (process {holder})" if holder else ""
+    gone = f" If it has ended, delete {left}." if left else ""
+    return StoreError(f"Another run is writing into {path}{process}.{gone}")
+
+
+def _acquire(path: Path, lock: Path) -> int:
     while True:
-        descriptor = os.open(path, HOW, 0o644)
+        descriptor = os.open(lock, HOW, 0o644)
         try:
             _lock(descriptor)
         except (BlockingIOError, PermissionError):  # the second one on Windows
             holder = _holder(descriptor)
             os.close(descriptor)
-            raise LockedError(holder) from None
+            raise _refusal(path, holder) from None
         except OSError:
             os.close(descriptor)
-            path.unlink(missing_ok=True)
+            lock.unlink(missing_ok=True)
             raise
-        if _is_still(path, descriptor):
+        if _is_still(lock, descriptor):
             return descriptor
         os.close(descriptor)  # the previous holder has just deleted this file
 
@@ -97,19 +98,19 @@ def _release(path: Path, descriptor: int) -> None:
         os.close(descriptor)
 
 
-def _own(path: Path) -> int:
-    """Create the file `path`, after removing one that a dead process of this host has left."""
-    if _is_dead(holder := _owner(path)):
-        aside = path.with_name(f"{path.name}.{os.getpid()}")
+def _own(path: Path, lock: Path) -> int:
+    """Create the file `lock`, after removing one that a dead process of this host has left."""
+    if _is_dead(holder := _owner(lock)):
+        aside = lock.with_name(f"{lock.name}.{os.getpid()}")
         with suppress(FileNotFoundError):
-            path.rename(aside)
+            lock.rename(aside)
             if _owner(aside) != holder:  # another process has just taken over
-                aside.rename(path)
+                aside.rename(lock)
             aside.unlink(missing_ok=True)
     try:
-        return os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o644)
+        return os.open(lock, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o644)
     except FileExistsError:
-        raise LockedError(_owner(path), path) from None
+        raise _refusal(path, _owner(lock), lock) from None
 
 
 def _owner(path: Path) -> str:

@@ -22,6 +22,7 @@ import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -140,8 +141,8 @@ def unreadable(path: str | os.PathLike[str]) -> dict[str, StoreError]:
     ids, each with the fault.
     """
     with _union(Path(path)) as blocks:
-        pairs = zip(blocks, newest_rows(blocks), strict=True)
-        return {k: v for block, rows in pairs for k, v in _unreadable(path, block, rows)}
+        faults = (_unreadable(path, block, rows) for block, rows in newest_rows(blocks))
+        return dict(chain.from_iterable(faults))
 
 
 def _unreadable(
@@ -194,17 +195,12 @@ def changed_cases(
     if not exists(path):
         return set()
     with _union(Path(path)) as blocks:
-        texts = _texts(blocks, ids)
-        return {case_id for case_id, text in texts if not _is_of(text, case_of(case_id))}
-
-
-def _texts(blocks: list[Block], ids: Collection[str]) -> Iterator[tuple[str, bytes]]:
-    """The stored text of each of these cases that has a row, by its id."""
-    for block, newest_row in zip(blocks, newest_rows(blocks), strict=True):
-        names = block.summary["case_id"]
-        rows = newest_row[[names[row] in ids for row in newest_row]]
-        for row, arrays in block.ragged["cases"].cases(rows, [TEXT]):
-            yield names[row], arrays[TEXT].tobytes()
+        texts = _in_file_order(blocks, ids, "cases", [TEXT])
+        return {
+            case_id
+            for case_id, arrays in texts
+            if not _is_of(bytes(arrays.get(TEXT, b"")), case_of(case_id))
+        }
 
 
 def _is_of(text: bytes, case: "Case") -> bool:
@@ -264,18 +260,26 @@ def read_curves(
     """Named columns of the curves of many cases, in their order in the file; no rows if a case has
     no curves.
     """
-    ids = {*case_ids}
+    left, none = {*case_ids}, {name: np.zeros(0) for name in names}
     with _union(Path(path)) as blocks:
-        for block, newest_row in zip(blocks, newest_rows(blocks), strict=True):
-            stored, curves = block.summary["case_id"], block.ragged["histories"]
-            rows = newest_row[[stored[row] in ids for row in newest_row]]
-            stored_names = [name for name in names if name in curves.arrays]
-            none = {name: np.zeros(0) for name in names}
-            for row, arrays in curves.cases(rows, stored_names):
-                ids.discard(stored[row])
-                yield stored[row], none | {k: v.astype(np.float64) for k, v in arrays.items()}
-    for case_id in ids:
+        for case_id, curves in _in_file_order(blocks, {*case_ids}, "histories", names):
+            left.discard(case_id)
+            yield case_id, none | {k: v.astype(np.float64) for k, v in curves.items()}
+    for case_id in left:
         raise StoreError(f"{path} holds no case {case_id}.")
+
+
+def _in_file_order(
+    blocks: list[Block], ids: Collection[str], group: str, names: Sequence[str]
+) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
+    """The named arrays of a group, as far as a block has them, of each of these cases that has a
+    row.
+    """
+    for block, newest_row in newest_rows(blocks):
+        stored, ragged = block.summary["case_id"], block.ragged[group]
+        rows = newest_row[[stored[row] in ids for row in newest_row]]
+        for row, arrays in ragged.cases(rows, [name for name in names if name in ragged.arrays]):
+            yield stored[row], arrays
 
 
 def _history(curves: dict[str, np.ndarray]) -> "DataFrame":
@@ -363,12 +367,9 @@ def damaged_ids(path: str | os.PathLike[str]) -> list[str]:
 
 
 def _read_arrays(path: Path, case_id: str, groups: Iterable[str]) -> dict[str, np.ndarray]:
-    with _union(path) as blocks:
-        for block in reversed(blocks):
-            rows = np.flatnonzero(block.summary["case_id"] == case_id)
-            if rows.size and rows[-1] not in block.damaged:
-                return _arrays(block, rows[-1], groups)
-    raise StoreError(f"{path} holds no case {case_id}.")
+    """The arrays of one case in some groups."""
+    [arrays] = [arrays(groups) for _, arrays in _arrays_of(path, [case_id])]
+    return arrays
 
 
 def _arrays_of(

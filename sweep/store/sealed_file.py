@@ -1,7 +1,7 @@
 """Opens one sealed file, a part or a whole results file; arrays are read as they are needed."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -12,8 +12,9 @@ import numpy as np
 
 from sweep.store.batch import FORMAT, GROUPS, Block, Ragged, is_as_written
 from sweep.store.checksum import CHECKSUM, attribute_checksum
-from sweep.store.damage import AGAIN, NOT_SO, changed_rows, undamaged
+from sweep.store.damage import AGAIN, FOREIGN, NOT_SO, changed_rows, undamaged
 from sweep.store.errors import StoreError
+from sweep.store.tables import Table
 
 CACHE = 1 << 16  # bytes of chunks kept of each array: a merge has 64 files open, of 30 arrays each
 FEW = 4096  # rows of a column that is kept in memory while its file is open
@@ -29,6 +30,8 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
             raise StoreError(f"{path} cannot be read: it is no regular file.")
         # A sealed file never changes, so it needs no lock, which would block other readers.
         file = stack.enter_context(h5py.File(path, "r", locking=False, rdcc_nbytes=CACHE))
+        if "format" not in file.attrs and "summary" not in file:
+            raise StoreError(f"{path} {FOREIGN}.")
         if (written := _attribute(file, "format")) != FORMAT:
             needed = f"this Crumple reads format {FORMAT}: {AGAIN}"
             raise StoreError(f"{path} is a results file of format {written}; {needed}.")
@@ -36,7 +39,7 @@ def open_sealed(path: Path, stack: ExitStack) -> Block:
         if attribute_checksum(attributes) != attributes[CHECKSUM]:
             raise ValueError("attributes other than those written")
         ragged = {name: _open_ragged(path, _inside(file, name, h5py.Group)) for name in GROUPS}
-        columns = _Members(path, _inside(file, "summary", h5py.Group), _column)
+        columns = _members(path, _inside(file, "summary", h5py.Group), _column)
         if (content := _identity(file)) not in _DAMAGED:
             while len(_DAMAGED) >= FILES_REMEMBERED:
                 _DAMAGED.pop(next(iter(_DAMAGED)), None)
@@ -80,7 +83,7 @@ def _identity(file: h5py.File) -> tuple[int, ...]:
 
 def _open_ragged(path: Path, group: h5py.Group) -> Ragged:
     values = _inside(group, "values", h5py.Group)
-    arrays = _Members(path, values, partial(_Array, path, group.name.strip("/")))
+    arrays = _members(path, values, partial(_Array, path, group.name.strip("/")))
     return Ragged(_numbers(group, "start"), _numbers(group, "rows"), arrays)
 
 
@@ -99,31 +102,24 @@ class _Array:
             return self._data[rows]
 
 
-class _Members(Mapping[str, Any]):
+def _members(path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> Table:
     """The datasets of a group of a sealed file, each opened or read when it is indexed.
 
     Texts are kept, as they take long to read, and so are small datasets, since there may be many
     files.
     """
+    kept: dict[str, Any] = {}
 
-    def __init__(self, path: Path, group: h5py.Group, take: Callable[[h5py.Dataset], Any]) -> None:
-        self._path, self._group, self._take = path, group, take
-        self._taken: dict[str, Any] = {}
-
-    def __getitem__(self, name: str) -> Any:
-        if name in self._taken:
-            return self._taken[name]
-        with undamaged(self._path):
-            taken = self._take(_inside(self._group, name, h5py.Dataset))
+    def member(name: str) -> Any:
+        if name in kept:
+            return kept[name]
+        with undamaged(path):
+            taken = take(_inside(group, name, h5py.Dataset))
         if not isinstance(taken, np.ndarray) or taken.dtype == object or len(taken) <= FEW:
-            self._taken[name] = taken
+            kept[name] = taken
         return taken
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._group)
-
-    def __len__(self) -> int:
-        return len(self._group)
+    return Table(group, member)
 
 
 def _column(data: h5py.Dataset) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 from sweep.result import Result
 from sweep.store.batch import Block, block_of, newest_rows
 from sweep.store.hdf5 import About, Growing, seal_blocks
-from sweep.store.lock import LockedError, exclusive
+from sweep.store.lock import exclusive
 from sweep.store.parts import (
     Part,
     clear_leftovers,
@@ -65,7 +65,7 @@ class Writer:
             raise StoreError(f"{self.path} cannot be written: allowed are names that end in .h5.")
         with _writing(self.path), ExitStack() as stack:
             make_folder(self.path.parent)
-            stack.enter_context(_only_writer(self.path))
+            stack.enter_context(exclusive(self.path))
             folded = folded_batches(self.path)
             self._refuse_others(list_parts(self.path))
             clear_leftovers(self.path, folded)
@@ -107,7 +107,7 @@ class Writer:
             added += [self._block(last)] if last else []
             if parts or added or not self._is_labelled():
                 growing, self._growing = self._file(), None  # cannot be used again after a failure
-                for block, rows in zip(added, newest_rows(added), strict=True):
+                for block, rows in newest_rows(added):
                     growing.add(block, rows)
                 growing.add_older(self._older(stack))
                 stack.close()  # Windows replaces no file that is open
@@ -180,14 +180,3 @@ def _writing(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise WriteError(f"{path} cannot be written: {error.strerror or error}.") from error
-
-
-@contextmanager
-def _only_writer(path: Path) -> Iterator[None]:
-    try:
-        with exclusive(path.with_name(f".{path.name}.lock")):
-            yield
-    except LockedError as error:
-        holder = f" (process {error.holder})" if error.holder else ""
-        gone = f" If it has ended, delete {error.left}." if error.left else ""
-        raise StoreError(f"Another run is writing into {path}{holder}.{gone}") from None

@@ -23,8 +23,8 @@ KERNELS = [module for module in PROGRAM if module.startswith("kernels")]
 FLOORS = [
     "kernels.compile", "kernels.arrays", "kernels.solve", "kernels.linear", "kernels.geometry",
     "kernels.laws", "kernels.shared", "kernels.terms", "kernels.planar", "kernels.plates",
-    "sweep.version", "sweep.constants", "sweep.numbers", "sweep.plain_text", "sweep.whole_file",
-    "sweep.loading_modes",
+    "sweep.version", "sweep.constants", "sweep.array_types", "sweep.numbers", "sweep.plain_text",
+    "sweep.whole_file", "sweep.loading_modes",
     "sweep.design", "sweep.config", "sweep.argument_types", "sweep.columns", "sweep.result",
     "sweep.scene", "sweep.effective", "sweep.coupon", "sweep.simulation", "sweep.store",
     "sweep.ranking", "sweep.report", "sweep.export", "sweep.results", "sweep.running",
@@ -116,7 +116,6 @@ TESTED_ELSEWHERE = {
     "sweep.cli.question": "sweep/cli/test_verbs.py",
     "sweep.cli.refusals": "sweep/cli/test_verbs.py",
     "sweep.cli.run": "sweep/cli/test_verbs.py",
-    "sweep.cli.status": "sweep/cli/test_verbs.py",
     "sweep.coupon.hyperelastic": "sweep/coupon/test_curve.py",
     "sweep.coupon.uncertainty": "sweep/coupon/test_fit.py",
     "sweep.design.infill": "sweep/design/test_infill.py",

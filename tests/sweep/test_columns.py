@@ -76,12 +76,6 @@ def test_choices_are_those_that_a_config_has(column, key):
     assert said == f"{', '.join(choices[:-1])} or {choices[-1]}"
 
 
-def test_gaps_are_described_alike_in_summary_and_history():
-    said = COLUMNS["min_gap_m"]
-    assert said == HISTORY_COLUMNS["min_gap_m"]
-    assert "platen" in said.description
-
-
 @pytest.mark.parametrize(
     ("name", "units", "better", "told"),
     [

@@ -12,7 +12,8 @@ from numpy import nan
 from pandas import DataFrame
 
 from kernels.solve import outcomes
-from sweep.cli.find_case import CaseError, by_number
+from sweep.cli.find_case import by_number
+from sweep.cli.refusals import ArgumentError
 from sweep.cli.terminal import warnings
 from sweep.config.case import Case
 from sweep.config.kinds.solver import Arcs
@@ -249,7 +250,7 @@ def of_finding() -> Iterator[str]:
     ):  # fmt: skip
         try:
             yield by_number(table, number, scene, Question(budget=budget))[1]
-        except CaseError as error:
+        except ArgumentError as error:
             yield f"refused: {error}"
 
 

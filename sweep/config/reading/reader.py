@@ -329,7 +329,7 @@ class Reader:
             key = keys[name]
             allowed = with_words(key.targets[0], key.allowed_for(raw))
             words = [*CHOICES.get(key.targets[0], ()), *key.schema.get("enum", ())]
-            near = similar(raw, words) if isinstance(raw, str) else ""
+            near = similar(raw, words) if isinstance(raw, str) else _in_percent(keys[name], raw)
             self._refuse(name, raw, f"{error}; allowed: {allowed}{near}", where)
             if not _is_share(key, raw):
                 return None
@@ -400,6 +400,12 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _in_percent(key: Key, raw: object) -> str:
+    """A clause with a number that may be meant in percent, with its sign; else empty."""
+    meant = key.unit == "1" and isinstance(raw, int | float) and 1 < raw < 100
+    return f'; for {raw:g} percent: "{raw:g} %"' if meant else ""
 
 
 def _is_share(key: Key, raw: object) -> bool:

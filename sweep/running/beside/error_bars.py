@@ -30,7 +30,7 @@ from sweep.config.grid import Config, sweep_of
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.ranking.unfinished import loaded
 from sweep.running.beside.refinement import refined
-from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.running.progress import announce
 from sweep.running.provenance import config_text, describe_run
 from sweep.store.read import Rerun, exists, finished_ids, read_summary
@@ -125,7 +125,7 @@ def companions_beside(
 def add_error_bars(
     sweep: Config | Sequence[Case],
     out: str | os.PathLike[str],
-    how: How = AS_USUAL,
+    how: How,
 ) -> int:
     """Compute error bars of the converged designs of a sweep; return how many designs have none.
 

@@ -24,9 +24,6 @@ class How(NamedTuple):
     simulate: Simulate | None = None
 
 
-AS_USUAL = How()
-
-
 def file_beside(
     out: str | os.PathLike[str], kind: Literal["companions", "screen", "spread"]
 ) -> Path:

@@ -29,7 +29,7 @@ from sweep.ranking.question import Question
 from sweep.ranking.rank import answer
 from sweep.ranking.unfinished import loaded
 from sweep.result import design_columns
-from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.store.read import read_summary
 
 EXTENSIVE = ("J", "N", "g")
@@ -72,7 +72,7 @@ def unit_column(design: Case) -> Case:
 def run_columns(
     designs: Sequence[Case],
     out: str | os.PathLike[str],
-    how: How = AS_USUAL,
+    how: How,
 ) -> DataFrame:
     """Run the missing columns of designs; return `estimates`."""
     columns = {design.case_id: unit_column(design) for design in designs}

@@ -11,14 +11,14 @@ that they are no designs of its ranking: `armor.spread.h5` beside `armor.h5`.
 """
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from sweep.config.case import Case
 from sweep.config.kinds.contact import Barrier
 from sweep.config.kinds.material import Material
 from sweep.coupon.curve import with_tension
-from sweep.running.beside.run_beside import AS_USUAL, How, file_beside, run_beside
+from sweep.running.beside.run_beside import How, file_beside, run_beside
 from sweep.scene.material import with_compression
 from sweep.store.read import read_case
 
@@ -28,19 +28,11 @@ BEST = 5  # designs of a ranking
 SEEDS = 1, 2, 3  # seeds of other imperfections of a lattice that is pressed along its cells
 
 
-class Corner(NamedTuple):
-    """A case with a number at an end of its range; `name` says which, such as "friction 0.9"."""
-
-    name: str
-    case: Case
-
-    @property
-    def case_id(self) -> str:
-        """The id of the case."""
-        return self.case.case_id
+Corners = Mapping[str, Case]
+"""Cases with a number at an end of its range, by their names, such as "friction 0.9"."""
 
 
-def corners(design: Case) -> list[Corner]:
+def corners(design: Case) -> dict[str, Case]:
     """The corners of a design that differ from it. A friction that the sweep varies is not
     changed.
     """
@@ -50,14 +42,14 @@ def corners(design: Case) -> list[Corner]:
     friction = ranges.pop("friction", FRICTION)
     if isinstance(design.contact, Barrier) and "contact.friction" not in design.axes:
         ranges["friction"] = friction
-    candidates = [
-        Corner(f"{name} {end}", _with_value(design, name, value))
+    candidates = {
+        f"{name} {end}": _with_value(design, name, value)
         for name, ends in ranges.items()
         for end, value in _named(name, ends)
-    ]
+    }
     if design.shells and design.lattice.imperfection > 0.0:
-        candidates += [Corner(f"imperfection {seed}", _bowed(design, seed)) for seed in SEEDS]
-    return [corner for corner in candidates if corner.case_id != design.case_id]
+        candidates |= {f"imperfection {seed}": _bowed(design, seed) for seed in SEEDS}
+    return {name: case for name, case in candidates.items() if case.case_id != design.case_id}
 
 
 def _bowed(design: Case, seed: int) -> Case:
@@ -98,7 +90,7 @@ def _other(material: Material, name: str, value: float) -> dict[str, Any]:
 
 def corners_of(
     cases: Iterable[Case], best: Iterable[str], out: str | os.PathLike[str]
-) -> dict[str, list[Corner]]:
+) -> dict[str, Corners]:
     """The corners of the `best` cases by their ids: cases of the sweep, which have its present
     labels and time limit, and others as `out` holds them.
     """
@@ -107,11 +99,11 @@ def corners_of(
 
 
 def run_corners(
-    by_design: Mapping[str, Sequence[Corner]],
+    by_design: Mapping[str, Corners],
     out: str | os.PathLike[str],
-    how: How = AS_USUAL,
+    how: How,
 ) -> None:
     """Run the missing corners of designs in `out`."""
-    others = {c.case_id: c.case for several in by_design.values() for c in several}
+    others = {case.case_id: case for group in by_design.values() for case in group.values()}
     what = f"spread of {len(by_design)} designs: {len(others)} cases"
     run_beside(others, file_beside(out, "spread"), what, how)

@@ -16,7 +16,6 @@ from sweep.config.kinds.specimen import WallLattice
 from sweep.config.kinds.table import RefusedError
 from sweep.ranking.spread import FINE
 from sweep.running.beside.refinement import layers, mesh
-from sweep.running.beside.spread import Corner
 
 WALLS = {"walls -5 %": 0.95, "walls +5 %": 1.05}
 BOWS = {"imperfection / 4": 0.25, "imperfection x 4": 4.0}
@@ -45,8 +44,8 @@ def _near(one: object, other: object) -> bool:
     return one == other
 
 
-def perturbed(design: Case) -> list[Corner]:
-    """The design with twice the elements, and with it variants with other walls and imperfections.
+def perturbed(design: Case) -> dict[str, Case]:
+    """By name, the design with twice the elements, and with it other walls and imperfections.
 
     Plates that would have too many nodes keep their mesh; changes that do not fit the rest of a
     design are left out.
@@ -62,7 +61,7 @@ def perturbed(design: Case) -> list[Corner]:
         amount = base.lattice.imperfection
         bows = BOWS if amount else {}
         variants |= {name: _with(base, {"imperfection": by * amount}) for name, by in bows.items()}
-    return [Corner(name, case) for name, case in variants.items() if case]
+    return {name: case for name, case in variants.items() if case}
 
 
 def _elements(lattice: Lattice, ratio: int) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from math import inf, prod
 
 from sweep.config.axis import Choice, Written
 from sweep.config.case import Case
+from sweep.config.faults import ReportedError
 from sweep.config.grid import Config
 from sweep.config.kinds.crush import Crush
 from sweep.config.load import Source, load_config
@@ -28,7 +29,7 @@ FORCES = "loading.allowed_forces"
 NEEDED = '"lattice.wall_thickness" = {from = "0.4 mm", to = "1.6 mm"} or the like'
 
 
-class OptimizeError(ValueError):
+class OptimizeError(ReportedError, ValueError):
     """A search that is not possible; the text is one sentence."""
 
 

@@ -47,6 +47,7 @@ MUTATION = 0.2, 0.6  # below scipy's value, which suits thousands of evaluations
 IDLE = 20  # generations without a new design that end a population
 CLOSE = 1e-3  # relative scatter of the values at which a population has converged
 RENEW = Rerun(older=True)  # a search does not compare versions of the model
+NONE_YET = Assessment("", {}, {}, doubtful=0)
 
 
 class Settings(NamedTuple):
@@ -71,7 +72,7 @@ class Search:
     settings: Settings
     simulate: Simulate | None = None
     cases: dict[str, Case] = field(default_factory=dict)
-    assessment: Assessment | None = None
+    assessment: Assessment = NONE_YET
     _cache: Cache = field(default_factory=dict)
     _idle: int = 0
     _before: int = 0  # designs before the present generation
@@ -87,7 +88,7 @@ class Search:
         """Number of evaluations left."""
         return self.settings.evaluations - len(self.cases)
 
-    def run(self) -> Assessment | None:
+    def run(self) -> Assessment:
         """Search until all evaluations are used up, or nothing new is found."""
         for seed in count(self.settings.seed * 1000):
             before = len(self.cases)
@@ -142,9 +143,8 @@ class Search:
 
         A design without a value, or one that misses a requirement, costs inf.
         """
-        ids, assessment = self._assessed(points)
-        values = assessment.by_id if assessment else {}
-        sign = assessment.sign if assessment else 1.0
+        ids = self._assessed(points)
+        values, sign = self.assessment.by_id, self.assessment.sign
         return np.array([sign * values.get(case_id, sign * inf) for case_id in ids])
 
     def violations(self, points: np.ndarray) -> np.ndarray:
@@ -152,14 +152,13 @@ class Search:
 
         The violation of a design without a value is inf.
         """
-        ids, assessment = self._assessed(points.reshape(self.space.dimension, -1))
-        fulfil, missed = (assessment.by_id, assessment.missed) if assessment else ({}, {})
+        ids = self._assessed(points.reshape(self.space.dimension, -1))
+        fulfil, missed = self.assessment.by_id, self.assessment.missed
         values = [0.0 if case_id in fulfil else missed.get(case_id, inf) for case_id in ids]
         return np.array(values if points.ndim == 1 else [values])
 
-    def _assessed(self, points: np.ndarray) -> tuple[list[str], Assessment | None]:
-        """The ids of the designs at ``points``, "" where there is none, and the assessment of all
-        so far.
+    def _assessed(self, points: np.ndarray) -> list[str]:
+        """The ids of the designs at ``points``, "" where there is none; `assessment` has them all.
 
         Simulates no more designs than there are evaluations left; further ones have no value.
         """
@@ -171,7 +170,7 @@ class Search:
             if chosen.keys() - finished_ids(self.out, RENEW):
                 self._simulate()
             self._assess()
-        return [design.case_id if design else "" for design in designs], self.assessment
+        return [design.case_id if design else "" for design in designs]
 
     def _simulate(self) -> None:
         """Run the designs so far that the file does not contain."""

@@ -17,6 +17,7 @@ from sweep.report.tables.sheet import Sheet
 from sweep.result import Status
 from sweep.running.beside.error_bars import add_error_bars
 from sweep.running.beside.refinement import refined
+from sweep.running.beside.run_beside import How
 from sweep.running.sweep import run_sweep
 from sweep.store.read import read_summary
 from tests.studies.tables import publish
@@ -82,7 +83,7 @@ def main(folder):
     references = [finer(design) for design in designs]
     files = folder / "designs.h5", folder / "references.h5"
     run_sweep(designs, files[0])
-    add_error_bars(designs, files[0])
+    add_error_bars(designs, files[0], How())
     run_sweep(references, files[1])
     tables = [
         read_summary(file).set_index("case_id").loc[[case.case_id for case in cases]]

@@ -38,7 +38,7 @@ class Kept(list):
 
 
 class Logged(list):
-    """A simulation, and the ids of the cases that it has run."""
+    """A simulation, and the ids of the cases that it has run; false before the first."""
 
     def __init__(self, simulate):
         self.simulate = simulate
@@ -47,10 +47,6 @@ class Logged(list):
         """Run a case, and remember its id."""
         self.append(case.case_id)
         return self.simulate(case)
-
-    def __bool__(self):
-        """It is a simulation before its first case, too."""
-        return True
 
 
 def cases(count, first=0):

@@ -71,15 +71,7 @@ def test_a_command_opens_one_place_and_an_estimate_none(capsys, opened, words, e
     assert opened == expected
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (["--wait", "1 min"], ("tcp://host:1", 60.0)),
-        (["--workers", "1"], (None, 60.0)),
-        (["--scheduler", "tcp://host:2"], ("tcp://host:2", 60.0)),
-    ],
-)
-def test_the_environment_counts_unless_threads_are_asked_for(capsys, opened, words, expected):
+def test_a_wait_is_also_of_the_scheduler_of_the_environment(capsys, opened):
     with dask.config.set({"scheduler-address": "tcp://host:1"}):
-        crumple(capsys, "run", "trial.toml", *words)
-    assert opened == [expected]
+        crumple(capsys, "run", "trial.toml", "--wait", "1 min")
+    assert opened == [("tcp://host:1", 60.0)]

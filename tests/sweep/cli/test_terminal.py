@@ -80,7 +80,7 @@ SHEET = Sheet("", HEADS, [ROW, ROW], spare=("peak N", "mass g"))
     ],
 )
 def test_a_table_is_made_to_fit_without_cutting_numbers(limit, gap, heads):
-    shown = fitted(SHEET, limit, limit)
+    shown = fitted(SHEET, limit)
     assert shown.sheet.heads == heads
     assert shown.gap == gap
     assert shown.width <= limit or limit == 5
@@ -104,7 +104,7 @@ DESIGNS = Sheet(
 @pytest.mark.parametrize("limit", [200, 40, 30, 24])
 def test_rows_are_those_that_rich_prints(limit, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(limit))
-    shown = fitted(DESIGNS, limit, limit)
+    shown = fitted(DESIGNS, limit)
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, padding=(0, shown.gap - 1, 0, 0))
     sides = ("left", "right", "left", "left")
     for head, width, side in zip(shown.heads, shown.widths, sides, strict=True):

@@ -51,5 +51,10 @@ def test_what_a_record_leaves_open_is_asked_for(record):
         fit_material(record)
     with pytest.raises(ConfigError, match="a length with a unit"):
         fit_material(record, gauge="33")
+    with pytest.raises(CouponError, match="--density: -1200 in SI; allowed: above 0"):
+        fit_material(record, **SIZES | {"density": "-1200 kg/m^3"})
+    for option, allowed in {"test": "pulled, pressed", "zero": "first, line"}.items():
+        with pytest.raises(CouponError, match=f"--{option} last; allowed: {allowed}"):
+            fit_material(record, **SIZES | {option: "last"})
     with pytest.raises(MisfitError, match="allowed: another file"):
         fit_material(record, record, **SIZES)

@@ -52,7 +52,7 @@ def test_stl_weighs_what_the_ranking_says(file, tmp_path):
     grams = 1e-3 * mesh.volume * 1e-3 * CASE.material.density
     (row,) = crumple.read_summary(file).query(f"case_id == '{CASE.case_id}'")["mass_g"]
     assert grams == pytest.approx(row, rel=1e-5)
-    assert found.notes == [f"13.3 x 13.3 mm, 12 mm deep: {row:.4g} g"]
+    assert found.notes[0] == f"13.3 x 13.3 mm, 12 mm deep: {row:.4g} g"
 
 
 def test_case_is_exported_before_it_runs(file, tmp_path):
@@ -85,7 +85,7 @@ DIAMOND = {"kind": "diamond", "cells_x": 2, "cells_y": 2, "wall_thickness": 1.6e
 )
 def test_a_panel_is_described(tmp_path, lattice, sides, size, counted):
     case = Case.of(lattice=lattice) if lattice else CASE
-    first, second = export_case(case, tmp_path / "a.stl", panel=sides).notes
+    first, second, _ = export_case(case, tmp_path / "a.stl", panel=sides).notes
     assert first.startswith(size)
     assert re.match(counted, second)
 
@@ -93,7 +93,7 @@ def test_a_panel_is_described(tmp_path, lattice, sides, size, counted):
 def test_panel_of_what_is_pressed_along_its_cells_shows_its_drawing(tmp_path):
     """Plans of 13.3 x 13.3 mm, 7 x 4 of them: as high as one, apart in both directions."""
     case = Case.of(loading=dict(direction="out_of_plane"))
-    size, _ = export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05)).notes
+    size, *_ = export_case(case, tmp_path / "panel.stl", panel=("100 mm", 0.05)).notes
     body = trimesh.load_mesh(tmp_path / "panel.stl")
     side, height = 1e3 * case.lattice.outer_size[0], 1e3 * case.lattice.depth
     extents = [count * (side + 0.4) - 0.4 for count in (7, 4)]
@@ -125,6 +125,7 @@ def test_a_panel_is_what_is_ranked_and_searched(file, tmp_path, sides):
 
 def test_lattice_in_3mf_asks_for_full_infill_in_words_only(file, tmp_path):
     notes = exported(file, tmp_path / "part.3mf").notes
+    assert exported(file, tmp_path / "part.stl").notes == notes
     names = ZipFile(tmp_path / "part.3mf").namelist()
     assert not [name for name in names if name.startswith("Metadata")]
     assert notes[1] == "print it with 100 % infill"

@@ -74,7 +74,7 @@ def test_panel_that_holds_nothing_or_too_much_is_refused(sides, why):
 
 def test_block_is_the_box_round_the_walls():
     design, shape = part(perimeters=2)
-    assert block(design.lattice).bounds == pytest.approx(shape.bounds, abs=1e-4)
+    assert block(design.case.lattice).bounds == pytest.approx(shape.bounds, abs=1e-4)
 
 
 def test_gaps_of_round_off_are_closed_and_others_refused():

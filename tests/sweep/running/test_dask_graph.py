@@ -15,11 +15,10 @@ from sweep.running.batches import Plan
 from sweep.running.child_process import run_alone
 from sweep.running.cluster import ClusterError, open_cluster
 from sweep.running.dask_graph import LOSSES, Suspects, Work, _Run, run_on_cluster
-from sweep.running.fingerprint import source_hash
-from sweep.running.on_worker import Kernels, OtherSourceError, inspect_kernels
+from sweep.running.fingerprint import OtherSourceError, source_hash
 from sweep.running.sweep import run_sweep
 from sweep.running.threads import Stop, run_batch
-from sweep.running.warming import load
+from sweep.running.warming import Kernels, inspect_kernels, load
 from sweep.store.read import read_statuses
 from tests.support.cluster import ROOT, Processes
 from tests.support.results.standin import Kept, cases, number_of, simulate
@@ -132,7 +131,7 @@ def test_workers_come_and_go_and_a_lost_scheduler_ends_the_run(shared, tmp_path)
         def kill(results):
             kept(results)
             worker.kill()
-            if lines[-1].startswith("there are workers again"):
+            if lines and lines[-1].startswith("there are workers again"):
                 processes.scheduler.kill()
 
         def say(line):

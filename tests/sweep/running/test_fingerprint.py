@@ -4,8 +4,16 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from sweep.result import MODEL_VERSION
-from sweep.running.fingerprint import differences, fingerprint, source_hash
+from sweep.running.fingerprint import (
+    OtherSourceError,
+    checked,
+    differences,
+    fingerprint,
+    source_hash,
+)
 
 ROOT = Path(__file__).parents[3]
 OTHER = "from sweep.running.fingerprint import fingerprint; print(fingerprint())"
@@ -42,3 +50,11 @@ def test_differences_name_both_sides():
         differences(theirs, ours)
         == "numba 0.60.0 (this run: 0.61.2), source unknown (this run: ab)"
     )
+
+
+def test_a_task_of_another_source_does_not_run():
+    ran = []
+    assert checked(fingerprint(), divmod, 7, 2) == (3, 1)
+    with pytest.raises(OtherSourceError, match=r"numba \S+ \(this run: 0\.1\)"):
+        checked({**fingerprint(), "numba": "0.1"}, ran.append, 1)
+    assert ran == []

@@ -1,8 +1,10 @@
 """The limit of memory: the free memory of the machine and of the control groups of the process."""
 
 from resource import RLIMIT_DATA, getrlimit
+from types import SimpleNamespace
 
 import numpy as np
+import psutil
 import pytest
 
 from sweep.running import memory
@@ -16,14 +18,13 @@ def machine(tmp_path, monkeypatch):
     """Files of a machine with 8 GB free, in which this process has 1 GB, in a group without limits;
     returns the folder of all groups.
     """
-    proc, groups = tmp_path / "proc", tmp_path / "groups"
-    for folder in (proc / "self", groups / "job/step"):
-        folder.mkdir(parents=True)
-    (proc / "meminfo").write_text("MemTotal: 99999999 kB\nMemAvailable: 8388608 kB\n")
-    (proc / "self/status").write_text("Name: python\nVmData: 1048576 kB\n")
-    (proc / "self/cgroup").write_text("4:memory:/old\n0::/job/step\n")
+    own, groups = tmp_path / "cgroup", tmp_path / "groups"
+    (groups / "job/step").mkdir(parents=True)
+    own.write_text("4:memory:/old\n0::/job/step\n")
     (groups / "job/step/memory.max").write_text("max\n")
-    monkeypatch.setattr(memory, "PROC", proc)
+    monkeypatch.setattr("psutil.virtual_memory", lambda: SimpleNamespace(available=8 * GB))
+    monkeypatch.setattr("psutil.Process.memory_info", lambda _: SimpleNamespace(data=GB))
+    monkeypatch.setattr(memory, "OWN_GROUPS", own)
     monkeypatch.setattr(memory, "GROUPS", groups)
     return groups
 
@@ -42,7 +43,7 @@ def test_a_control_group_or_one_above_it_has_a_limit(machine, file):
 
 
 def test_beyond_the_limit_an_array_is_an_error_and_the_limit_ends_with_the_block(monkeypatch):
-    before, has = getrlimit(RLIMIT_DATA), memory._kilobytes("self/status", "VmData") * memory.KB
+    before, has = getrlimit(RLIMIT_DATA), psutil.Process().memory_info().data
     monkeypatch.setattr(memory, "most_data", lambda: has + GB // 4)
     with limited_memory(), pytest.raises(MemoryError):
         np.empty(GB // 2, np.uint8)

@@ -32,13 +32,13 @@ def ended(case, cpu):
     return result
 
 
-def test_time_left_is_weighed_by_cost(clock):
+def test_time_left_is_weighed_by_cost(clock, monkeypatch):
     """The short half of the cases is done, at two a second; the other half is ten times as long."""
     batch, out = cases(40), io.StringIO()
     costs = {case.case_id: 1.0 if number < 20 else 10.0 for number, case in enumerate(batch)}
-    weight = lambda case: costs[case.case_id]  # noqa: E731
+    monkeypatch.setattr(progress, "cost", lambda case: costs[case.case_id])
     work = {kind(batch[0]): 220.0}
-    with Progress(40, work, console=Console(file=out), weight=weight) as told:
+    with Progress(40, work, console=Console(file=out)) as told:
         for begin in range(0, 20, 4):
             clock.now += 2.0
             told.advance([ended(case, 0.5) for case in batch[begin : begin + 4]])
@@ -47,14 +47,15 @@ def test_time_left_is_weighed_by_cost(clock):
     assert "20/40 cases, 2 a second, 0:01:40 left, 1 failed" in out.getvalue().splitlines()
 
 
-def test_time_left_is_that_of_the_kinds_that_wait(clock):
+def test_time_left_is_that_of_the_kinds_that_wait(clock, monkeypatch):
     """Impacts whose steps are chosen by an error take 30 times as long as their cost says. Two of
     ten have ended when all crushes have.
     """
     crushes = cases(20)
     impacts = [case.changed(loading={"mode": "impact"}) for case in cases(10)]
     work = {kind(crushes[0]): 20.0, kind(impacts[0]): 10.0}
-    with Progress(30, work, console=Console(file=io.StringIO()), weight=lambda _: 1.0) as told:
+    monkeypatch.setattr(progress, "cost", lambda _: 1.0)
+    with Progress(30, work, console=Console(file=io.StringIO())) as told:
         for number, case in enumerate(crushes):
             clock.now += 0.5
             told.advance([ended(case, 0.5 if number else 30.0)])  # the first one loads the kernels

@@ -21,7 +21,6 @@ from sweep.running.writer_thread import AT_RISK, result_sink
 from sweep.store.read import (
     Rerun,
     StoreError,
-    exists,
     read_attributes,
     read_frames,
     read_history,
@@ -59,21 +58,6 @@ def test_kill_in_the_middle_loses_only_batches_in_flight(tmp_path, executions):
         for name, array in one.items():
             np.testing.assert_array_equal(array, other[name])
     assert sorted(p.name for p in tmp_path.iterdir()) == ["executions", "killed.h5", "reference.h5"]
-
-
-class Recorder(list):
-    """Simulates and records cases; false until it has recorded one."""
-
-    def __call__(self, case, stop):
-        """Record and simulate one case."""
-        self.append(case)
-        return simulate(case)
-
-
-def test_a_false_function_is_called_too(tmp_path):
-    recorder = Recorder()
-    assert run_sweep(cases(3), tmp_path / "sweep.h5", simulate=recorder) == 0
-    assert len(recorder) == 3
 
 
 def test_interruption_in_this_process(tmp_path):
@@ -247,16 +231,6 @@ def test_file_says_where_its_results_come_from(tmp_path):
     assert len(about["git_revision"]) >= 7
     assert about["compiler"] in {"fast", "stock"}
     assert read_summary(out)["lattice.imperfection"].tolist() == [0.0, 0.001]
-
-
-def test_file_of_something_else_is_refused_before_any_case_runs(tmp_path):
-    out = tmp_path / "sweep.h5"
-    out.write_text("mine")
-    with pytest.raises(StoreError, match="not a results file"):
-        run_sweep(cases(3), out, simulate=slow)
-    assert out.read_text() == "mine"
-    assert exists(out)
-    assert list(tmp_path.iterdir()) == [out]
 
 
 def crowded(case, control):

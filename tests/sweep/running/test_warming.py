@@ -3,7 +3,7 @@
 import pytest
 
 from sweep.config.case import Case
-from sweep.running.warming import real_simulate, simulate_unloaded
+from sweep.running.warming import Kernels, inspect_kernels, real_simulate, simulate_unloaded
 from sweep.simulation.retries import simulate_again
 from sweep.simulation.warm_up import kernels_of
 
@@ -37,3 +37,10 @@ def test_for_a_cluster_nothing_is_loaded_here(cold, capsys):
     assert simulate_unloaded([Case.of(), Case.of()]) == (simulate_again, ["marches"])
     assert cold == []
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("lasting", [True, False])
+def test_cold_kernels_are_found(monkeypatch, lasting):
+    monkeypatch.setattr("kernels.compile.cache.is_lasting", lambda: lasting)
+    monkeypatch.setattr("kernels.compile.cache.is_cold", lambda name: name == "plates")
+    assert inspect_kernels(["marches", "plates"]) == Kernels(["plates"], lasting)

@@ -35,6 +35,7 @@ def test_file_of_something_else_is_refused_in_one_line(path, content):
         with pytest.raises(StoreError, match="not a results file") as refusal:
             use(path)
         assert "\n" not in str(refusal.value)
+    assert content is None or path.read_bytes() == content
 
 
 READS = {

@@ -109,6 +109,9 @@ def test_a_row_that_holds_another_case_is_found(path, fold):
     edited(sealed, b'"imperfection":0.003', b'"imperfection":0.009')
     assert changed_cases(path, KNOWN, KNOWN.get) == {batch[3].case_id}
     assert changed_cases(path, {batch[1].case_id}, KNOWN.get) == set()
+    with h5py.File(sealed, "r+") as file:
+        del file["cases/values/json"]
+    assert changed_cases(path, KNOWN, KNOWN.get) == {case.case_id for case in batch}
 
 
 def test_labels_of_another_sweep_are_no_other_case_but_what_follows_them_is(path):

@@ -96,7 +96,7 @@ TWO = "[grid]\nlattice.cells = [2, 3]\n"
         ('[lattice]\nkind = "hex"\nfile = "a.svg"', [UNREAD]),
         ('[loading]\nmode = "impact"\nmass = "1 kg"', [f"{UNKNOWN} loading.striker_mass"]),
         ('[loading]\nmode = "displacement"\nstrain = "150 %"', ['"20 %", above 0, below 100 %']),
-        ("[loading]\nstrain = 60", ["out of range", '"20 %", above 0, below 1']),
+        ("[loading]\nstrain = 60", ["out of range", '"20 %", above 0, below 1', '"60 %"']),
         ('[material]\nname = "ninjaflx"', ["unknown material", *available(), ".csv"]),
         ('[material]\nname = "mine.csv"', ["there is no ", "/mine.csv", *available()]),
         ("[material]\nloss = [0.2, 0.4]", ["[grid]", "at most 0.8"]),

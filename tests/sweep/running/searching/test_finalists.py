@@ -27,26 +27,26 @@ def test_finalists_stand_on_different_peaks():
 
 def test_each_has_twice_the_elements_and_one_change():
     case = design("hex", 3, 0.6e-3)
-    found = {corner.name: corner.case.lattice for corner in perturbed(case)}
+    found = {name: corner.lattice for name, corner in perturbed(case).items()}
     assert {lattice.nodes_per_wall for lattice in found.values()} == {15}
     walls = [lattice.wall_thickness for lattice in found.values()]
     assert walls == pytest.approx([0.6e-3, 0.57e-3, 0.63e-3, 0.6e-3, 0.6e-3])
     bows = [lattice.imperfection for lattice in found.values()]
     assert bows == pytest.approx([0.01, 0.01, 0.01, 0.0025, 0.04])
     assert next(iter(found)) == FINE
-    assert len({corner.case_id for corner in perturbed(case)} | {case.case_id}) == 6
+    assert len({corner.case_id for corner in perturbed(case).values()} | {case.case_id}) == 6
 
 
 def test_walls_of_a_given_mass_stay_as_they_were():
     case = Case.of(lattice=dict(mass=1e-3), loading=PRESSED, axes={"lattice.mass": 1e-3})
-    walls = [corner.case.lattice.wall_thickness for corner in perturbed(case)[:3]]
+    walls = [corner.lattice.wall_thickness for corner in perturbed(case).values()][:3]
     same = case.lattice.wall_thickness
     assert walls == pytest.approx([same, 0.95 * same, 1.05 * same])
 
 
 def test_straight_walls_have_no_imperfection_to_change():
     case = Case.of(lattice=dict(imperfection=0.0), loading=PRESSED)
-    assert [corner.name for corner in perturbed(case)] == [FINE, "walls -5 %", "walls +5 %"]
+    assert list(perturbed(case)) == [FINE, "walls -5 %", "walls +5 %"]
 
 
 def test_layers_that_are_given_are_twice_as_many_but_no_lower_than_walls():
@@ -54,15 +54,15 @@ def test_layers_that_are_given_are_twice_as_many_but_no_lower_than_walls():
     given = {"width": 12e-3, "height": 12e-3, "depth": 12e-3, "cells_x": 1, "cells_y": 1}
     lattice = dict(wall_thickness=0.4e-3, nodes_per_wall=3, layers=12, **given)
     case = Case.of(lattice=lattice, loading=dict(direction="out_of_plane", strain=0.3))
-    assert perturbed(case)[0].case.lattice.layers == 24
+    assert perturbed(case)[FINE].lattice.layers == 24
     high = case.model_copy(update={"lattice": case.lattice.model_copy(update={"layers": 28})})
-    assert [corner.case.lattice.layers for corner in perturbed(high)] == [30, 31, 28, 30, 30]
+    assert [corner.lattice.layers for corner in perturbed(high).values()] == [30, 31, 28, 30, 30]
 
 
 def test_plates_of_many_nodes_keep_their_mesh():
     given = {"width": 20e-3, "height": 20e-3, "cells_x": 5, "cells_y": 5, "wall_thickness": 0.3e-3}
     case = Case.of(lattice=given, loading=dict(direction="out_of_plane", strain=0.3))
-    found = {corner.name: corner.case.lattice for corner in perturbed(case)}
+    found = {name: corner.lattice for name, corner in perturbed(case).items()}
     assert list(found) == ["walls -5 %", "walls +5 %", "imperfection / 4", "imperfection x 4"]
     meshes = {(lattice.nodes_per_wall, lattice.layers) for lattice in found.values()}
     assert meshes == {(case.lattice.nodes_per_wall, case.lattice.layers)}
@@ -72,9 +72,7 @@ def test_plates_of_many_nodes_keep_their_mesh():
 def test_lines_of_a_slicer_are_wider_at_the_same_distance(slicer):
     """The wider lines extrude 5 % more. The settings are a column of the results."""
     laid = lattice_with(slicer=slicer, pattern="grid", infill=0.2, width=25e-3, height=25e-3)
-    cases = {
-        corner.name: corner.case for corner in perturbed(Case.of(lattice=laid, loading=PRESSED))
-    }
+    cases = perturbed(Case.of(lattice=laid, loading=PRESSED))
     thin, fine, thick = (cases[name].lattice for name in ("walls -5 %", FINE, "walls +5 %"))
     assert fine.infill == 0.2
     walls = [lattice.wall_thickness / laid.wall_thickness for lattice in (thin, fine, thick)]

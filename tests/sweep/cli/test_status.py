@@ -1,8 +1,8 @@
-"""The status of a results file for other programs."""
+"""The status of a results file for other programs; its text: `test_verbs.py`."""
 
 import json
 
-from sweep.cli.status_json import status_record
+from sweep.cli.status import status_record
 from sweep.result import MODEL_VERSION
 from tests.support.results.specimens import summary
 
