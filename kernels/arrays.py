@@ -48,8 +48,8 @@ def zero_rows(matrix):
 
 @jit_exact
 def greatest(vector):
-    """Return the largest entry of ``vector`` (n,)."""
-    most = vector[0]
+    """Return the largest entry of ``vector`` (n,), or 0 if all are negative or there is none."""
+    most = 0.0
     for i in range(vector.size):
         most = max(most, vector[i])
     return most

@@ -197,7 +197,7 @@ def test_a_step_that_outlasts_a_collapse_is_minimised_like_a_static_one():
         solver=dict(time_step=0.1),
     )
     whole = simulate(case)
-    with patch("sweep.scene.loading._time_of_fall", return_value=np.inf):
+    with patch("sweep.scene.loading.sqrt", return_value=np.inf):
         followed = simulate(case)
     assert whole.status == followed.status == "converged"
     assert whole.summary["steps"] == 20

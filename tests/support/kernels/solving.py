@@ -253,7 +253,11 @@ def go_on(case, scene, state, stage, control=RUN, frames=None, **tolerance):
 
 def floating(case):
     """The scene of a case without its supports: only the platens are held."""
-    with patch(
-        "sweep.scene.lattice.supports", lambda layout, *_: np.array([layout.low, layout.high])
-    ):
+
+    def leaders(numbering, *_):
+        leader = np.arange(numbering.size)
+        leader[[numbering.low, numbering.high]] = -1
+        return leader
+
+    with patch("sweep.scene.lattice.leaders", leaders):
         return build_scene(case)
