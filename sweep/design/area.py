@@ -7,7 +7,7 @@ shapes.
 import numpy as np
 
 from kernels.geometry import scanline, slabs
-from sweep.design.drawing import Floats, Indices
+from sweep.array_types import Floats, Ints
 
 LINES = 16  # scanlines across the thinnest wall: error 3e-4 with many walls, 1e-3 with one wall
 CHUNK = 1 << 19  # intervals held in memory at a time
@@ -26,7 +26,7 @@ def united_area(loops: Floats) -> float:
     return float(slabs.area(*polygons, np.sort(heights[:count])))
 
 
-def covered_area(points: Floats, edges: Indices, thickness: Floats) -> float:
+def covered_area(points: Floats, edges: Ints, thickness: Floats) -> float:
     """Area (m^2) of the union of walls with round ends, by scanlines.
 
     points (n, 2) and thickness (m,) of the elements in m; edges (m, 2): the nodes of each element.

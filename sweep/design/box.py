@@ -5,16 +5,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.drawing import (
-    Floats,
-    Indices,
-    Sketch,
-    joints_and_walls,
-    on_outline,
-    outer_rows,
-    sample,
-    sketch,
-)
+from sweep.array_types import Floats, Ints
+from sweep.design.drawing import Sketch, joints_and_walls, on_outline, outer_rows, sample, sketch
 from sweep.design.geometry import Geometry
 from sweep.design.network import Network
 
@@ -56,7 +48,7 @@ def gradient(geometry: Geometry) -> Floats:
 
 
 def _outlines(
-    geometry: Geometry, points: Floats, walls: Indices
+    geometry: Geometry, points: Floats, walls: Ints
 ) -> list[tuple[NDArray[np.bool_], float]]:
     """For each side with an outline: which walls lie on it (w,), and their thickness."""
     outlines = []
@@ -81,7 +73,7 @@ def _opening(drawn: Sketch) -> float:
     return float(clear_widths(points, walls).min())
 
 
-def clear_widths(points: Floats, walls: Indices) -> Floats:
+def clear_widths(points: Floats, walls: Ints) -> Floats:
     """Diameter (m) of the largest circle in each cell between walls, with equal cells counted
     once.
     """

@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.design.geometry import Geometry
 from sweep.design.infill import Drawing, drawer
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 TOLERANCE = 1e-9  # share of the box: points nearer than that are one point
@@ -47,7 +46,7 @@ def sketch(geometry: Geometry, outlined: bool = True) -> Sketch:
 
 
 @lru_cache(maxsize=256)
-def joints_and_walls(sketch: Sketch) -> tuple[Floats, Indices]:
+def joints_and_walls(sketch: Sketch) -> tuple[Floats, Ints]:
     """Joints (j, 2) in m, row by row from the bottom, and walls (w, 2), horizontal ones first."""
     draw = drawer(sketch.kind, sketch.orientation)
     columns, rows = (range(n) for n in sketch.cells)
@@ -125,13 +124,13 @@ def _with_cells(sketch: Sketch, axis: int, n: int) -> Sketch:
     return sketch._replace(cells=cells, box=(float(width), float(height)))
 
 
-def on_outline(points: Floats, walls: Indices, side: float, axis: int) -> Flags:
+def on_outline(points: Floats, walls: Ints, side: float, axis: int) -> Flags:
     """Which walls lie on the line x (axis 0) or y (axis 1) = ``side``, (w,)."""
     on: Flags = np.all(points[walls][..., axis] == side, axis=1)
     return on
 
 
-def outer_rows(points: Floats) -> tuple[Indices, Indices]:
+def outer_rows(points: Floats) -> tuple[Ints, Ints]:
     """The joints of least and of greatest y."""
     y = points[:, 1]
     return np.flatnonzero(y == y.min()), np.flatnonzero(y == y.max())
@@ -187,7 +186,7 @@ def clipped(segments: Floats, box: Floats, axes: Sequence[bool]) -> Floats:
     return start[inside, None] + share[..., None] * along[inside, None]
 
 
-def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+def welded(segments: Floats, tolerance: float) -> tuple[Floats, Ints]:
     """Joints (j, 2) and walls (w, 2) of segments, duplicates removed."""
     points, ends = distinct(segments, tolerance)
     walls = np.unique(np.sort(ends, axis=1), axis=0)
@@ -195,7 +194,7 @@ def welded(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     return points, walls[np.argsort(~level, kind="stable")]
 
 
-def distinct(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
+def distinct(segments: Floats, tolerance: float) -> tuple[Floats, Ints]:
     """The ends of segments (s, 2, 2) as joints (j, 2), row by row from the bottom, and the joints
     of each, (s, 2).
     """
@@ -206,7 +205,7 @@ def distinct(segments: Floats, tolerance: float) -> tuple[Floats, Indices]:
     return points, end.reshape(-1, 2)
 
 
-def connected(pairs: Indices, count: int) -> Indices:
+def connected(pairs: Ints, count: int) -> Ints:
     """The group of each of ``count`` points, (count,), of which ``pairs`` (k, 2) are connected."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -216,7 +215,7 @@ def connected(pairs: Indices, count: int) -> Indices:
     return np.asarray(group)
 
 
-def clusters(values: Floats, tolerance: float) -> tuple[Floats, Indices]:
+def clusters(values: Floats, tolerance: float) -> tuple[Floats, Ints]:
     """The distinct values, ascending, and the index of each value among them."""
     order = np.argsort(values, kind="stable")
     new = np.diff(values[order], prepend=-np.inf) > tolerance

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices, connected, outer_rows
+from sweep.array_types import Floats, Ints
+from sweep.design.drawing import connected, outer_rows
 from sweep.design.geometry import Drawing
 from sweep.design.network import Network
 
@@ -17,13 +18,13 @@ def build_drawn(drawing: Drawing, thickness: float) -> Network:
     return Network(points, walls, thickness * share, *outer_rows(points), part=part)
 
 
-def loose_ends(network: Network) -> Indices:
+def loose_ends(network: Network) -> Ints:
     """Joints at which one wall ends, between the lowest and the highest row, (k,)."""
     alone = np.flatnonzero(np.bincount(network.walls.ravel()) == 1)
     return np.setdiff1d(alone, np.union1d(network.bottom, network.top))
 
 
-def _part(points: Floats, walls: Indices, share: Floats) -> Floats:
+def _part(points: Floats, walls: Ints, share: Floats) -> Floats:
     """Length of every wall over the length of its smooth line, (w,), as in `Network.part`.
 
     In a smooth line walls meet in pairs, are equally thick, and turn by less than `BENT`.

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices, connected
+from sweep.array_types import Floats, Ints
+from sweep.design.drawing import connected
 
 NEAR = 1e-4  # share of the greater side of the drawing
 FAR = 10.0  # greatest move of a point / `NEAR`
@@ -31,8 +32,8 @@ class Meeting(NamedTuple):
     """
 
     joints: Floats
-    walls: Indices
-    line: Indices
+    walls: Ints
+    line: Ints
 
 
 def met(lines: Floats) -> Meeting:
@@ -54,7 +55,7 @@ def met(lines: Floats) -> Meeting:
     raise MeetingError(f"its lines do not come to meet in {ROUNDS} rounds: too many are too close")
 
 
-def _merged(ends: Floats, line: Indices, near: float) -> tuple[Floats, Indices, Indices]:
+def _merged(ends: Floats, line: Ints, near: float) -> tuple[Floats, Ints, Ints]:
     """Distinct points, walls between them, and their lines, of the ends (2 s, 2) of lines.
 
     Walls without length and all but the last of equal walls are left out.
@@ -80,7 +81,7 @@ def _merged(ends: Floats, line: Indices, near: float) -> tuple[Floats, Indices, 
     return points[used], renumbered.reshape(-1, 2), line[last]
 
 
-def _crossings(points: Floats, walls: Indices) -> Floats:
+def _crossings(points: Floats, walls: Ints) -> Floats:
     """Where walls without a common joint cross, (k, 2)."""
     import shapely
 
@@ -111,7 +112,7 @@ def _cross(u: Floats, v: Floats) -> Floats:
     return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
 
 
-def _split(points: Floats, walls: Indices, near: float) -> tuple[Floats, Indices]:
+def _split(points: Floats, walls: Ints, near: float) -> tuple[Floats, Ints]:
     """Ends (2 p, 2) of the pieces of walls between all points on them, and the wall of each piece.
 
     Points up to ``near`` from a wall are moved onto it; if there are several walls, onto the first.
@@ -136,7 +137,7 @@ def _split(points: Floats, walls: Indices, near: float) -> tuple[Floats, Indices
     return points[ends.ravel()], wall[:-1][same]
 
 
-def _in_rows(points: Floats, walls: Indices, line: Indices, near: float) -> Meeting:
+def _in_rows(points: Floats, walls: Ints, line: Ints, near: float) -> Meeting:
     """The network with its joints row by row from the bottom, and its walls in their order.
 
     Coordinates are rounded, so that joints of a row have equal ones. Joints within ``near`` of the

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.array_types import Floats, Ints
 from sweep.design.silhouette import silhouette
 
 
@@ -21,10 +21,10 @@ class Network:
     """
 
     points: Floats
-    walls: Indices
+    walls: Ints
     wall_thickness: Floats
-    bottom: Indices
-    top: Indices
+    bottom: Ints
+    top: Ints
     gyration: Floats | None = field(default=None, kw_only=True)
     part: Floats | None = field(default=None, kw_only=True)
 
@@ -34,7 +34,7 @@ class Network:
         start, end = self.points[self.walls].swapaxes(0, 1)
         return np.asarray(np.linalg.norm(end - start, axis=1))
 
-    def pieces(self, most: int) -> Indices:
+    def pieces(self, most: int) -> Ints:
         """Number of elements of every wall, (w,): ``most`` in a smooth line of walls, at least
         1.
         """
@@ -43,7 +43,7 @@ class Network:
         return np.maximum(np.rint(most * self.part).astype(np.int64), 1)
 
     @property
-    def perimeter(self) -> Indices:
+    def perimeter(self) -> Ints:
         """Joints on the perimeters of a slicer, (k,); none without one."""
         if self.gyration is None:
             return self.bottom[:0]

@@ -10,12 +10,11 @@ from functools import cached_property
 
 import numpy as np
 
+from sweep.array_types import Floats, Ints
 from sweep.design.drawing import (
     SPILL,
     TOLERANCE,
     Flags,
-    Floats,
-    Indices,
     distinct,
     extent,
     outer_rows,
@@ -45,9 +44,9 @@ class Endless(Network):
     period: Floats
     repeats: Flags
     own: int
-    original: Indices
-    origin: Indices
-    shift: Indices
+    original: Ints
+    origin: Ints
+    shift: Ints
 
     @cached_property
     def printed_area(self) -> float:
@@ -61,7 +60,7 @@ class Endless(Network):
         inside = float(np.prod(size))
         return united_area(walls) + inside - united_area(np.concatenate([walls, [box]]))
 
-    def copied(self, inside: Indices) -> tuple[Indices, Indices]:
+    def copied(self, inside: Ints) -> tuple[Ints, Ints]:
         """For each joint, then each of the ``inside`` (w,) places inside the walls, wall by wall:
         itself or the place that it copies, (n,), and by how many periods it is moved, (n, 2).
         """
@@ -115,7 +114,7 @@ def build_period(geometry: Geometry) -> Endless:
     )
 
 
-def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Indices, Indices]:
+def _walls(geometry: Geometry, period: Floats) -> tuple[Floats, Ints, Ints]:
     """Joints and walls of one period.
 
     Joints (j, 2) in m from the lower left corner; the two joints of each wall (w, 2); by how many

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats
+from sweep.array_types import Floats
 
 ARC = np.deg2rad(5.0)  # turn between points of a drawn round part
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.array_types import Floats, Ints
 
 BLUNT = 0.5  # a mitre ends at most (half a thickness) / BLUNT from its node
 STRAIGHT = 1e-9
 
 
-def silhouette(position: Floats, edges: Indices, thickness: Floats) -> list[Floats]:
+def silhouette(position: Floats, edges: Ints, thickness: Floats) -> list[Floats]:
     """Closed polygons (5, 2) whose union is the shape: one per element, one per mitred corner.
 
     position (n, 2) and thickness (m,) in m, edges (m, 2). All polygons run anticlockwise, so that a
@@ -22,7 +22,7 @@ def silhouette(position: Floats, edges: Indices, thickness: Floats) -> list[Floa
     return [*walls, *_mitres(position, edges.T.ravel(), arms, 0.5 * np.tile(thickness, 2))]
 
 
-def _mitres(position: Floats, node: Indices, arm: Floats, half: Floats) -> Floats:
+def _mitres(position: Floats, node: Ints, arm: Floats, half: Floats) -> Floats:
     """Corners (c, 5, 2) that fill the outer sides of bends.
 
     One arm for each end of an element: its node (a,), its unit direction away from the node (a, 2)
@@ -54,7 +54,7 @@ def _tip(one: Floats, other: Floats, cosine: Floats, left: Floats, right: Floats
     return along * left + across * right
 
 
-def next_arm(node: Indices) -> Indices:
+def next_arm(node: Ints) -> Ints:
     """Index of the next arm of the same ``node`` (a,); arms are sorted by node. The first arm
     follows the last.
     """

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices, connected
+from sweep.array_types import Floats, Ints
+from sweep.design.drawing import connected
 from sweep.design.network import Network
 
 NEAR = 1e-9  # share of the size of the plan: points nearer than that are one point
@@ -26,10 +27,10 @@ class Plan(NamedTuple):
     """
 
     points: Floats
-    walls: Indices
+    walls: Ints
     thickness: Floats
     span: Floats
-    sign: Indices
+    sign: Ints
     planes: Floats
     on: np.ndarray
 
@@ -55,7 +56,7 @@ def plan_of(network: Network, quarter: bool = False) -> Plan:
     return _quarter(whole)
 
 
-def quads_along(plan: Plan, most: int | Indices) -> Indices:
+def quads_along(plan: Plan, most: int | Ints) -> Ints:
     """Number of equal quads along each wall, (w,): ``most`` (one number or (w,)) in a whole wall.
 
     A wall that a mirror plane cuts has half of them, rounded up. No quad is shorter than the wall
@@ -67,7 +68,7 @@ def quads_along(plan: Plan, most: int | Indices) -> Indices:
     return np.asarray(np.clip(count, 1, np.maximum(fit, 1)), np.int64)
 
 
-def layers_of(plan: Plan, along: Indices, height: float) -> int:
+def layers_of(plan: Plan, along: Ints, height: float) -> int:
     """Number of layers of quads that are as high as the mean quad is long (``along``:
     `quads_along`), and no lower than the thickest wall; `height` in m.
     """
@@ -80,7 +81,7 @@ def most_layers(thickness: Floats, height: float) -> int:
     return int(height / thickness.max() * (1.0 + ROUND_OFF))
 
 
-def turns(joints: int, walls: Indices) -> Indices:
+def turns(joints: int, walls: Ints) -> Ints:
     """1 or -1 for each joint, (j,): how it turns as equal walls buckle.
 
     Neighbours turn oppositely; if closed paths have an odd number of walls this is not possible for
@@ -114,7 +115,7 @@ def mirror_fault(network: Network) -> str:
     return ""
 
 
-def _images(points: Floats, axis: int) -> Indices | None:
+def _images(points: Floats, axis: int) -> Ints | None:
     """The point at the mirror image of each point; None if a point has none."""
     from scipy.spatial import KDTree
 
@@ -124,7 +125,7 @@ def _images(points: Floats, axis: int) -> Indices | None:
     return np.asarray(image) if apart.max() <= NEAR * np.ptp(points) else None
 
 
-def _same_walls(network: Network, image: Indices) -> bool:
+def _same_walls(network: Network, image: Ints) -> bool:
     """Whether the image of every wall is a wall of the same thickness."""
     own = {
         (*sorted(wall), round(thickness / network.wall_thickness.max(), 9))

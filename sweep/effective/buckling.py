@@ -15,6 +15,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.linalg import LinAlgError, eigh
 
+from sweep.array_types import Floats
 from sweep.effective.cell import Frame
 from sweep.effective.stiffness import (
     carried,
@@ -23,7 +24,6 @@ from sweep.effective.stiffness import (
     element_stiffness,
     response,
 )
-from sweep.scene.mesh import Floats
 
 PHASES = 12  # phases of a period, so that modes repeat after 2, 3, 4, 6 or 12 periods
 LONG = 0.01  # share of 2 pi: a wave so long that the frame shears as a whole

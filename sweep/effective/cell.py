@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.faults import MisfitError
 from sweep.config.kinds.cells import Cells
@@ -14,7 +15,6 @@ from sweep.design.drawing import extent, pitch
 from sweep.design.infill import trait
 from sweep.scene.beams import build_beams, plane_factors
 from sweep.scene.images import draw
-from sweep.scene.mesh import Floats, Ints
 
 NODES = 3  # between the joints of a wall: buckling stresses are then exact within 1e-4
 ALLOWED = "cells of a family, or the infill of a slicer, of even walls that bend"

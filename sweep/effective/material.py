@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.load import case_of
 from sweep.effective.buckling import buckling_stress
 from sweep.effective.cell import frame_of, infill_of, turned
 from sweep.effective.stiffness import response, sheared
-from sweep.scene.mesh import Floats
 
 
 @dataclass(frozen=True, repr=False)

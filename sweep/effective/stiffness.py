@@ -12,9 +12,9 @@ for each element, w = W + g . X for the mean shears g of planes x and y against 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 from sweep.effective.cell import Frame
-from sweep.scene.mesh import Floats
 
 SLACK = "walls without stiffness against some strain, a mechanism; needed: joints that hold it"
 

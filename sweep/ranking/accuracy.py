@@ -13,10 +13,11 @@ import numpy as np
 import pandas as pd
 from pandas import DataFrame, Series
 
+from sweep.array_types import Floats
 from sweep.columns import is_grid_key
 from sweep.config.faults import ReportedError
 from sweep.loading_modes import MODES, Mode
-from sweep.ranking.richardson import Floats, limit, rms
+from sweep.ranking.richardson import limit, rms
 from sweep.result import Status
 from sweep.store.read import read_history
 

@@ -18,13 +18,11 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
+from sweep.array_types import Floats
 from sweep.constants import STANDARD_GRAVITY
 from sweep.numbers import to_si
-
-Floats = NDArray[np.float64]
 
 SLACK = 1e-6  # histories are stored with single precision
 SAME_HEIGHT = 0.02  # drops from heights that differ by less are drawn as one

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-Floats = np.ndarray
+from sweep.array_types import Floats
 
 ORDERS = np.linspace(0.5, 4.5, 4001)  # orders that can be observed
 ALIKE = 0.5  # least cosine between two consecutive changes of values that converge

@@ -19,9 +19,9 @@ import re
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
+from sweep.array_types import Floats, Ints
 from sweep.columns import less_is_better
 from sweep.loading_modes import applies_to, has
 from sweep.ranking.budget import within_budget
@@ -145,7 +145,7 @@ def _place(value: Series, doubt: Series, placed: DataFrame, by: str) -> Series:
     own, their = (sign * np.asarray(values, float) for values in (value, placed[by]))
     yours = doubtful(placed).to_numpy()
 
-    def better(values: NDArray[np.float64]) -> NDArray[np.int64]:
+    def better(values: Floats) -> Ints:
         return len(values) - np.searchsorted(np.sort(values), own, side="right")
 
     behind = (~yours).sum() + better(their[yours])

@@ -3,9 +3,9 @@
 import numpy as np
 
 from kernels.solve import arc_length
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.solver import Arcs
-from sweep.scene.mesh import Floats
 from sweep.scene.scene import Scene
 
 

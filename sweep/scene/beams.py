@@ -23,10 +23,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.material import Material
 from sweep.scene.joints import Arms, joint_elements
-from sweep.scene.mesh import Floats, Mesh
+from sweep.scene.mesh import Mesh
 
 SHEAR_COEFFICIENT = 5.0 / 6.0
 

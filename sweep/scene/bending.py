@@ -3,10 +3,11 @@
 import numpy as np
 
 from kernels.terms import bend, fold
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.scene.beams import Beams, bends, contraction, plane_factors, rigidity_of
 from sweep.scene.material import FIBRE, OUTER, law_of_hinge, law_of_section
-from sweep.scene.mesh import Floats, Mesh
+from sweep.scene.mesh import Mesh
 
 ALONG = {"cubic": np.sqrt(3.0), "classical": 1.0}  # s_1 over s_0, without shear
 

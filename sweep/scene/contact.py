@@ -6,10 +6,11 @@ from kernels.linear.condensed import analysis
 from kernels.planar import position_based
 from kernels.shared.moves import MOVE_MARGIN
 from kernels.terms import contact, contact_near_joints
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.scene.beams import plane_factors
 from sweep.scene.coordinates import BASE, BONDED, Numbering
-from sweep.scene.mesh import Floats, Ints, Mesh
+from sweep.scene.mesh import Mesh
 from sweep.scene.profiles import NO_PROFILES, gripped
 
 PAIRS = 200  # average number per node in the widest list of neighbours at rest

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from sweep.design.drawing import Indices
+from sweep.array_types import Ints
 
-NONE: Indices = np.empty(0, np.int64)
+NONE: Ints = np.empty(0, np.int64)
 BONDED = ("glued", "sliding")  # platens that hold the outer rows; "sliding": the top moves in x
 BASE = "base"  # a base that holds the lower row, below a striker
 
@@ -42,11 +42,11 @@ class Numbering(BetweenPlatens):
     """Indices of the coordinates. bottom, top: nodes of the outer rows."""
 
     per_node: ClassVar[int] = 3
-    bottom: Indices
-    top: Indices
+    bottom: Ints
+    top: Ints
 
     @property
-    def rotation(self) -> Indices:
+    def rotation(self) -> Ints:
         """Coordinates of the rotations of the nodes, (n_nodes,)."""
         return 2 * self.n_nodes + np.arange(self.n_nodes)
 
@@ -56,13 +56,13 @@ class Numbering(BetweenPlatens):
         return self.size - self.per_node * self.n_nodes
 
     @property
-    def point(self) -> Indices:
+    def point(self) -> Ints:
         """Point of each coordinate, (size,): its node, or n_nodes for a platen."""
         nodes, platens = np.arange(self.n_nodes), np.full(self._others, self.n_nodes)
         return np.concatenate([nodes.repeat(2), nodes, platens])
 
     @property
-    def slot(self) -> Indices:
+    def slot(self) -> Ints:
         """Place of each coordinate in the block of its point, (size,): x, y, rotation.
 
         Both platens share a block, in which the upper one is the first; the width of a period and a

@@ -11,6 +11,7 @@ import numpy as np
 
 from kernels.linear.condensed import analysis
 from kernels.terms import contact, spring
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.custom_structure import CustomStructure
 from sweep.config.structures.structure import Structure
@@ -21,7 +22,7 @@ from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
-from sweep.scene.mesh import Floats, Ints, Mesh, split_walls
+from sweep.scene.mesh import Mesh, split_walls
 from sweep.scene.scene import (
     Parts,
     Scene,

@@ -14,6 +14,7 @@ import numpy as np
 
 from kernels.linear.condensed import analysis
 from kernels.terms import contact
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.design.lattice import build_network
@@ -23,7 +24,7 @@ from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BONDED, Numbering
 from sweep.scene.joints import Arms, find_arms, point_joints
 from sweep.scene.lattice import load_of
-from sweep.scene.mesh import Floats, Ints, Mesh, elements_of, split_walls
+from sweep.scene.mesh import Mesh, elements_of, split_walls
 from sweep.scene.scene import Parts, masses_of, solved_by, walls_of
 
 Shift = Callable[[Floats], Floats]

@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.drawing import Floats
-from sweep.design.drawing import Indices as Ints
+from sweep.array_types import Floats, Ints
 
 NEAR = 6.0  # degrees: largest difference of an opening from a known joint
 DIGITS = 6  # decimals of a degree, beyond which openings are equal

@@ -25,8 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.drawing import Floats
-from sweep.design.drawing import Indices as Ints
+from sweep.array_types import Floats, Ints
 from sweep.design.network import Network
 from sweep.scene.coordinates import BONDED
 from sweep.scene.joint_kinds import find_joint, flexibility, unequal

@@ -3,6 +3,7 @@
 import numpy as np
 
 from kernels.terms.contact import Contact
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.loading import Loading
@@ -12,7 +13,7 @@ from sweep.scene.beams import bends
 from sweep.scene.bending import build_fold
 from sweep.scene.contact import contact_of, projection_of
 from sweep.scene.coordinates import BASE, BONDED, NONE, Numbering
-from sweep.scene.mesh import Floats, Ints, Mesh, build_mesh, row_nodes
+from sweep.scene.mesh import Mesh, build_mesh, row_nodes
 from sweep.scene.profiles import anchor, gripped, standing, with_profiles
 from sweep.scene.scene import (
     Parts,

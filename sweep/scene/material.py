@@ -23,9 +23,9 @@ from kernels.laws.relaxation import Relaxing
 from kernels.laws.softening import Softening
 from kernels.laws.yielding import Yielding
 from kernels.terms.section import CRUSHED, BentSection
+from sweep.array_types import Floats
 from sweep.config.kinds.material import Material
 from sweep.config.materials.material_file import TOE, stress_at
-from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
 
 SECTION_FIBRES = 5  # with three, the moment has a dip of 2 to 4 % where walls fold

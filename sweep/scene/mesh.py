@@ -6,14 +6,13 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.config.kinds.specimen import WallLattice
 from sweep.design.lattice import build_network
 from sweep.design.network import Network
 from sweep.design.silhouette import next_arm
 from sweep.scene.joints import Arms, point_joints, solid_joints
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 SHORTEST = 0.5  # length of an element over its thickness, between solid joints
 ROUND_OFF = 1e-9  # relative, of the lengths of equal walls
 

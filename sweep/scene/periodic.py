@@ -6,11 +6,11 @@ height is prescribed.
 
 import numpy as np
 
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.scene.beams import bends
 from sweep.scene.images import Repeated, draw, images_of, parts_of
-from sweep.scene.mesh import Floats, Ints
 from sweep.scene.scene import Scene, assemble, force_scale
 
 

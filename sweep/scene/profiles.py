@@ -4,13 +4,14 @@ import numpy as np
 
 from kernels.geometry.profile import Profiles
 from kernels.terms import contact, contact_near_joints, profile
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.striker import WithStriker
 from sweep.design.network import Network
 from sweep.design.profile import Profile
 from sweep.scene.coordinates import BASE, Numbering
-from sweep.scene.mesh import Floats, Ints, Mesh
+from sweep.scene.mesh import Mesh
 
 TOUCHING = 1e-12  # m: a profile is moved up to the lattice within this distance
 NO_PROFILES = Profiles(

@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.kinds.material import Material
-from sweep.scene.mesh import Floats
 
 FASTEST, SLOWEST, BRANCHES = 1e-5, 1e3, 13  # s, s
 MOST_BETA = 0.5

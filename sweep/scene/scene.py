@@ -19,6 +19,7 @@ from kernels.terms import damping, elements, friction, spring, stretch
 from kernels.terms.contact import Contact
 from kernels.terms.fold import Fold
 from kernels.terms.spring import Spring
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
 from sweep.config.kinds.damping import KelvinVoigt, Rayleigh
@@ -32,7 +33,7 @@ from sweep.scene.bending import build_bend
 from sweep.scene.coordinates import BetweenPlatens, Numbering
 from sweep.scene.joints import Arms
 from sweep.scene.material import law_in_stretch
-from sweep.scene.mesh import Floats, Ints, Mesh
+from sweep.scene.mesh import Mesh
 
 STATIC_SLIP = 0.2  # share of the wall thickness, in all steps of a loading together
 NO_SPRINGS = Spring(np.empty((0, 2), np.int64), np.empty(0), np.empty(0))

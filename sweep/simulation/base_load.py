@@ -6,10 +6,10 @@ from math import nan
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.impact import Impact
-from sweep.scene.mesh import Floats
 from sweep.simulation.filter_class import filtered_force
 from sweep.simulation.striker import Curves, rebound
 from sweep.simulation.time_resolution import peak_row

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from sweep.design.drawing import Floats
+from sweep.array_types import Floats
 
 POINTS = 1024  # points, evenly spaced in strain, besides the rows
 CURVE = ("strain", "top_displacement_m", "reaction_top_N", "reaction_bottom_N", "work_in_J")

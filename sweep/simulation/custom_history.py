@@ -3,10 +3,10 @@
 import numpy as np
 
 from kernels.solve.problem import FREE
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.custom_loading import CustomLoading
 from sweep.config.kinds.custom_structure import CustomStructure
-from sweep.scene.mesh import Floats
 from sweep.scene.scene import Scene
 
 MOVES = ("x_m", "y_m", "rotation_rad")

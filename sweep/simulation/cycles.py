@@ -2,9 +2,9 @@
 
 from math import nan
 
+from sweep.array_types import Floats
 from sweep.columns import cycle_columns
 from sweep.scene.loading import CycleRows
-from sweep.scene.mesh import Floats
 
 
 def columns_of_cycles(cycles: list[CycleRows], work: Floats, force: Floats) -> dict[str, float]:

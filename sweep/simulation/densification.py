@@ -21,8 +21,8 @@ other.
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.columns import SAME_EFFICIENCY
-from sweep.scene.mesh import Floats
 
 BAND = 0.2  # share of the greatest efficiency within which strains count
 

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.constants import FILTER_CLASS, SAMPLES
-from sweep.design.drawing import Floats
 
 CORNER = 2.0775  # corner over the class, Hz
 RINGING = 5.0  # times 1 / corner after which the filter has settled

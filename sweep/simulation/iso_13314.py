@@ -14,7 +14,7 @@ from math import nan
 
 import numpy as np
 
-from sweep.scene.mesh import Floats
+from sweep.array_types import Floats
 
 SHORT, LONG = (0.2, 0.3), (0.2, 0.4)  # strains of the two means
 PLATEAU_END = 1.3  # ratio to the plateau stress

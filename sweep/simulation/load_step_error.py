@@ -28,9 +28,9 @@ from math import inf, nan
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
-from sweep.scene.mesh import Floats
 
 STORED = "stretch_J", "bend_J", "contact_J"
 STEPS = 3  # the fewest in which a curve of force has two second derivatives

@@ -9,7 +9,7 @@ import numpy as np
 
 from kernels.geometry.space import crossing, surface
 from kernels.plates.layout import PER_NODE
-from sweep.scene.mesh import Floats
+from sweep.array_types import Floats
 from sweep.scene.plates.scene import Scene
 from sweep.scene.plates.shell_mesh import ShellMesh
 from sweep.scene.plates.unfolded import unfolded

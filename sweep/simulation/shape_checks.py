@@ -18,8 +18,8 @@ from kernels.terms.bend import Bend
 from kernels.terms.elements import Walls
 from kernels.terms.section import LEAST
 from kernels.terms.stretch import Stretch
+from sweep.array_types import Floats, Ints
 from sweep.design.area import covered_area
-from sweep.scene.mesh import Floats, Ints
 
 Deformations = tuple[Floats, Floats, Floats]
 Frames = Mapping[str, np.ndarray]

@@ -11,6 +11,7 @@ from kernels.geometry.specimen_height import height
 from kernels.shared.rows import ROW, STRETCH, Output
 from kernels.solve import arc_length, energy_book, march, outcomes
 from kernels.terms.profile import free_path
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.cells import Cells
 from sweep.config.kinds.crush import Crush
@@ -26,7 +27,6 @@ from sweep.scene.arc_length import arc_of, path_columns
 from sweep.scene.custom import build_structure
 from sweep.scene.lattice import build_scene
 from sweep.scene.loading import CycleRows, Phase, cycle_rows, round_off_decides, stages, tolerances
-from sweep.scene.mesh import Floats
 from sweep.scene.periodic import build_periodic
 from sweep.scene.plates.law import UnstableMaterialError
 from sweep.scene.plates.scene import Scene as PlateScene

@@ -22,11 +22,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.striker import WithStriker
-from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
 from sweep.simulation.filter_class import filtered_peak

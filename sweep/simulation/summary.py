@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.columns import absorbed_energy_column
 from sweep.config.case import Case
 from sweep.config.kinds.crush import Crush
@@ -16,7 +17,6 @@ from sweep.design.slicer.network import extruded_area
 from sweep.numbers import in_unit
 from sweep.result import design_columns
 from sweep.scene.loading import CycleRows
-from sweep.scene.mesh import Floats
 from sweep.scene.plates.scene import Scene as PlateScene
 from sweep.scene.scene import Scene
 from sweep.simulation.base_load import base_columns, force_on_support, patch_width

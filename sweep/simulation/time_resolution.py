@@ -27,12 +27,12 @@ from math import inf, nan
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.case import Case
 from sweep.config.kinds.dead_load import DeadLoad
 from sweep.config.kinds.impact import Impact
 from sweep.config.kinds.loading import Loading
 from sweep.config.kinds.solver import InTime
-from sweep.scene.mesh import Floats
 from sweep.simulation.striker import Curves, closing_speed, kinetic
 
 MOST_LOST = 0.2  # share of energy or momentum that an impact may lose to its steps

@@ -6,7 +6,7 @@ the work in its square: W = W0 + (F^2 - F0^2) / (F1^2 - F0^2) (W1 - W0).
 
 import numpy as np
 
-from sweep.design.drawing import Floats
+from sweep.array_types import Floats
 
 
 def absorbed_until(force: float, transmitted: Floats, work: Floats) -> float:

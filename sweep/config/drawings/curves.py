@@ -7,7 +7,7 @@ from math import ceil, comb, radians
 
 import numpy as np
 
-from sweep.config.drawings.lines import Floats
+from sweep.array_types import Floats
 from sweep.config.faults import MisfitError
 
 TURN = radians(12.0)  # turn of one straight piece, within 0.6 % of the radius: 32 in a circle

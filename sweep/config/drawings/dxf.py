@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.drawings.curves import MOST_LINES, straightened, without_marks
-from sweep.config.drawings.lines import METRES, Floats, Lines
+from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
 LINES = {"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"}

@@ -2,12 +2,8 @@
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from sweep.array_types import Floats
 from sweep.constants import MM
-
-Floats = NDArray[np.float64]
 
 METRES = {"um": 1e-3 * MM, "mm": MM, "cm": 10.0 * MM, "m": 1.0, "in": 25.4 * MM}
 """Units of length in the heads of a table."""

@@ -11,8 +11,9 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.drawings.curves import MOST_LINES, straightened, without_marks
-from sweep.config.drawings.lines import METRES, Floats, Lines
+from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 
 PIXEL = METRES["in"] / 96.0  # m, in CSS

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.config.drawings.lines import METRES, Floats, Lines
+from sweep.array_types import Floats
+from sweep.config.drawings.lines import METRES, Lines
 from sweep.config.faults import MisfitError
 from sweep.config.reading.text import foreign_text, rows_of
 from sweep.config.structures.structure_file import faults_of_lists, read_structure

@@ -8,11 +8,9 @@ and springs constrain the bodies. A motion that all of these constraints allow c
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.config.structures.structure import Structure, pieces_of
-
-Floats = NDArray[np.float64]
 
 LOOSE = 1e-9  # share of the greatest eigenvalue below which an eigenvalue is zero
 MOST = 1500  # most bodies; a structure of more is not checked here

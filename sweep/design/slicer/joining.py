@@ -10,12 +10,13 @@ become one.
 import numpy as np
 from numpy.typing import NDArray
 
-from sweep.design.drawing import TOLERANCE, Floats, Indices, connected, pieces, welded, with_outline
+from sweep.array_types import Floats, Ints
+from sweep.design.drawing import TOLERANCE, connected, pieces, welded, with_outline
 
 Mask = NDArray[np.bool_]
 
 
-def joined(lines: Floats, box: Floats, least: float, apart: float) -> tuple[Floats, Indices]:
+def joined(lines: Floats, box: Floats, least: float, apart: float) -> tuple[Floats, Ints]:
     """Joints (j, 2) and walls (w, 2) of lines (s, 2, 2) in a box and of its outline; all in m.
 
     No wall of the infill that ends on the outline is shorter than ``least``, and no piece of the
@@ -33,7 +34,7 @@ def joined(lines: Floats, box: Floats, least: float, apart: float) -> tuple[Floa
         ends = _framed(placed[walls], box, least)
 
 
-def _placed(points: Floats, short: Indices, box: Floats, apart: float) -> Floats:
+def _placed(points: Floats, short: Ints, box: Floats, apart: float) -> Floats:
     """The points, with the ends of each of the ``short`` walls (k, 2) at one place.
 
     In groups as wide as ``apart`` joints of the infill are moved to the outline one by one; when
@@ -55,7 +56,7 @@ def _placed(points: Floats, short: Indices, box: Floats, apart: float) -> Floats
     return _middles(points, box, group, np.arange(len(points)))[group]
 
 
-def _groups(points: Floats, short: Indices, box: Floats, apart: float) -> tuple[Indices, Mask]:
+def _groups(points: Floats, short: Ints, box: Floats, apart: float) -> tuple[Ints, Mask]:
     """The group of every point, connected by ``short`` walls, and whether its joints on the outline
     are as far from one another as ``apart``, in width or height.
     """
@@ -68,7 +69,7 @@ def _groups(points: Floats, short: Indices, box: Floats, apart: float) -> tuple[
     return group, wide[group]
 
 
-def _middles(points: Floats, box: Floats, owner: Indices, member: Indices) -> Floats:
+def _middles(points: Floats, box: Floats, owner: Ints, member: Ints) -> Floats:
     """The middle of the points ``member`` (k,) of each ``owner`` (k,), (n, 2); NaN without a point.
 
     It is at a corner of the box or on a side if one of the points is there; for points on two sides

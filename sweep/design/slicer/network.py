@@ -9,15 +9,8 @@ from math import ceil, cos, hypot, isclose, sin
 
 import numpy as np
 
-from sweep.design.drawing import (
-    TOLERANCE,
-    Floats,
-    clipped,
-    on_outline,
-    outer_rows,
-    segments_of,
-    welded,
-)
+from sweep.array_types import Floats
+from sweep.design.drawing import TOLERANCE, clipped, on_outline, outer_rows, segments_of, welded
 from sweep.design.geometry import Geometry
 from sweep.design.infill import drawer
 from sweep.design.network import Network

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sweep.design.drawing import Floats
+from sweep.array_types import Floats
 
 
 class LevelSet(NamedTuple):

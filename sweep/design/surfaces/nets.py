@@ -19,7 +19,7 @@ from itertools import product
 
 import numpy as np
 
-from sweep.design.drawing import Floats, Indices
+from sweep.array_types import Floats, Ints
 from sweep.design.surfaces.level_set import LevelSet
 
 ROUNDS = 30  # rounds of smoothing
@@ -73,18 +73,18 @@ class Net:
 
     box: Box
     points: Floats
-    quads: Indices
-    shift: Indices
-    wall: Indices
-    face: Indices
+    quads: Ints
+    shift: Ints
+    wall: Ints
+    face: Ints
 
     @property
-    def bottom(self) -> Indices:
+    def bottom(self) -> Ints:
         """Nodes on the plane z = 0."""
         return np.flatnonzero(self.face[:, 2] < 0)
 
     @property
-    def top(self) -> Indices:
+    def top(self) -> Ints:
         """Nodes on the plane z = height."""
         return np.flatnonzero(self.face[:, 2] > 0)
 
@@ -183,7 +183,7 @@ def build_net(box: Box, cells: tuple[int, int, int]) -> Net:
     return _smoothed(_padded(net, side) if box.walls else net, float(step.max()))
 
 
-def _padded(net: Net, side: Indices) -> Net:
+def _padded(net: Net, side: Ints) -> Net:
     """The net with a row of quads on both sides of each curve in which the surface meets a wall.
 
     Without these, a quad with three corners on such a curve would become a triangle. side (m,): on
@@ -220,7 +220,7 @@ def _grid_values(box: Box, cells: tuple[int, int, int]) -> Floats:
     return box.value(points).reshape(cells)
 
 
-def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Indices:
+def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Ints:
     """The cells round each edge along ``axis`` that the surface cuts, (k, 4, 3).
 
     Cells are numbered along x and y of a panel without regard to the period.
@@ -238,7 +238,7 @@ def _quads(inside: np.ndarray, ends: np.ndarray, axis: int) -> Indices:
     return np.asarray(edges)
 
 
-def _on_walls(inside: np.ndarray, axis: int) -> tuple[Indices, Indices]:
+def _on_walls(inside: np.ndarray, axis: int) -> tuple[Ints, Ints]:
     """The cells at the corners of the quads of both walls across ``axis``, (k, 4, 3), and the side
     of the surface on which each quad is, (k,): 1 inside, else -1.
     """
@@ -273,7 +273,7 @@ def _smoothed(net: Net, cell: float) -> Net:
     return replace(net, points=points)
 
 
-def _sides(net: Net) -> tuple[Indices, Indices, Floats]:
+def _sides(net: Net) -> tuple[Ints, Ints, Floats]:
     """Both directions along each side of a quad: from node, to node, and shift of the latter in
     m.
     """

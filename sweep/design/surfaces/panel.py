@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from sweep.design.drawing import Floats
+from sweep.array_types import Floats
 from sweep.design.surfaces.level_set import LEVEL_SETS
 from sweep.design.surfaces.names import SHEETS
 from sweep.design.surfaces.nets import Box, Net, best_net

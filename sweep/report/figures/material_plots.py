@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats
 from sweep.numbers import in_unit
 from sweep.report.figures.case_plots import BLUE, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
+Curve = tuple[Floats, Floats]
 COLORS = (BLUE, VERMILION, ORANGE, SKY, PURPLE, GREY, YELLOW)
 STYLES = ("-", "--", ":")
 NEAR = -0.1, 0.1  # strain

@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.columns import TIED_SIDES
-
-Floats = NDArray[np.float64]
 
 START = 0.618  # of a period, along both sides: cuts sheets into few parts, and no wall along it
 SHIFTS = np.array(list(product(range(-1, 3), repeat=2)))  # periods in which a quad may be cut
@@ -56,9 +55,7 @@ def _period(row: Mapping[str, Any]) -> Floats:
     return np.array([row["outer_width_m"], row["depth_m"]])
 
 
-def _cut(
-    position: Floats, quads: NDArray[np.int64], period: Floats
-) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
+def _cut(position: Floats, quads: Ints, period: Floats) -> tuple[Floats, Ints, Ints]:
     """Positions (f, n, 3) and quads (m, 4) of one period (2,), and the original quads (m,) of these
     parts.
     """

@@ -8,9 +8,8 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from sweep.array_types import Floats, Ints
 
 AZIMUTH, ELEVATION = np.radians(-62.0), np.radians(32.0)  # camera, from the x axis and up
 LIGHT = np.array([-0.25, -0.65, 0.75])  # direction towards the light, left above the camera
@@ -43,7 +42,7 @@ def seen(points: Floats) -> tuple[Floats, Floats]:
     return view[..., :2], view[..., 2]
 
 
-def faces(position: Floats, quads: NDArray[np.int64]) -> Faces:
+def faces(position: Floats, quads: Ints) -> Faces:
     """The faces of quads (m, 4) with nodes at ``position`` (n, 3); both sides are alike."""
     corner = np.asarray(position, float)[quads]
     screen, near = seen(corner)

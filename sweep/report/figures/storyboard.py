@@ -5,9 +5,9 @@ from textwrap import fill
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
+from sweep.array_types import Floats
 from sweep.columns import ALONG
 from sweep.design.slicer.patterns import is_sheet
 from sweep.loading_modes import MODES
@@ -137,19 +137,19 @@ def shots(frames: Mapping[str, Any], release: float | None = None) -> list[tuple
     return [(i, text + clock.format(in_unit(time[i], "ms"))) for i, text in captions.items()]
 
 
-def _turn(strain: NDArray[np.float64]) -> int:
+def _turn(strain: Floats) -> int:
     """Number of the first row at the greatest strain, which later cycles reach again."""
     return int((strain >= (1.0 - ROUND_OFF) * np.nanmax(strain)).argmax())
 
 
-def _even(strain: NDArray[np.float64], count: int) -> list[int]:
+def _even(strain: Floats, count: int) -> list[int]:
     """Frames nearest to evenly spaced strains up to the greatest."""
     targets = np.linspace(strain[0], strain.max(), count)
     frames: list[int] = np.abs(strain[:, None] - targets).argmin(0).tolist()
     return frames
 
 
-def standing(position: NDArray[np.float64], first: int = 0) -> int:
+def standing(position: Floats, first: int = 0) -> int:
     """Number of frames, from the ``first`` one on, before the specimen has lifted off; position (f,
     n, 2), or (f, n, 3) for plates: the last coordinate is upwards.
     """

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import DataFrame, Series
 
+from sweep.array_types import Floats
 from sweep.columns import ABSORBED_AT, correction_column, end_columns, error_column
 from sweep.design.panel import BESIDE
 from sweep.design.slicer.patterns import is_sheet
@@ -85,8 +85,6 @@ from sweep.simulation.filter_class import without_blows
 from sweep.simulation.up_to_force import absorbed_until
 from sweep.store.errors import StoreError
 from sweep.store.read import StoredRun, read_attributes, read_runs
-
-Floats = NDArray[np.float64]
 
 FilesOf = Callable[[Sequence[str]], Iterable[bytes | None]]
 """The files to print of cases with these ids; None for a case that cannot be printed."""

@@ -17,14 +17,11 @@ from itertools import chain, islice, zip_longest
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pandas import DataFrame, Index
 
+from sweep.array_types import Floats, Ints
 from sweep.loading_modes import compared
 from sweep.ranking.merit import Compared, doubtful, gap_behind, through_solid
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 MOST = 300  # designs
 SAMPLE = 50  # number of these that are sampled from all the others
@@ -100,7 +97,7 @@ def select_stopped(rows: DataFrame, names: Compared, scenes: int) -> DataFrame:
     return rows.iloc[np.sort(chosen)]
 
 
-def layers(limited: Floats, merit: Floats, most: int) -> Iterator[Indices]:
+def layers(limited: Floats, merit: Floats, most: int) -> Iterator[Ints]:
     """Row numbers of the best designs below any limit, then of the next best, ``most`` times.
 
     A design among the best ``most`` below some limit is in one of these layers.
@@ -203,7 +200,7 @@ def front_of_others(
     return fronts
 
 
-def _split(rows: Indices, axes: Floats, count: int, turn: int = 0) -> list[Indices]:
+def _split(rows: Ints, axes: Floats, count: int, turn: int = 0) -> list[Ints]:
     """Rows in about ``count`` groups of similar ones: halved at the medians of the axes in turn."""
     if count < 2 or len(rows) < 2:
         return [rows]

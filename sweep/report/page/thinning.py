@@ -5,10 +5,9 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from sweep.array_types import Floats, Ints
+
 Gap = Callable[[Floats, Floats, Floats], Floats]
 
 TINY = np.finfo(float).tiny
@@ -39,7 +38,7 @@ def thinned(points: Floats, most: int, tolerance: float = 0.0, gap: Gap | None =
     return [int(index) for index in kept]
 
 
-def _chords(kept: Indices) -> Indices:
+def _chords(kept: Ints) -> Ints:
     """Number of the chord between kept points to which every point belongs."""
     lengths = kept[1:] - kept[:-1]
     lengths[-1] += 1
@@ -68,7 +67,7 @@ def _work_gaps(points: Floats, start: Floats, end: Floats) -> Floats:
     return np.where(rise > 0.0, np.abs(work - points[:, 1]), 0.0) / (points[:, 1] + least + TINY)
 
 
-def _first_of_each(points: Indices, chord: Indices) -> Indices:
+def _first_of_each(points: Ints, chord: Ints) -> Ints:
     """The first of the points, which are in order, on each chord."""
     numbers = chord[points]
     return points[np.append(True, numbers[1:] != numbers[:-1])]
@@ -101,7 +100,7 @@ def force_stairs(force: Floats, work: Floats, travel: Floats) -> tuple[Floats, F
     )
 
 
-def _at(limit: Floats, force: Floats, values: Floats, rows: Indices, power: int) -> Floats:
+def _at(limit: Floats, force: Floats, values: Floats, rows: Ints, power: int) -> Floats:
     """Values between rows and the next ones at forces, linear in a power of the force."""
     before, after = force[rows] ** power, force[rows + 1] ** power
     return values[rows] + (limit**power - before) / (after - before) * (

@@ -8,15 +8,13 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sweep.array_types import Floats, Ints
 from sweep.numbers import in_unit
 from sweep.ranking.budget import ROUND_OFF
 from sweep.report.figures.shaded import AMBIENT, CAMERA, COLOURS, LIGHT, ring
 from sweep.report.outlines import outlines
 from sweep.report.page.thinning import numbers, thinned
-
-Floats = NDArray[np.float64]
 
 STRAIGHT = 0.03  # share of the wall thickness: nodes nearer to a straight wall are not drawn
 UNIT = 1e-5  # m: coordinates of drawings are multiples of it
@@ -33,7 +31,7 @@ class Trail(NamedTuple):
     nodes: list[int]
 
 
-def trails(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> list[Trail]:
+def trails(position: Floats, edges: Ints, thickness: Floats) -> list[Trail]:
     """All elements, each in one trail; a trail goes straight on at a joint where it can.
 
     position (n, 2) m; edges (m, 2); thickness (m,).
@@ -50,7 +48,7 @@ def trails(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> lis
 
 
 def _pairs(
-    position: Floats, edges: NDArray[np.int64], thickness: Floats
+    position: Floats, edges: Ints, thickness: Floats
 ) -> dict[tuple[int, int], tuple[int, int]]:
     """The end of an element (element, side) that continues another one, the straightest first."""
     chord = position[edges[:, 1]] - position[edges[:, 0]]
@@ -85,7 +83,7 @@ def _straightest(arms: Sequence[tuple[int, int]], away: Floats) -> Iterator[tupl
 def _walk(
     e: int,
     side: int,
-    edges: NDArray[np.int64],
+    edges: Ints,
     follows: Mapping[tuple[int, int], tuple[int, int]],
     free: dict[int, None],
 ) -> list[int]:
@@ -98,7 +96,7 @@ def _walk(
     return nodes
 
 
-def at_rest(frames: Mapping[str, Any]) -> tuple[Floats, NDArray[np.int64], Floats]:
+def at_rest(frames: Mapping[str, Any]) -> tuple[Floats, Ints, Floats]:
     """Nodes (n, 2) m, elements (m, 2) and their thickness (m,) at rest; of plates, their plan."""
     position = frames["position_m"][0].astype(float)
     if "quads" not in frames:
@@ -111,7 +109,7 @@ def at_rest(frames: Mapping[str, Any]) -> tuple[Floats, NDArray[np.int64], Float
     return position[:, :2], edges[bottom], thickness[bottom]
 
 
-def drawing(position: Floats, edges: NDArray[np.int64], thickness: Floats) -> dict[str, Any]:
+def drawing(position: Floats, edges: Ints, thickness: Floats) -> dict[str, Any]:
     """A shape at rest: its box (x, y, width, height; mm) and the paths of its walls, by thickness.
 
     The paths are in units of 0.01 mm, y upwards. Nodes in straight walls are left out.

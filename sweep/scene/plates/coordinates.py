@@ -18,9 +18,8 @@ from typing import ClassVar
 import numpy as np
 
 from kernels.plates.layout import PER_NODE
-from sweep.design.drawing import Indices
+from sweep.array_types import Floats, Ints
 from sweep.scene.coordinates import BetweenPlatens
-from sweep.scene.mesh import Floats
 from sweep.scene.plates.shell_mesh import ShellMesh
 
 BONDED = ("glued", "clamped")
@@ -34,21 +33,21 @@ class Numbering(BetweenPlatens):
 
     per_node: ClassVar[int] = PER_NODE
 
-    def position(self, nodes: Indices, axis: int) -> Indices:
+    def position(self, nodes: Ints, axis: int) -> Ints:
         """Coordinates of nodes along an axis x, y, z."""
         return np.asarray(PER_NODE * nodes + axis)
 
-    def of_nodes(self, nodes: Indices) -> Indices:
+    def of_nodes(self, nodes: Ints) -> Ints:
         """All coordinates of nodes, in order, then the coordinates of the platens."""
         own = PER_NODE * nodes[:, None] + np.arange(PER_NODE)
         return np.append(own.ravel(), [self.low, self.high])
 
-    def rotation(self, nodes: Indices, axis: int | Indices) -> Indices:
+    def rotation(self, nodes: Ints, axis: int | Ints) -> Ints:
         """Coordinates of turns of nodes about axes of their frames."""
         return np.asarray(PER_NODE * nodes + 3 + axis)
 
 
-def leaders(mesh: ShellMesh, platen: str) -> Indices:
+def leaders(mesh: ShellMesh, platen: str) -> Ints:
     """The coordinate that each one follows, (6 n + 2,): itself, the upper platen, or -1; for an
     image, the coordinate of its original.
     """
@@ -71,7 +70,7 @@ def leaders(mesh: ShellMesh, platen: str) -> Indices:
     return leader[numbering.of_nodes(mesh.original)]
 
 
-def _mirrored(mesh: ShellMesh, numbering: Numbering) -> list[Indices]:
+def _mirrored(mesh: ShellMesh, numbering: Numbering) -> list[Ints]:
     """Coordinates that the mirror planes of `lattice.symmetry` "quarter" hold; walls cross these
     planes at right angles.
     """

@@ -15,9 +15,9 @@ generator,
 
 import numpy as np
 
+from sweep.array_types import Floats
 from sweep.config.kinds.specimen import Specimen
 from sweep.design.upright_plan import Plan
-from sweep.scene.mesh import Floats
 
 
 def half_waves(plan: Plan, height: float) -> int:

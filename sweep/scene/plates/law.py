@@ -7,9 +7,9 @@ import numpy as np
 from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.plates.element.shear import KAPPA
+from sweep.array_types import Floats
 from sweep.config.kinds.material import Material
 from sweep.scene.material import stress_law
-from sweep.scene.mesh import Floats
 from sweep.scene.relaxation import relaxation_of
 
 UNSTABLE = """\

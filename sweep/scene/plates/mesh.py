@@ -6,10 +6,10 @@ from functools import lru_cache
 import numpy as np
 
 from kernels.plates.element import shell
+from sweep.array_types import Floats, Ints
 from sweep.config.kinds.lattice import Lattice
 from sweep.design.period import Endless
 from sweep.design.upright_plan import Plan, plan_of, quads_along
-from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.imperfection import amplitudes, bow
 from sweep.scene.plates.shell_mesh import ShellMesh, cut
 

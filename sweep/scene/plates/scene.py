@@ -9,11 +9,10 @@ from kernels.plates.problem import PlateScene, at_rest
 from kernels.solve import march
 from kernels.solve.history import State
 from kernels.solve.problem import Coordinates
+from sweep.array_types import Floats, Ints
 from sweep.config.case import Case
 from sweep.config.kinds.sheet import Surface
-from sweep.design.drawing import Indices
 from sweep.design.network import Network, mass
-from sweep.scene.mesh import Floats
 from sweep.scene.plates import coordinates
 from sweep.scene.plates.contact import contact_of, mirror_of
 from sweep.scene.plates.coordinates import Numbering
@@ -37,13 +36,13 @@ class Scene:
     network: Network | None
     terms: PlateScene
     x_rest: Floats
-    bottom: Indices
-    top: Indices
-    base: Indices
+    bottom: Ints
+    top: Ints
+    base: Ints
     force_scale: float
     velocity: Floats
-    standing: Indices = field(default_factory=lambda: NONE)
-    probes: Indices = field(default_factory=lambda: NONE)
+    standing: Ints = field(default_factory=lambda: NONE)
+    probes: Ints = field(default_factory=lambda: NONE)
     travel: float = 0.0
     solid_joint_share: float = np.nan
 
@@ -140,7 +139,7 @@ def _is_rotation(numbering: Numbering) -> np.ndarray:
     return np.asarray((place >= 3) & (np.arange(numbering.size) < numbering.low))
 
 
-def _layout(mesh: ShellMesh, numbering: Numbering, leader: Indices, case: Case) -> Layout:
+def _layout(mesh: ShellMesh, numbering: Numbering, leader: Ints, case: Case) -> Layout:
     """Constraints, and the places of the unknowns: node by node, then the upper platen."""
     driven = driven_by(case.loading, numbering)
     own, low = np.arange(leader.size), numbering.low

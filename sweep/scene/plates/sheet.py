@@ -6,12 +6,12 @@ from functools import lru_cache
 import numpy as np
 
 from kernels.plates.element import shell
+from sweep.array_types import Floats, Ints
 from sweep.config.kinds.direction import ALONG
 from sweep.config.kinds.sheet import Surface
 from sweep.config.kinds.sliced_sheet import SlicedSheet
 from sweep.design.surfaces.nets import Net
 from sweep.design.surfaces.panel import net_of, net_of_block, printed_thickness
-from sweep.scene.mesh import Floats, Ints
 from sweep.scene.plates.shell_mesh import ShellMesh, cut
 
 AROUND = 0.5  # share of a period: how far images of triangles extend around it

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from kernels.plates.element.shell import Shell
-from sweep.scene.mesh import Floats, Ints
+from sweep.array_types import Floats, Ints
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sweep.scene.mesh import Floats, Ints
+from sweep.array_types import Floats, Ints
 from sweep.scene.plates.shell_mesh import ShellMesh
 
 

@@ -6,9 +6,9 @@ from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import eigsh, spsolve
 
 from kernels.plates.element import rotation, shell
+from sweep.array_types import Floats
 from tests.support.kernels.shells import LINEAR, Structure, element_hessians, virgin
 
-Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
 
 STRAIN = 1e-5  # of the states between which stiffness is differentiated

@@ -3,16 +3,14 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kernels.compile.jit import jit
 from kernels.laws import sheet
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import Sheet
+from sweep.array_types import Floats
 from sweep.scene.material import StressLaw, stress_law
 from tests.support.designs.tables import material_with
-
-Floats = NDArray[np.float64]
 
 MODULUS = 12.0
 LEAST = -0.7

@@ -6,18 +6,16 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kernels.laws.law import Memory
 from kernels.laws.relaxing_sheet import RelaxingSheet
 from kernels.laws.sheet import neo_hookean
 from kernels.plates.element import relaxing_shear, shell
 from kernels.plates.element.shell import Shell
+from sweep.array_types import Floats
 from tests.support.kernels.sheets import elastic_only
 from tests.support.kernels.terms import Term
 from tests.support.materials import memory
-
-Floats = NDArray[np.float64]
 
 MODULUS = 12.0
 LINEAR = elastic_only(neo_hookean(MODULUS))
