@@ -101,7 +101,7 @@ class Version(argparse.Action):
 
 def _whole(text: str, least: int) -> int:
     """A whole number."""
-    if text.isdecimal() and int(text) >= least:
+    if text.isdecimal() and len(text) < 19 and int(text) >= least:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text!r}; allowed: a whole number, {least} or more")
 

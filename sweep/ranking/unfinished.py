@@ -97,7 +97,8 @@ def could_place(  # noqa: PLR0913  the ranking, the cases, the question
             "case_id": stopped["case_id"],
             "ranked_by": by,
         }
-        rows = DataFrame(first, index=stopped.index).join(stopped.drop(columns="case_id"))
+        others = stopped.drop(columns=list(first), errors="ignore")  # of an earlier ranking
+        rows = DataFrame(first, index=stopped.index).join(others)
         rows = rows[fits & ~missed & (best <= (question.top or np.inf))]
         parts.append(rows.sort_values([*PLACES, "case_id"]))
     return parts

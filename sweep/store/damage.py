@@ -89,8 +89,16 @@ def undamaged(path: Path, damaged: str = "") -> Iterator[None]:
             raise StoreError(f"{path} {ELSEWHERE}.") from error
         if "locking flag" in str(error):
             raise StoreError(f"{path} {HERE}.") from error
-        if "signature not found" in str(error):
+        if "signature not found" in str(error) and _is_foreign(path):
             raise StoreError(f"{path} {FOREIGN}.") from error
         if damaged:
             raise StoreError(f"{path}: {damaged} is damaged: {RENEWED}.") from error
         raise StoreError(f"{path} is damaged: {AGAIN}.") from error
+
+
+def _is_foreign(path: Path) -> bool:
+    """Whether a file does not begin as results do: what a full disk or a power cut leaves is empty,
+    or begins with zeros.
+    """
+    with path.open("rb") as file:
+        return bool(file.read(8).strip(b"\0"))

@@ -39,6 +39,7 @@ _REASONS = {
 FILED = (CustomStructure, Drawn)  # lattices of a `lattice.file`
 PROFILE = "lattice.profile"
 OF_A_PATTERN = ("slicer", "pattern", "infill", "fill_angle", "fill_multiline")
+SEARCHED = 100  # faults after which no nearest key is searched, which is slow
 NAMELESS = "unnamed"  # the name of a config that has neither a name nor a file
 BRANCH = ("time", "share")  # keys of a branch of relaxation
 BY_MATERIAL = {
@@ -341,8 +342,8 @@ class Reader:
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
             names.append(PROFILE)
-        near, clause = meant(name, names)
-        self._refuse(name, raw, f"unknown key; {clause}", where, about=near)
+        near, clause = meant(name, names) if len(self.faults) < SEARCHED else ("", "")
+        self._refuse(name, raw, f"unknown key; {clause}".rstrip("; "), where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()

@@ -26,6 +26,13 @@ def test_best_per_gram_comes_first_and_equal_values_share_a_place():
     pd.testing.assert_frame_equal(ranking.table, backwards)
 
 
+def test_a_ranking_can_be_ranked_again():
+    table = summary(*designs([2.0, 1.0, 4.0], [0.5, 0.25, 1.0]))
+    once = rank(table, budget="3 g")
+    pd.testing.assert_frame_equal(rank(once, budget="3 g"), once)
+    assert ids(rank(once, budget="1.5 g")) == [1]
+
+
 def test_budget_is_spent_on_energy_not_on_energy_per_gram():
     table = summary(*designs([1.0, 2.0, 4.0], [0.10, 0.18, 0.40]))
     ranking = ranked(table, budget=["2 g", 2e-3])

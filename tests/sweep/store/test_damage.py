@@ -24,7 +24,7 @@ from tests.support.command import crumple
 from tests.support.results.standin import NODES, blank, cases, forge, parts_of, write
 
 
-@pytest.mark.parametrize("content", [b"", b"not HDF5", None])
+@pytest.mark.parametrize("content", [b"not HDF5", None])
 def test_file_of_something_else_is_refused_in_one_line(path, content):
     path.parent.mkdir()
     if content is None:
@@ -36,6 +36,16 @@ def test_file_of_something_else_is_refused_in_one_line(path, content):
             use(path)
         assert "\n" not in str(refusal.value)
     assert content is None or path.read_bytes() == content
+
+
+@pytest.mark.parametrize("content", [b"", bytes(4096)])
+@pytest.mark.parametrize("fold", [False, True])
+def test_what_a_full_disk_leaves_is_damaged(path, fold, content):
+    write(path, cases(5), fold)
+    sealed = path if fold else parts_of(path)[1]
+    sealed.write_bytes(content)
+    with pytest.raises(StoreError, match="is damaged: move it away"):
+        read_summary(path)
 
 
 READS = {

@@ -6,8 +6,10 @@ import pytest
 
 from sweep.config.axis import Interval
 from sweep.config.case import Case
+from sweep.config.faults import ConfigError
 from sweep.config.grid import expand
 from sweep.config.materials.material_file import available
+from sweep.config.reading import reader
 from tests.support.designs.structures import BEAM
 
 
@@ -17,6 +19,14 @@ def test_config_that_says_nothing_of_its_cases_is_the_seed(load, tmp_path):
     assert load("[lattice]").name == "sweep"
     config = load('name = "armour-2"')
     assert (config.name, config.path) == ("armour-2", tmp_path / "sweep.toml")
+
+
+def test_the_nearest_of_many_unknown_keys_are_not_searched(load, monkeypatch):
+    searched = []
+    monkeypatch.setattr(reader, "meant", lambda name, names: searched.append(name) or ("", "none"))
+    with pytest.raises(ConfigError, match="unknown key"):
+        load("[lattice]\n" + "\n".join(f"key{k} = 1" for k in range(2 * reader.SEARCHED)))
+    assert len(searched) == reader.SEARCHED
 
 
 def test_an_axis_of_strains_may_have_numbers_and_shares(load):
