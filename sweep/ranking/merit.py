@@ -35,7 +35,12 @@ from sweep.result import sides_of
 if TYPE_CHECKING:
     from sweep.config.case import Case
 
-WHOLE_CRUSH = ("absorbed_energy_J", "specific_absorption_J_per_g")
+WHOLE_CRUSH = (
+    *("absorbed_energy_J", "specific_absorption_J_per_g", "returned_energy_J"),
+    *("lost_energy_J", "lost_energy_J_per_g", "dissipated_energy_J"),
+    *("peak_force_N", "peak_base_pressure_Pa"),
+)
+"""Columns that a crush beyond densification changes: a ranking by one of them counts all energy."""
 AT_DENSIFICATION = (
     "absorbed_energy_at_densification_J",
     "specific_absorption_at_densification_J_per_g",

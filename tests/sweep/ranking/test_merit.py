@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from sweep.ranking.merit import AT_DENSIFICATION
+from sweep.ranking.merit import AT_DENSIFICATION, WHOLE_CRUSH
 from sweep.ranking.rank import rank, ranked
 from sweep.report.tables.legend import legend
 from sweep.report.tables.sheets import ranking_sheets
@@ -53,6 +53,16 @@ def test_what_is_pressed_into_less_than_its_solid_is_marked():
     assert list(rank(table)["beyond_model"]) == [False, True]
     table = summary(held | {"stroke_left_m": -1e-4}, held | {"stroke_left_m": 1e-4})
     assert list(rank(table)["beyond_model"]) == [False, True]
+
+
+@pytest.mark.parametrize("by", WHOLE_CRUSH)
+def test_what_the_whole_crush_decides_is_trusted_as_far_as_all_of_it(by):
+    energies = {"absorbed_energy_until_packed_J": 1.0, "absorbed_energy_within_model_J": 1.5}
+    table = summary(energies | {"absorbed_energy_J": 2.0}, energies | {"absorbed_energy_J": 1.4})
+    table["lost_energy_J"] = table["lost_energy_J_per_g"] = table["peak_base_pressure_Pa"] = 1.0
+    assert not rank(table)["beyond_model"].any()
+    ranking = rank(table, by=by)
+    assert (ids(ranking), list(ranking["beyond_model"])) == ([1, 0], [False, True])
 
 
 def test_energy_counts_up_to_the_allowed_force():
