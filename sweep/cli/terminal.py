@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 USUAL = 80  # usual width in characters; in wider tables, columns are closer
 LATE = ("densification_strain", "highest_densification_strain")  # unknown in a short crush
 OF_THE_WHOLE = "The order is by the whole crush; requirements are not."
-WHOLE = ("absorbed_energy_J", "specific_absorption_J_per_g")  # columns of the whole crush
 WIDE = 10_000  # width where no terminal limits it
 
 
@@ -124,7 +123,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     """The question that the tables answer, in one or two lines."""
     from sweep.columns import in_words, less_is_better
     from sweep.loading_modes import MODES, has
-    from sweep.ranking.merit import is_period
+    from sweep.ranking.merit import WHOLE_CRUSH, is_period
     from sweep.report.tables.requirement_notes import of_which
 
     by = ranking.by
@@ -137,7 +136,7 @@ def _heading(question: Question, ranking: Ranking) -> str:
     crushed = ranking.table.empty or has(ranking.table, "driven").any()
     if (force := question.allowed_force) and crushed:
         lines.append(f"Energy is counted until the force of {of_which(ranking)} exceeds {force}.")
-        if by in WHOLE:
+        if by in WHOLE_CRUSH:
             lines.append(OF_THE_WHOLE)
     elif force:
         lines.append(f"The force of {force} has no effect: without a crush no energy is ranked.")

@@ -40,7 +40,7 @@ WHOLE_CRUSH = (
     *("lost_energy_J", "lost_energy_J_per_g", "dissipated_energy_J"),
     *("peak_force_N", "peak_base_pressure_Pa"),
 )
-"""Columns that a crush beyond densification changes: a ranking by one of them counts all energy."""
+"""Columns that a crush beyond densification changes: a ranking by one of them needs all of it."""
 AT_DENSIFICATION = (
     "absorbed_energy_at_densification_J",
     "specific_absorption_at_densification_J_per_g",
@@ -85,6 +85,7 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
     limited = question.allowed_force is not None
     round_off = SEVEN_DIGITS if energy == AT_ALLOWED else ROUND_OFF
     within = finished["absorbed_energy_within_model_J"] * (1.0 + round_off)
+    needed = finished["absorbed_energy_J" if question.by in WHOLE_CRUSH else energy]
     added = {
         mass: grams,
         per_gram: finished[energy] / grams,
@@ -92,7 +93,7 @@ def merits(finished: DataFrame, question: Question) -> tuple[DataFrame, Compared
         "counted_stroke_m": _stroke(finished, energy, limited),
         "returned_share": finished["returned_energy_J"] / finished["absorbed_energy_J"],
         "ends_early": _ends_early(finished, energy, force, limited),
-        "beyond_model": (finished[energy] > within) | through_solid(finished),
+        "beyond_model": (needed > within) | through_solid(finished),
         "crossed": finished["max_crossings"] > 0,
         "coarse": is_coarse(finished),
         "beyond_curve": finished["stretch_over_curve"] > 1.0,

@@ -342,8 +342,11 @@ class Reader:
         names = [*keys]
         if name.startswith("lattice.") and "lattice.kind" in names and not where:
             names.append(PROFILE)
-        near, clause = meant(name, names) if len(self.faults) < SEARCHED else ("", "")
-        self._refuse(name, raw, f"unknown key; {clause}".rstrip("; "), where, about=near)
+        near, wrong = "", "unknown key"
+        if len(self.faults) < SEARCHED:
+            near, clause = meant(name, names)
+            wrong += f"; {clause}"
+        self._refuse(name, raw, wrong, where, about=near)
 
     def _refuse(self, name: str, raw: Any, wrong: str, where: str = "", about: str = "") -> None:
         line = f"{where} {one_line(name)} = {in_words(raw)}: {wrong}".lstrip()

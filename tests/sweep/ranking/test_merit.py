@@ -61,8 +61,9 @@ def test_what_the_whole_crush_decides_is_trusted_as_far_as_all_of_it(by):
     table = summary(energies | {"absorbed_energy_J": 2.0}, energies | {"absorbed_energy_J": 1.4})
     table["lost_energy_J"] = table["lost_energy_J_per_g"] = table["peak_base_pressure_Pa"] = 1.0
     assert not rank(table)["beyond_model"].any()
-    ranking = rank(table, by=by)
-    assert (ids(ranking), list(ranking["beyond_model"])) == ([1, 0], [False, True])
+    for force in (None, "50 N"):
+        ranking = rank(table.assign(absorbed_energy_at_50N_J=1.0), by=by, allowed_force=force)
+        assert (ids(ranking), list(ranking["beyond_model"])) == ([1, 0], [False, True])
 
 
 def test_energy_counts_up_to_the_allowed_force():
